@@ -5,6 +5,7 @@
 //! curve and transverse sections, is a trait of its own ([`CylindricalGear`]): its closed body and the page's mesh of
 //! its target rest on that, and a process whose gear has neither makes these two itself.
 
+use crate::findings::Warning;
 use crate::measure::round_gear::RoundGear;
 use crate::scene::Scene;
 use crate::scene::model::Gear;
@@ -39,6 +40,11 @@ pub trait GearJob: Sync {
 
     /// Passes of all operations.
     fn passes(&self) -> u32;
+
+    /// What of the machine's errors the passes do not follow.
+    fn unfollowed_errors(&self) -> Vec<Warning> {
+        Vec::new()
+    }
 
     /// Whether marks of an operation follow each other along the tooth. Where the axes rest during strokes a single
     /// mark runs along it without end.

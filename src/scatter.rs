@@ -25,6 +25,7 @@ pub mod tolerance;
 #[cfg(test)]
 mod tests;
 
+use crate::findings::Warning;
 use gearcut_core::terms::Side;
 use layers::LayerCase;
 use numbers::{NUMBERS, Values};
@@ -55,6 +56,8 @@ pub struct Scatter {
     pub gears: Option<u32>,
     /// What differs from gear to gear within limits.
     pub tolerances: Vec<Tolerance>,
+    /// What the gears do not follow of their errors.
+    pub unfollowed: Vec<Warning>,
     /// Numbers by seed; those beyond the gears that were asked for stay from an earlier run.
     pub rows: Rows,
 }

@@ -58,7 +58,14 @@ pub fn run(arguments: &ScatterArguments) -> Result<(), Failure> {
         rows::write(&folder.rows(), &rows)?;
         return Err(Failure::to_go_on(&out, done, gears as usize));
     }
-    let found = Scatter { flank, cases, gears, tolerances: tolerances.to_vec(), rows };
+    let mut unfollowed = Vec::new();
+    let job = process::prepare(scene).map_err(of_scene)?;
+    job.with_gear(&mut |gear| {
+        unfollowed = gear.unfollowed_errors();
+        Ok(())
+    })
+    .map_err(of_scene)?;
+    let found = Scatter { flank, cases, gears, tolerances: tolerances.to_vec(), unfollowed, rows };
     let tree = findings(scene, &found);
     let path = folder.finish(|folder| page::write(scene, &found, &tree, folder))?;
     print::sheet(&format!("{}\neverything is in {}\n", printed(scene, &found), path.display()))?;

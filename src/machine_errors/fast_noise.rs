@@ -25,7 +25,7 @@ pub fn refuse_fast_noise<'a>(
     for (errors, name) in axes {
         let mut bandwidths = errors.noise.iter().filter_map(|noise| match noise.law {
             NoiseLaw::EachPassage => None,
-            NoiseLaw::InTime { bandwidth_hz } => Some(bandwidth_hz),
+            NoiseLaw::InTime { bandwidth_hz } | NoiseLaw::AlongFeed { bandwidth_hz } => Some(bandwidth_hz),
         });
         if let Some(bandwidth_hz) = bandwidths.find(|&bandwidth_hz| bandwidth_hz > most_hz) {
             return Err(Refusal::new(

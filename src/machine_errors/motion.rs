@@ -38,6 +38,9 @@ pub struct MachineMoment<const N: usize> {
     pub time_s: f64,
     /// Time from the beginning of the first operation, s: what drifts follow.
     pub since_start_s: f64,
+    /// How much later than that noise is asked for, s, while the commanded axes and all that hangs on the feed rest;
+    /// below 0 before the moment at which they are taken.
+    pub at_rest_s: f64,
     /// Which passage of the tool through the work, counted from the first operation on; 0 where the tool is in the work
     /// all the time.
     pub passage: i64,
@@ -117,7 +120,10 @@ impl<const N: usize> ActualMotion<N> {
             let behind = lag.as_ref().map_or(0.0, |lag| lag.in_cell(cell, time_s - self.starts_s[cell])[0]);
             let drive = command - behind;
             let axis = play.as_ref().map_or(drive, |play| play.axis(time_s, drive));
-            let noise = errors.noise.iter().map(|noise| noise.at(moment.since_start_s, moment.passage));
+            let noise = errors.noise.iter().map(|noise| {
+                let at_rest_s = if noise.law.goes_on_at_rest() { moment.at_rest_s } else { 0.0 };
+                noise.at(moment.since_start_s + at_rest_s, moment.passage)
+            });
             errors.guided(axis + moment.indexed[index], moment.since_start_s) + noise.sum::<f64>()
         })
     }

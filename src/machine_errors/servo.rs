@@ -75,6 +75,12 @@ impl SpeedCell {
 }
 
 impl Servo {
+    /// Whether the axis leaves its command at all: not if the whole speed is fed forward to a speed loop that follows
+    /// at once.
+    pub fn lags(&self) -> bool {
+        self.feed_forward < 1.0 || self.speed_loop_s > 0.0
+    }
+
     /// Time in which the loop forgets how it began, s: to e^-30 of it.
     pub(super) fn settling_s(&self) -> f64 {
         let [_, slowest] = self.poles_per_s();

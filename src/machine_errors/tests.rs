@@ -9,7 +9,7 @@ fn course(to_s: f64, corners_s: &[f64]) -> Course {
 }
 
 fn at(time_s: f64) -> MachineMoment<1> {
-    MachineMoment { time_s, since_start_s: time_s, passage: 0, indexed: [0.0] }
+    MachineMoment { time_s, since_start_s: time_s, at_rest_s: 0.0, passage: 0, indexed: [0.0] }
 }
 
 /// The axis behind a command of its own.
@@ -177,7 +177,7 @@ fn waves_follow_the_indexed_axis() {
         ..AxisErrors::default()
     };
     let motion = ActualMotion::new(&[errors], &course(1.0, &[]), |t| [ramp(1.0)(t)]).expect("errors");
-    let moment = MachineMoment { time_s: 0.3, since_start_s: 9.0, passage: 0, indexed: [2.0] };
+    let moment = MachineMoment { time_s: 0.3, since_start_s: 9.0, at_rest_s: 0.0, passage: 0, indexed: [2.0] };
     let made = motion.positions(&moment, |t| [t])[0];
     assert!((made - 2.3 - 1e-3 * 2.3_f64.sin()).abs() < 1e-15);
 }

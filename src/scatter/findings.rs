@@ -88,7 +88,7 @@ fn warnings(found: &Scatter) -> Vec<Warning> {
             format!("some gears do not have these numbers, and their spread leaves them out: {}", missing.join(", "));
         Warning::note(words).about("scatter")
     });
-    alike.into_iter().chain(missing).collect()
+    found.unfollowed.iter().cloned().chain(alike).chain(missing).collect()
 }
 
 /// The columns of all numbers behind one that names the rows.

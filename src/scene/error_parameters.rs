@@ -78,6 +78,7 @@ impl ErrorParameter {
 #[derive(Debug, Clone, PartialEq)]
 enum Change {
     Number { key: String, least: f64 },
+    Missing { key: String },
     Toward { size: String, angle: String, degrees: f64 },
     Wave { waves: String, amplitudes: String, phases: String, at: f64, phase_deg: f64 },
     Lag { key: String },
@@ -121,24 +122,44 @@ fn parameters(
     found: &mut Vec<ErrorParameter>,
 ) {
     let view = loaded.values.view(section);
+    let is_written = |key: &str| loaded.values.held.get(key).is_some_and(Held::is_written);
+    if source.needs.is_some_and(|needed| !is_written(&join(section, needed))) {
+        return;
+    }
+    // A share cannot be shifted beyond 1.
+    let step = match source.form {
+        KeyForm::Share(name) => source.step.min(1.0 - view.number(name).unwrap_or(0.0)),
+        _ => source.step,
+    };
+    if step <= 0.0 {
+        return;
+    }
     let mut add = |source_id: String, part: String, title: String, change: Change| {
         found.push(ErrorParameter {
             id: format!("{source_id}{part}"),
-            is_there: loaded.values.held.get(&source_id).is_some_and(Held::is_written),
+            is_there: is_written(&source_id),
             source: source_id,
             title,
             unit: source.unit,
-            step: source.step,
+            step,
             tried: source.tried,
             section: section.to_owned(),
             change,
         });
     };
     match source.form {
-        KeyForm::Number(name) | KeyForm::Amount(name) => {
+        KeyForm::Number(name) | KeyForm::Amount(name) | KeyForm::Positive(name) | KeyForm::Share(name) => {
             let key = join(section, name);
-            let least = if matches!(source.form, KeyForm::Amount(_)) { 0.0 } else { f64::NEG_INFINITY };
+            let least = match source.form {
+                KeyForm::Number(_) => f64::NEG_INFINITY,
+                KeyForm::Positive(_) => f64::MIN_POSITIVE,
+                _ => 0.0,
+            };
             add(key.clone(), String::new(), what.to_owned(), Change::Number { key, least });
+        }
+        KeyForm::Missing(name) => {
+            let key = join(section, name);
+            add(key.clone(), String::new(), what.to_owned(), Change::Missing { key });
         }
         KeyForm::Vector { size, angle } => {
             for degrees in [0.0, 90.0] {
@@ -178,7 +199,9 @@ fn parameters(
         }
         KeyForm::Entries { list, count } => {
             let key = join(section, list);
-            let count = view.whole(count).unwrap_or(0) as usize;
+            // A list may have more entries than that: one for each gash of each thread.
+            let written = view.numbers(list).map_or(0, <[f64]>::len);
+            let count = (view.whole(count).unwrap_or(0) as usize).max(written);
             for index in 0..if whole_lists { count } else { count.min(1) } {
                 let change = Change::Entry { key: key.clone(), index, count };
                 add(key.clone(), format!("@{}", index + 1), format!("{what} {}", index + 1), change);

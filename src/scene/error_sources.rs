@@ -4,6 +4,12 @@
 //! natural step, what it is. A new error key joins by its line. [`super::error_parameters`] makes the numbers of a
 //! scene from them. Road not taken: every number among the keys of a scene. Most of them say what is to be cut, and a
 //! key alone does not tell how large a usual error is.
+//!
+//! Some error keys have no line, for nothing has a derivative by them. Commands that are **rounded** jump from
+//! step to step, wherever the increments come to lie. The **bandwidth** of a noise and the length over which stock
+//! scatters stretch a course that is rough at every scale: a little stretched, all of it is another course. The
+//! **correlation length** of a rough edge stretches it too, so that a place 6 mm from the tip has another part of it
+//! after a change of a hundredth. What they do shows between two runs of many seeds.
 
 use crate::machine::AxisKind;
 
@@ -22,6 +28,8 @@ pub struct ErrorSource {
     pub what: &'static str,
     /// When it is shifted.
     pub tried: Tried,
+    /// Key of the same section without which it means nothing: scenes that do not write it have no such parameter.
+    pub needs: Option<&'static str>,
 }
 
 /// When an error is shifted.
@@ -44,6 +52,13 @@ pub enum KeyForm {
     Number(&'static str),
     /// A number that is not negative.
     Amount(&'static str),
+    /// A number above 0 that a scene without the key does not have.
+    Positive(&'static str),
+    /// A share from 0 to 1, 0 without the key; shifted by no more than what is missing from 1, where all of it is
+    /// there not at all.
+    Share(&'static str),
+    /// A share from 0 to 1, 1 without the key, as what is missing from it.
+    Missing(&'static str),
     /// A size and its direction, deg: parts along 0 and 90 degrees.
     Vector {
         /// Key of the size.
@@ -70,13 +85,19 @@ pub enum KeyForm {
 impl ErrorSource {
     /// An error that is tried among all.
     pub const fn new(section: &'static str, form: KeyForm, unit: &'static str, step: f64, what: &'static str) -> Self {
-        Self { section, form, unit, step, what, tried: Tried::Always }
+        Self { section, form, unit, step, what, tried: Tried::Always, needs: None }
     }
 
     /// The same, tried at other times.
     #[must_use]
     pub const fn tried(self, tried: Tried) -> Self {
         Self { tried, ..self }
+    }
+
+    /// The same for scenes that write another key of its section.
+    #[must_use]
+    pub const fn needs(self, key: &'static str) -> Self {
+        Self { needs: Some(key), ..self }
     }
 }
 
@@ -129,11 +150,21 @@ pub static GUIDE: &[ErrorSource] = &[
     line("machine.errors.guide", KeyForm::Number("tangential_bow_um"), "um", 2.0, "guide: tangential bow"),
 ];
 
+/// How the drive of an axis follows its command, beside the lag itself. Without a lag there is nothing to feed forward,
+/// and no loop under it.
+const FEED_FORWARD: ErrorSource =
+    line("", KeyForm::Share("feed_forward"), "1", 0.05, "share fed forward").needs(VELOCITY_GAIN);
+const SPEED_LOOP: ErrorSource =
+    line("", KeyForm::Amount("speed_loop_ms"), "ms", 1.0, "speed loop").needs(VELOCITY_GAIN);
+const VELOCITY_GAIN: &str = "velocity_gain_per_s";
+
 /// Errors of a rotary axis, its section left empty. Once and twice a turn: eccentric and leaning wheels and scales.
 static ROTARY: &[ErrorSource] = &[
     line("", KeyForm::Waves { natural: &[1.0, 2.0] }, "arcsec", 5.0, "wave"),
     line("", KeyForm::Amount("backlash_arcsec"), "arcsec", 5.0, "backlash"),
     line("", KeyForm::Lag, "ms", 2.0, "lag"),
+    FEED_FORWARD,
+    SPEED_LOOP,
     line("", KeyForm::Amount("gearbox_cycle_ms"), "ms", 2.0, "gearbox cycle"),
     line("", KeyForm::Amount("noise_arcsec"), "arcsec", 1.0, "noise").tried(Tried::ByName),
 ];
@@ -144,8 +175,12 @@ static LINEAR: &[ErrorSource] = &[
     line("", KeyForm::Waves { natural: &[] }, "um", 2.0, "wave"),
     line("", KeyForm::Amount("backlash_um"), "um", 4.0, "backlash"),
     line("", KeyForm::Lag, "ms", 2.0, "lag"),
+    FEED_FORWARD,
+    SPEED_LOOP,
     line("", KeyForm::Amount("gearbox_cycle_ms"), "ms", 2.0, "gearbox cycle"),
     line("", KeyForm::Number("drift_um_per_h"), "um/h", 60.0, "drift"),
+    line("", KeyForm::Positive("drift_time_constant_min"), "min", 1.0, "time constant of the drift")
+        .needs("drift_time_constant_min"),
     line("", KeyForm::Amount("noise_um"), "um", 0.5, "noise").tried(Tried::ByName),
 ];
 

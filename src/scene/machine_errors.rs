@@ -70,19 +70,21 @@ fn axis_errors(values: &Values, stem: &str, kind: AxisKind, draws: Draws) -> Opt
             phase_rad: phases.get(index).copied().unwrap_or(0.0).to_radians(),
         }
     });
+    // What has no size is left out, so that it changes no byte: an axis with errors is worked out another way.
+    let servo = view.number("velocity_gain_per_s").map(|velocity_gain_per_s| Servo {
+        velocity_gain_per_s,
+        feed_forward: view.number("feed_forward").unwrap_or(0.0),
+        speed_loop_s: view.number("speed_loop_ms").unwrap_or(0.0) / MS_PER_S,
+    });
     Some(AxisErrors {
         scale: view.number("scale_um_per_m").unwrap_or(0.0) * 1e-6,
-        periodic: periodic.collect(),
+        periodic: periodic.filter(|wave| wave.amplitude != 0.0).collect(),
         backlash: small("backlash"),
-        servo: view.number("velocity_gain_per_s").map(|velocity_gain_per_s| Servo {
-            velocity_gain_per_s,
-            feed_forward: view.number("feed_forward").unwrap_or(0.0),
-            speed_loop_s: view.number("speed_loop_ms").unwrap_or(0.0) / MS_PER_S,
-        }),
+        servo: servo.filter(Servo::lags),
         gearbox: view
             .number("gearbox_cycle_ms")
             .map(|cycle_ms| GearboxCycle { cycle_s: cycle_ms / MS_PER_S, increment: small("gearbox_increment") }),
-        drift: view.number("drift_um_per_h").map(|um_per_h| ThermalDrift {
+        drift: view.number("drift_um_per_h").filter(|&um_per_h| um_per_h != 0.0).map(|um_per_h| ThermalDrift {
             per_s: um_per_h / UM_PER_MM / S_PER_H,
             time_constant_s: view.number("drift_time_constant_min").map(|minutes| minutes * S_PER_MIN),
         }),
@@ -104,11 +106,12 @@ fn axis_errors(values: &Values, stem: &str, kind: AxisKind, draws: Draws) -> Opt
 fn mounting(values: &Values) -> WorkMounting {
     let view = values.view("mounting");
     let um = |name: &str| view.mm_from_um(name).unwrap_or(0.0);
+    let (eccentricity_mm, wobble_rad) = (um("eccentricity_um"), lean(view, "wobble_um_per_100mm"));
     WorkMounting {
-        eccentricity_mm: um("eccentricity_um"),
-        eccentricity_angle_rad: view.rad("eccentricity_angle_deg").unwrap_or(0.0),
-        wobble_rad: lean(view, "wobble_um_per_100mm"),
-        wobble_angle_rad: view.rad("wobble_angle_deg").unwrap_or(0.0),
+        eccentricity_mm,
+        eccentricity_angle_rad: direction_rad(view, "eccentricity_angle_deg", eccentricity_mm),
+        wobble_rad,
+        wobble_angle_rad: direction_rad(view, "wobble_angle_deg", wobble_rad),
         axial_offset_mm: um("axial_offset_um"),
     }
 }
@@ -128,12 +131,18 @@ fn guide(values: &Values) -> Guide {
 
 /// How a tool that turns in space sits on its spindle.
 pub(crate) fn tool_mounting(tool: View<'_>) -> ToolMounting {
+    let (runout_mm, wobble_rad) = (tool.mm_from_um("runout_um").unwrap_or(0.0), lean(tool, "wobble_um_per_100mm"));
     ToolMounting {
-        runout_mm: tool.mm_from_um("runout_um").unwrap_or(0.0),
-        runout_angle_rad: tool.rad("runout_angle_deg").unwrap_or(0.0),
-        wobble_rad: lean(tool, "wobble_um_per_100mm"),
-        wobble_angle_rad: tool.rad("wobble_angle_deg").unwrap_or(0.0),
+        runout_mm,
+        runout_angle_rad: direction_rad(tool, "runout_angle_deg", runout_mm),
+        wobble_rad,
+        wobble_angle_rad: direction_rad(tool, "wobble_angle_deg", wobble_rad),
     }
+}
+
+/// Direction of an error; 0 where the error has no size, so that a direction alone is no error.
+fn direction_rad(view: View<'_>, name: &str, size: f64) -> f64 {
+    if size == 0.0 { 0.0 } else { view.rad(name).unwrap_or(0.0) }
 }
 
 fn lean(view: View<'_>, name: &str) -> f64 {

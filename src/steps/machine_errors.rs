@@ -119,7 +119,9 @@ fn noise(errors: &AxisErrors, kind: AxisKind) -> Vec<String> {
     let one = |noise: &crate::machine_errors::AxisNoise| {
         let law = match noise.law {
             NoiseLaw::EachPassage => "in every stroke".to_owned(),
-            NoiseLaw::InTime { bandwidth_hz } => format!("up to {} Hz", number(bandwidth_hz)),
+            NoiseLaw::InTime { bandwidth_hz } | NoiseLaw::AlongFeed { bandwidth_hz } => {
+                format!("up to {} Hz", number(bandwidth_hz))
+            }
         };
         format!("{} {unit} {law}", number(noise.deviation * per_unit))
     };

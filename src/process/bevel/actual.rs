@@ -93,6 +93,7 @@ impl ActualRoll {
                 let moment = MachineMoment {
                     time_s,
                     since_start_s: roll.start_s + f64::from(at.slot) * roll.cycle_s + time_s,
+                    at_rest_s: 0.0,
                     passage: 0,
                     indexed: [0.0, 0.0, 0.0, at.indexed_rad, 0.0],
                 };

@@ -76,7 +76,8 @@ impl ActualHobbing {
         }
         let time_s = linkage.time_at_hob_angle(hob_rad);
         let commanded = |time_s: f64| in_order(&linkage.axes::<1>(time_s)).map(|axis| axis.value());
-        let moment = MachineMoment { time_s, since_start_s: self.start_s + time_s, passage: 0, indexed: [0.0; 6] };
+        let since_start_s = self.start_s + time_s;
+        let moment = MachineMoment { time_s, since_start_s, at_rest_s: 0.0, passage: 0, indexed: [0.0; 6] };
         let axes = match &self.motion {
             Some(motion) => motion.positions(&moment, commanded),
             None => commanded(time_s),

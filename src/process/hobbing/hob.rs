@@ -98,8 +98,10 @@ pub struct HobTooth {
     /// Count of gash passages, any integer: with axial gashes its rake face looks at the gear at the hob angle 2 pi
     /// `passage` / gashes.
     pub passage: i64,
-    /// z of its middle in the tool frame, mm.
+    /// z of its place on the thread in the tool frame, mm.
     pub axial_mm: f64,
+    /// How far its middle stands off that place along z, mm.
+    pub off_mm: f64,
     /// Angle of its middle about z in the tool frame, from x.
     pub angle_rad: f64,
 }
@@ -202,7 +204,7 @@ impl Hob {
                 let axial_mm = offset_mm - step_mm * passage as f64;
                 let angle_rad =
                     -hand * TAU * passage as f64 / f64::from(spec.gashes) - rake_twist_rad_per_mm * axial_mm;
-                HobTooth { start, number, passage, axial_mm, angle_rad }
+                HobTooth { start, number, passage, axial_mm, off_mm: spec.pitch_error_mm(start, passage), angle_rad }
             }));
         }
         if teeth.is_empty() {
@@ -263,7 +265,7 @@ impl SpatialTool for Hob {
         let along = DVec3::NEG_Z;
         Rigid3 {
             rotation: DMat3::from_cols(out, along, out.cross(along)),
-            translation_mm: DVec3::new(0.0, 0.0, tooth.axial_mm),
+            translation_mm: DVec3::new(0.0, 0.0, tooth.axial_mm + tooth.off_mm),
         }
     }
 

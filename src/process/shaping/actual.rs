@@ -7,6 +7,9 @@
 //! The gear's frame is that of its own axis: an eccentric or leaning gear sees the cutter shifted against it by the
 //! same amount. The lean itself turns the section by less than its square, 5e-7 mm on a face of 100 mm that leans by
 //! 10 um, and is left out; so is what an axial offset does to the moment at which the ram passes.
+//!
+//! While the feed rests during a stroke the commanded axes stand still, but noise of a bandwidth goes on: at a place
+//! along the tooth it is that of the moment at which the ram passes there.
 
 use crate::machine::{AxisMotion, Motion};
 use crate::machine_errors::{
@@ -37,6 +40,8 @@ pub struct Commanded<'a> {
 #[derive(Debug, Clone)]
 pub struct ActualStrokes {
     motion: Option<ActualMotion<3>>,
+    /// Whether noise goes on while the feed rests.
+    noise_at_rest: bool,
     guide: Guide,
     mounting: WorkMounting,
     gear: GearKind,
@@ -100,7 +105,7 @@ pub fn scattered(
     if let Some(StockScatter { deviation_mm, length_mm, draws }) = scatter {
         let turn_s = schedule.time_s(f64::from(schedule.strokes_per_revolution()));
         let mm_per_s = schedule.linkage().curve().perimeter_mm() / turn_s;
-        let law = length_mm.map_or(NoiseLaw::EachPassage, |length| NoiseLaw::of_time_constant(length / mm_per_s));
+        let law = length_mm.map_or(NoiseLaw::EachPassage, |length| NoiseLaw::along_feed(length / mm_per_s));
         let [_, _, center_distance] = &mut errors.axes;
         center_distance.noise.push(AxisNoise { deviation: deviation_mm, law, draws });
     }
@@ -114,6 +119,7 @@ impl ActualStrokes {
         let at = |time_s: f64| commanded.motion(time_s / seconds_per_stroke);
         Self {
             motion: ActualMotion::new(&errors.axes, &commanded.course(), at),
+            noise_at_rest: errors.axes.iter().flat_map(|axis| &axis.noise).any(|noise| noise.law.goes_on_at_rest()),
             guide: errors.guide,
             mounting: errors.mounting,
             gear: commanded.schedule.linkage().gear(),
@@ -124,11 +130,12 @@ impl ActualStrokes {
 
     /// Whether sections at different places along the tooth are cut differently while the axes rest.
     pub fn differs_along_tooth(&self) -> bool {
-        !self.guide.is_none() || self.mounting.wobble_rad != 0.0
+        !self.guide.is_none() || self.mounting.wobble_rad != 0.0 || self.noise_at_rest
     }
 
-    /// Cutter in the spindle's frame at a stroke coordinate.
-    pub fn pose(&self, commanded: Commanded<'_>, stroke: f64) -> CutterPose {
+    /// Cutter in the spindle's frame at a stroke coordinate; `at_rest` double strokes later where the feed rests from
+    /// there on.
+    pub fn pose(&self, commanded: Commanded<'_>, stroke: f64, at_rest: f64) -> CutterPose {
         let Some(motion) = &self.motion else { return CutterPose::new(self.gear, commanded.positions(stroke)) };
         let seconds_per_stroke = commanded.schedule.time_s(1.0);
         let time_s = commanded.schedule.time_s(stroke);
@@ -136,6 +143,7 @@ impl ActualStrokes {
         let moment = MachineMoment {
             time_s,
             since_start_s: self.start_s + time_s,
+            at_rest_s: at_rest * seconds_per_stroke,
             passage: (strokes_before + stroke + BEFORE_STROKE).floor() as i64,
             indexed: [0.0; 3],
         };

@@ -27,13 +27,17 @@ impl ShapingJob {
         let (retraction, schedule) = (&operation.retraction, &operation.schedule);
         let resting = set.law.rests();
         let return_middle = self.ram_times().return_middle;
+        let crank = self.machine.crank(self.scene.gear.face_width_mm);
         let pose = |lambda: f64, z_mm: f64| {
-            let pose = operation.pose(lambda);
+            let at_rest = if resting { crank.return_share(crank.tau(z_mm)) } else { 0.0 };
+            let pose = operation.pose_at_rest(lambda, at_rest);
             let pose = if !retraction.is_in_axes() {
                 let back = pose.center_mm.normalize_or_zero() * (out * back_off_mm);
                 CutterPose { center_mm: pose.center_mm + back, ..pose }
             } else if operation.program.is_some() {
-                operation.pose(if resting { lambda + return_middle } else { lambda })
+                // The axes draw back while the ram is outside the face.
+                let (later, at_rest) = if resting { (return_middle, at_rest - return_middle) } else { (0.0, 0.0) };
+                operation.pose_at_rest(lambda + later, at_rest)
             } else {
                 retraction.retracted(schedule.linkage(), &pose, schedule.phi_rad(lambda))
             };

@@ -76,7 +76,12 @@ impl PreparedOperation {
 
     /// Cutter in the spindle's frame at a stroke coordinate, as the axes really stand.
     pub fn pose(&self, stroke: f64) -> CutterPose {
-        self.actual.pose(self.commanded(), stroke)
+        self.pose_at_rest(stroke, 0.0)
+    }
+
+    /// The same so many double strokes later while the feed rests: noise goes on.
+    pub fn pose_at_rest(&self, stroke: f64, later: f64) -> CutterPose {
+        self.actual.pose(self.commanded(), stroke, later)
     }
 
     /// What the axes are told.
@@ -176,15 +181,17 @@ impl ShapingJob {
             let errors = scattered(&machine.errors, spec.stock_scatter, &schedule);
             let actual = ActualStrokes::new(&errors, commanded, start_s, 0.5 * gear.face_width_mm);
             start_s += schedule.time_s(count as f64);
+            let crank = machine.crank(gear.face_width_mm);
             let law = if spec.feed_during_stroke {
-                StrokeLaw::crank(gear.face_width_mm, machine.approach_mm, machine.overrun_mm)
+                crank
             } else if actual.differs_along_tooth() {
                 StrokeLaw::Guided { half_face_mm: 0.5 * gear.face_width_mm }
             } else {
                 StrokeLaw::Frozen
             };
             let strokes = StrokeSet::along_guide(first_pass, &cutter, law, count, |lambda, z_mm| {
-                actual.placed(&actual.pose(commanded, lambda), z_mm)
+                let at_rest = if law.rests() { crank.stroke_share(crank.tau(z_mm)) } else { 0.0 };
+                actual.placed(&actual.pose(commanded, lambda, at_rest), z_mm)
             });
             first_pass = strokes.end_pass();
             let (linkage_of_flanks, cutter) = (linkage.clone(), shared_cutter.clone());

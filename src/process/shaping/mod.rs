@@ -27,6 +27,7 @@ pub mod ring;
 mod run;
 pub mod scene;
 pub mod section;
+mod stroke_noise;
 mod surfaces;
 pub mod target;
 mod tearing;

@@ -3,11 +3,13 @@
 //! Roots and tips are coarse fields of their own: roots along the normals of the target's fillet, tips along the
 //! normals of the pitch curve.
 
+use crate::findings::Warning;
 use crate::job::{CylindricalGear, GearJob, ToothFrame, teeth_of_extreme_radius};
 use crate::measure::round_gear::{RoundGear, ToothEnds, is_round};
 use crate::measure::thickness::Thickness;
 use crate::process::shaping::job::ShapingJob;
 use crate::process::shaping::measure::flank_report;
+use crate::process::shaping::stroke_noise;
 use crate::process::shaping::target::target_root;
 use crate::scene::Scene;
 use crate::surface::SurfaceGrid;
@@ -32,6 +34,10 @@ impl GearJob for ShapingJob {
 
     fn passes(&self) -> u32 {
         self.operations.last().map_or(0, |operation| operation.strokes.end_pass())
+    }
+
+    fn unfollowed_errors(&self) -> Vec<Warning> {
+        stroke_noise::warnings(self)
     }
 
     fn marks_follow_along_tooth(&self, operation: usize) -> bool {

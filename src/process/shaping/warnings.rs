@@ -9,6 +9,7 @@ use super::findings::{program, returns, ring};
 use super::measure::below_finished::below_finished;
 use super::measure::{FlankReport, GearReport};
 use super::scene::model::Retraction;
+use super::stroke_noise;
 use super::tooth_facts::{self, ToothFacts};
 use super::{ShapingJob, axes_report::OperationAxes};
 use crate::findings::warning::ranked;
@@ -51,6 +52,7 @@ pub fn before(job: &ShapingJob, motion: &[OperationAxes], ring: Option<&Section>
     warnings.extend(too_deep(job));
     warnings.extend(axes::warnings(motion));
     warnings.extend(program::warnings(job, motion));
+    warnings.extend(stroke_noise::warnings(job));
     Ok(ranked(warnings))
 }
 

@@ -40,6 +40,13 @@ impl<'a> Shifted<'a> {
                 }
                 self.put(key, Checked::Number(value));
             }
+            Change::Missing { key } => {
+                let value = self.number(key).unwrap_or(1.0) - by;
+                if value > 1.0 {
+                    return false;
+                }
+                self.put(key, Checked::Number(value));
+            }
             Change::Toward { size, angle, degrees } => {
                 let direction = |degrees: f64| DVec2::from_angle(degrees.to_radians());
                 let before = self.number(size).unwrap_or(0.0) * direction(self.number(angle).unwrap_or(0.0));

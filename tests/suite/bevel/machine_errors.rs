@@ -120,6 +120,53 @@ fn errors_are_their_closed_forms() {
     });
 }
 
+/// Settings that are off: the head deeper along the cradle's axis, the work further back, a ratio of roll by which the
+/// work turns more the further it is from the middle of the roll.
+#[test]
+fn errors_of_settings_are_their_closed_forms() {
+    let sound = job(SCENE, &[]).expect("a gear");
+    let finishing = sound.finishing();
+    let case = |key: &str, size: f64, least_um: f64, expected: &dyn Fn(&Place) -> f64| {
+        let faulty = job(SCENE, &[&format!("machine.cradle_errors.{key}={size}")]).expect("a gear");
+        agree(key, &changes(&sound, &faulty, &[1, 17]), least_um, |place| size * expected(place));
+    };
+    // The blades' plane is square to the cradle's axis, which the head's is too: its normal stands at the blade angle
+    // of 20 deg to every flank. Deeper is less material.
+    case("sliding_base_mm", 0.02, 5.0, &|_| -20_f64.to_radians().sin());
+    // The gear's z axis runs from its back to the apex.
+    case("center_to_back_mm", 0.02, 1.0, &|place| place.normal.z);
+    case("roll_ratio", 0.0002, 1.0, &|place| place.turned(finishing.as_set.work_angle(place.cradle_rad)[0] / 1.0232));
+}
+
+#[test]
+fn errors_of_nothing_change_no_byte() {
+    let sound = job(SCENE, &[]).expect("a gear");
+    let (slot, side) = (4, Side::Left);
+    let rays = sound.rays_over(slot + 1, side, vec![1.0, 2.5], vec![-6.0, 8.0]).expect("rays");
+    let cut = |job: &BevelJob| {
+        let slot = sound.space_of(slot + 1, side);
+        job.cut_field(&Cpu::default(), slot, &rays.field).expect("cuts").0.last().expect("a layer").clone()
+    };
+    let whole = cut(&sound);
+    let zeros = [0.0; 16];
+    let runouts = format!("tool.face_mill.runouts_um={zeros:?}");
+    let alone: [&[&str]; 6] = [
+        &["machine.errors.z.drift_um_per_h=0"],
+        &["machine.errors.work.periodic_orders=[1.0]", "machine.errors.work.periodic_amplitudes_arcsec=[0.0]"],
+        &["machine.errors.work.velocity_gain_per_s=30", "machine.errors.work.feed_forward=1.0"],
+        &["tool.face_mill.wobble_um_per_100mm=0", "tool.face_mill.wobble_angle_deg=30"],
+        &["mounting.eccentricity_um=0", "mounting.eccentricity_angle_deg=20", "mounting.axial_offset_um=0"],
+        &["machine.cradle_errors.sliding_base_mm=0", "machine.cradle_errors.roll_ratio=0", &runouts],
+    ];
+    for zeros in alone {
+        let zero = job(SCENE, zeros).expect("a gear");
+        let layers = zero.scene.process.error_layers();
+        assert!(layers.is_empty(), "{zeros:?} are {layers:?}");
+        assert!(whole == cut(&zero), "{zeros:?}");
+    }
+    assert!(whole != cut(&job(SCENE, &["machine.errors.z.drift_um_per_h=300"]).expect("a gear")), "a drift is seen");
+}
+
 /// A leaning head lowers each blade's tip by as much at every place of its way: R w cos of the angle between both.
 #[test]
 fn a_leaning_head_lowers_its_blades_one_by_one() {

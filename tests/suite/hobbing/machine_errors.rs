@@ -48,6 +48,8 @@ struct Place {
     tool_angle_rad: f64,
     time_s: f64,
     slide_z_mm: f64,
+    /// Hob tooth of that pass.
+    tooth: usize,
 }
 
 impl Place {
@@ -93,7 +95,8 @@ fn changes(sound: &HobbingJob, faulty: &HobbingJob, teeth: &[u32]) -> Vec<(Place
                 if before.passes[index] != after.passes[index] {
                     continue;
                 }
-                let tool_angle_rad = passes.pass(after.passes[index] - passes.first_pass).tool_angle_rad;
+                let pass = passes.pass(after.passes[index] - passes.first_pass);
+                let tool_angle_rad = pass.tool_angle_rad;
                 let time_s = linkage.time_at_hob_angle(tool_angle_rad);
                 let place = Place {
                     point_mm: ray.origin_mm,
@@ -101,6 +104,7 @@ fn changes(sound: &HobbingJob, faulty: &HobbingJob, teeth: &[u32]) -> Vec<(Place
                     tool_angle_rad,
                     time_s,
                     slide_z_mm: -linkage.axes::<1>(time_s).slide_mm.value(),
+                    tooth: passes.places[pass.rank as usize].blade as usize,
                 };
                 found.push((place, f64::from(after.heights_mm[index]) - f64::from(before.heights_mm[index])));
             }
@@ -212,8 +216,72 @@ fn runout_of_the_hob_follows_its_angle() {
     });
 }
 
+/// A tooth that stands off its thread by e along the hob's axis moves what it leaves by e along that axis, and no other
+/// one does. The axis runs along the machine's x, counter-clockwise about the gear, but for the lead; towards it lies
+/// the end at which uncut work arrives, for a right-hand thread runs against it.
+#[test]
+fn teeth_off_their_thread_leave_their_own_errors() {
+    let sound = job(&[]);
+    let geometry = sound.finishing().linkage.geometry();
+    let along = |place: &Place| {
+        let axis = geometry.machine_from_tool(place.tool_angle_rad, 0.0, 0.0, 0.0).rotation.z_axis;
+        place.shifted([axis.y, axis.x, -axis.z])
+    };
+    let error_mm = |gash: i64| 1e-3 * (8.0 * (gash * 7 % 24) as f64 / 23.0 - 4.0);
+    let list: Vec<f64> = (0..24).map(|gash| 1e3 * error_mm(gash)).collect();
+    let faulty = job(&[&format!("tool.hob.pitch_errors_um={list:?}")]);
+    let found = changes(&sound, &faulty, &[2, 9]);
+    // Gashes cut one after the other: the one that looks at the gear at the hob's angle 0 is the first.
+    let of_gash = |place: &Place| error_mm((24.0 * place.tool_angle_rad / TAU).round().rem_euclid(24.0) as i64);
+    agree("pitch errors of a hob", &found, 2.0, |place| of_gash(place) * along(place));
+    let [_, other_um] = closed_form::differences_um("planted", &found, |place| -of_gash(place) * along(place));
+    assert!(other_um > 2.0, "the other way is seen");
+    // A thread that runs too far: two starts, errors of the second one alone.
+    let two = ["tool.hob.starts=2", "gear.teeth=25"];
+    let second = [vec!["0.0"; 24], vec!["5.0"; 24]].concat().join(", ");
+    let setting = format!("tool.hob.pitch_errors_um=[{second}]");
+    let (sound, faulty) = (job(&two), job(&[&two[..], &[&setting]].concat()));
+    let found = changes(&sound, &faulty, &[2, 9]);
+    let of_thread = |place: &Place| if sound.hob.teeth[place.tooth].start == 1 { 5e-3 } else { 0.0 };
+    agree("a thread off its place", &found, 2.0, |place| of_thread(place) * along(place));
+    assert!(found.iter().any(|(place, _)| of_thread(place) == 0.0), "both threads leave places");
+    let wrong: Vec<String> = vec!["tool.hob.pitch_errors_um=[1.0, 2.0]".to_owned()];
+    let refused = process::load(Path::new("scenes/hobbing/circular_spur.toml"), &wrong).expect_err("two of them");
+    assert!(refused.to_string().contains("one value per gash"), "{refused}");
+}
+
+#[test]
+fn errors_of_nothing_change_no_byte() {
+    let sound = job(&[]);
+    let cut = |job: &HobbingJob| {
+        let cutter = HobCutter::new(&sound).expect("passes");
+        let target = cutter.target(5, Side::Left).expect("a flank");
+        finished(job, &cutter.rays_over(target, vec![1.0, 3.0], vec![-2.0, 1.5]).field)
+    };
+    let whole = cut(&sound);
+    let zeros = [0.0; 24];
+    let pitch = format!("tool.hob.pitch_errors_um={zeros:?}");
+    let alone: [&[&str]; 7] = [
+        &["machine.errors.y.drift_um_per_h=0"],
+        &["machine.errors.hob.periodic_orders=[1.0]", "machine.errors.hob.periodic_amplitudes_arcsec=[0.0]"],
+        &["machine.errors.work.velocity_gain_per_s=30", "machine.errors.work.feed_forward=1.0"],
+        &["tool.hob.runout_um=0", "tool.hob.runout_angle_deg=30", "tool.hob.wobble_angle_deg=10"],
+        &["mounting.eccentricity_angle_deg=20", "mounting.wobble_um_per_100mm=0"],
+        &["machine.errors.work.noise_arcsec=0", "machine.errors.work.noise_bandwidth_hz=0.1"],
+        &[&pitch],
+    ];
+    for zeros in alone {
+        let zero = job(zeros);
+        let layers = zero.scene.process.error_layers();
+        assert!(layers.is_empty(), "{zeros:?} are {layers:?}");
+        assert!(whole == cut(&zero), "{zeros:?}");
+    }
+    assert!(whole != cut(&job(&["machine.errors.y.drift_um_per_h=300"])), "a drift is seen");
+}
+
 /// Errors at once, the fastest that are allowed among them.
-const MANY: [&str; 12] = [
+const MANY: [&str; 13] = [
+    "tool.hob.pitch_errors_um=[0, 12, -8, 3, 0, 5, -15, 2, 9, -4, 0, 7, 1, -6, 11, -2, 4, 0, -9, 6, 3, -7, 8, -1]",
     "mounting.eccentricity_um=30",
     "mounting.wobble_um_per_100mm=80",
     "tool.hob.runout_um=20",

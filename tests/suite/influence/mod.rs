@@ -4,6 +4,7 @@ mod budget;
 mod calibrate;
 mod command;
 mod diagnose;
+mod drives;
 mod measured_files;
 mod parameters;
 mod resumed;

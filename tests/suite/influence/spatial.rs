@@ -151,6 +151,9 @@ fn an_axial_offset_shows_on_a_helical_gear() {
 fn influences_on_a_bevel_gear_are_their_closed_forms() {
     let middle = |gear: &dyn GearJob, tooth, side| 0.55 * gear.profile_length_mm(tooth, side).expect("a flank");
     let gear = Gear::new("bevel/five_linkage_printed", &[], (&[1, 17], &[-6.0, 8.0]), middle);
+    // Settings, um per mm: the blade angle stands between the cradle's axis and every flank, and the work stands back.
+    gear.holds("machine.cradle_errors.sliding_base_mm", |_| -1e3 * 20_f64.to_radians().sin());
+    gear.holds("machine.cradle_errors.center_to_back_mm", |of| 1e3 * of.normal.z);
     gear.holds("mounting.eccentricity_um@0", |of| -of.normal.x);
     gear.holds("mounting.eccentricity_um@90", |of| -of.normal.y);
     gear.holds("mounting.axial_offset_um", |of| -of.normal.z);

@@ -68,7 +68,16 @@ fn gears_scatter_alike_on_any_number_of_threads_and_after_a_stop() {
     assert_eq!(results["headline"]["Sa"]["value"].as_f64(), Some(median));
     let report = read(&whole, "report.html");
     assert!(report.contains("all but it") && report.contains("every dot is a seed"));
-    assert_eq!(report.matches("<circle").count(), 9 * 4, "a dot for each gear and number; F_beta is 0 in all gears");
+    // The work spindle's noise goes on within a stroke: no gear of the four has a straight helix, and no two the same.
+    let heads: Vec<String> = read(&whole, "seeds.csv").lines().next().map(values).expect("heads");
+    for key in ["F_beta", "f_H_beta"] {
+        let column = heads.iter().position(|head| head.starts_with(key)).expect("a column");
+        let mut sizes: Vec<f64> = seeds.iter().map(|row| row[column].parse::<f64>().expect("a number").abs()).collect();
+        sizes.sort_by(f64::total_cmp);
+        sizes.dedup();
+        assert!(sizes.len() == 4 && sizes[0] > 1e-4, "{key}: {sizes:?}");
+    }
+    assert_eq!(report.matches("<circle").count(), 10 * 4, "a dot for each gear and number");
     // Another scene does not go into the same folder, nor does another command's.
     let (code, said) = scatter(&whole, 1, &["--seeds", "4", "--tooth", "2"]);
     assert!(code == 1 && said.contains("another scene, flank or version"), "{said}");
@@ -122,6 +131,20 @@ fn gears_within_a_tolerance_have_the_pitch_deviations_of_their_eccentricities() 
     }
     let twice = [&scene[..], &strokes, &tolerance, &tolerance].concat();
     gearcut(&twice).failed(1, &["mounting.eccentricity_um", "two tolerances"]);
+}
+
+#[test]
+fn noise_that_strokes_do_not_follow_is_warned_of() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let said = |name: &str, bandwidth: &str| {
+        let bandwidth = format!("machine.errors.work.noise_bandwidth_hz={bandwidth}");
+        let (code, said) = scatter(&folder.path().join(name), 2, &["--seeds", "0", "--set", &bandwidth]);
+        assert_eq!(code, 0, "{said}");
+        said
+    };
+    let warning = "noise of the work spindle up to 50.0 Hz is faster than strokes follow";
+    assert_eq!(said("fast", "50").matches(warning).count(), 2, "both operations");
+    assert!(!said("slow", "0.05").contains("faster than strokes follow"));
 }
 
 #[test]

@@ -18,7 +18,7 @@ use std::f64::consts::TAU;
 use std::path::Path;
 
 pub const ROUND: &str = shaped_gear!("teeth = 24", 3600, "[operation.infeed.none]");
-const ELLIPTICAL: &str = shaped_gear!(
+pub const ELLIPTICAL: &str = shaped_gear!(
     "teeth = 42\n[gear.pitch_curve.ellipse]\norder = 3\neccentricity = 0.1348",
     3600,
     "[operation.infeed.none]"
@@ -41,14 +41,14 @@ pub fn job(text: &str, settings: &[&str]) -> ShapingJob {
 }
 
 /// A place on a flank.
-pub(super) struct Place {
+pub struct Place {
     /// +1 left, -1 right.
-    pub(super) side: f64,
+    pub side: f64,
     /// Polar angle of the pitch point at contact, rad, 0 to a turn.
-    phi_rad: f64,
+    pub phi_rad: f64,
     /// Stroke that comes nearest.
-    pub(super) stroke: f64,
-    z_mm: f64,
+    pub stroke: f64,
+    pub z_mm: f64,
     point_mm: DVec2,
     normal: DVec2,
 }
@@ -66,7 +66,7 @@ impl Place {
 }
 
 /// What an error changes at a few places near the pitch curve: place and change of height, mm.
-pub(super) fn changes(sound: &ShapingJob, faulty: &ShapingJob, teeth: &[u32]) -> Vec<(Place, f64)> {
+pub fn changes(sound: &ShapingJob, faulty: &ShapingJob, teeth: &[u32]) -> Vec<(Place, f64)> {
     let mut found = Vec::new();
     for &tooth in teeth {
         for side in [Side::Left, Side::Right] {
@@ -91,7 +91,8 @@ pub(super) fn changes(sound: &ShapingJob, faulty: &ShapingJob, teeth: &[u32]) ->
             let psi_rad = sound.finishing().linkage.axes(phi_rad, 0.0).psi_c_rad.value();
             for (row, &z_mm) in ROWS_MM.iter().enumerate() {
                 let mean = |cut: &gearcut::steps::planar::CutField| {
-                    (0..5).map(|column| f64::from(cut.layers[0].column(column, ROWS_MM.len())[row])).sum::<f64>() / 5.0
+                    let finished = cut.layers.last().expect("an operation");
+                    (0..5).map(|column| f64::from(finished.column(column, ROWS_MM.len())[row])).sum::<f64>() / 5.0
                 };
                 let place = Place {
                     side: side.sign(),
@@ -230,8 +231,9 @@ fn errors_of_a_round_gear_are_their_closed_forms() {
     );
 }
 
-/// Height after small errors of the axes: work and cutter, rad, centre distance, mm.
-fn displaced(job: &ShapingJob, place: &Place, [work_rad, cutter_rad, distance_mm]: [f64; 3]) -> f64 {
+/// Height after small errors of the axes at a stroke: work and cutter, rad, centre distance, mm.
+pub fn displaced(job: &ShapingJob, place: &Place, errors: impl Fn(f64) -> [f64; 3]) -> f64 {
+    let [work_rad, cutter_rad, distance_mm] = errors(place.stroke);
     let state = job.finishing().schedule.state(place.stroke);
     let out = DVec2::from_angle(state.psi_c_rad);
     let shift_mm = distance_mm * out + state.center_distance_mm * work_rad * out.perp();
@@ -252,7 +254,7 @@ fn drives_lag_on_an_elliptical_gear_as_their_series_says() {
             let motion = sound.finishing().schedule.at(place.stroke)[axis];
             let mut errors = [0.0; 3];
             errors[axis] = -motion.velocity / gain + motion.acceleration / gain / gain;
-            displaced(sound, place, errors)
+            displaced(sound, place, |_| errors)
         }
     };
     for (axis, name, least_um) in [(0, "work", 10.0), (1, "cutter", 10.0), (2, "center_distance", 0.5)] {
@@ -264,7 +266,7 @@ fn drives_lag_on_an_elliptical_gear_as_their_series_says() {
     let faulty = job(ELLIPTICAL, &all.each_ref().map(String::as_str));
     agree("equal lag of all axes", &changes(&sound, &faulty, &teeth), 0.0, |place| {
         let motion = sound.finishing().schedule.at(place.stroke);
-        displaced(&sound, place, motion.map(|axis| 0.5 * axis.acceleration / gain / gain))
+        displaced(&sound, place, |_| motion.map(|axis| 0.5 * axis.acceleration / gain / gain))
     });
 }
 
@@ -279,7 +281,9 @@ fn backlash_of_the_radial_axis_changes_sign_where_it_turns_back() {
     for sign in [1.0, -1.0] {
         assert!(found.iter().filter(|(place, _)| way(place) == sign).count() >= 6, "flanks on both sides of a turn");
     }
-    agree("backlash of the radial axis", &found, 1.5, |place| displaced(&sound, place, [0.0, 0.0, -6e-3 * way(place)]));
+    agree("backlash of the radial axis", &found, 1.5, |place| {
+        displaced(&sound, place, |_| [0.0, 0.0, -6e-3 * way(place)])
+    });
 }
 
 /// Every error at once.
@@ -314,12 +318,19 @@ fn candidates_equal_brute_force_on_a_machine_with_errors() {
     }
 }
 
+/// Each alone and all at once: an axis with one error is worked out another way than one without.
 #[test]
 fn errors_of_nothing_change_no_byte() {
+    let alone: [&[&str]; 5] = [
+        &["machine.errors.center_distance.drift_um_per_h=0"],
+        &["machine.errors.work.periodic_orders=[1.0]", "machine.errors.work.periodic_amplitudes_arcsec=[0.0]"],
+        &["machine.errors.work.velocity_gain_per_s=30", "machine.errors.work.feed_forward=1.0"],
+        &["tool.shaper_cutter.pitch_errors_um=[]", "tool.shaper_cutter.runout_angle_deg=20"],
+        &["operation.finish.stock_scatter_um=0", "mounting.wobble_angle_deg=30"],
+    ];
     let zeros = [
         "mounting.eccentricity_um=0",
         "mounting.eccentricity_angle_deg=30",
-        "mounting.axial_offset_um=100",
         "machine.errors.guide.radial_um_per_100mm=0",
         "machine.errors.work.backlash_arcsec=0",
         "machine.errors.center_distance.scale_um_per_m=0",
@@ -327,15 +338,33 @@ fn errors_of_nothing_change_no_byte() {
         "machine.errors.work.noise_arcsec=0",
         "machine.errors.center_distance.noise_um=0",
         "machine.errors.center_distance.noise_bandwidth_hz=3",
+        "machine.errors.center_distance.drift_um_per_h=0",
+        "machine.errors.center_distance.drift_time_constant_min=5",
+        "machine.errors.cutter.periodic_orders=[1.0, 2.0]",
+        "machine.errors.cutter.periodic_amplitudes_arcsec=[0.0, 0.0]",
     ];
-    let (sound, zero) = (job(ELLIPTICAL, &[]), job(ELLIPTICAL, &zeros));
-    let faulty = job(ELLIPTICAL, &["mounting.eccentricity_um=1"]);
+    let coarse = "operation.finish.strokes_per_revolution=700";
+    let with = |settings: &[&str]| job(ELLIPTICAL, &[&[coarse], settings].concat());
+    let sound = with(&[]);
     let cut = |job: &ShapingJob| {
         let field = job.field_over(job.target_flank(5, Side::Left), [1.0, 2.0, 3.0].into_iter(), ROWS_MM.to_vec());
         job.cut(&Cpu::default(), field).expect("native").layers
     };
-    assert!(cut(&sound) == cut(&zero));
-    assert!(cut(&sound) != cut(&faulty), "a micrometre is seen");
+    let whole = cut(&sound);
+    for zeros in alone.into_iter().chain([&zeros[..]]) {
+        let zero = with(zeros);
+        let layers = zero.scene.process.error_layers();
+        assert!(layers.is_empty(), "{zeros:?} are {layers:?}");
+        assert!(whole == cut(&zero), "{zeros:?}");
+        let poses =
+            |job: &ShapingJob| (0..700).map(|stroke| job.finishing().pose(f64::from(stroke))).collect::<Vec<_>>();
+        assert!(poses(&zero) == poses(&sound), "{zeros:?}");
+    }
+    for least in ["mounting.eccentricity_um=1", "machine.errors.center_distance.drift_um_per_h=300"] {
+        assert!(whole != cut(&with(&[least])), "{least} is seen");
+    }
+    // An offset along the axis means nothing where no guide runs out of parallel.
+    assert!(whole == cut(&with(&["mounting.axial_offset_um=100"])));
 }
 
 /// Where the axes rest, slices of the blank stand where a shift along the face is told: both ends, the middle of a bow

@@ -33,6 +33,21 @@ static TOOL_ERRORS: &[ErrorSource] = &[
     ),
 ];
 
+/// An error of a setting of the cradle machine.
+const fn setting(key: &'static str, unit: &'static str, step: f64, what: &'static str) -> ErrorSource {
+    ErrorSource::new("machine.cradle_errors", KeyForm::Number(key), unit, step, what)
+}
+
+/// Errors of the settings; natural steps are a division of the scales of old machines.
+static CRADLE_ERRORS: &[ErrorSource] = &[
+    setting("radial_setting_mm", "mm", 0.01, "radial setting"),
+    setting("blank_offset_mm", "mm", 0.01, "blank offset"),
+    setting("sliding_base_mm", "mm", 0.01, "sliding base"),
+    setting("center_to_back_mm", "mm", 0.01, "machine centre to back"),
+    setting("root_angle_deg", "deg", 0.01, "root angle"),
+    setting("roll_ratio", "1", 0.0002, "ratio of roll"),
+];
+
 /// Spiral bevel gears cut with a face-mill head.
 pub static SCENE: SceneProcess = SceneProcess {
     name: "bevel",
@@ -61,7 +76,7 @@ pub static SCENE: SceneProcess = SceneProcess {
         without("material.normal_edge_force_n_per_mm", NO_NORMAL_FORCE, CUTTING_FORCE),
     ],
     axes: &keys::AXES,
-    errors: &[error_sources::MOUNTING, TOOL_ERRORS],
+    errors: &[error_sources::MOUNTING, TOOL_ERRORS, CRADLE_ERRORS],
     derive,
     check,
     build: build::build,

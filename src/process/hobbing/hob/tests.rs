@@ -22,6 +22,7 @@ fn spec() -> model::HobSpec {
         thinning_mm: 0.0,
         regrind_mm: 0.0,
         mounting: crate::machine_errors::ToolMounting::default(),
+        pitch_errors_mm: Vec::new(),
     }
 }
 

@@ -25,6 +25,7 @@ fn hob(hand: Hand) -> Hob {
         thinning_mm: 0.0,
         regrind_mm: 0.0,
         mounting: crate::machine_errors::ToolMounting::default(),
+        pitch_errors_mm: Vec::new(),
     };
     Hob::new(&spec, 4.0, 20_f64.to_radians()).unwrap()
 }

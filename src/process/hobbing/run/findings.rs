@@ -74,7 +74,12 @@ pub fn findings(cutter: &HobCutter, gear: &HobbedGear, measured: &Measured) -> R
             ),
         ),
     ];
-    let tool = (ErrorLayer::Tool, tool_words(&job.hob_spec.mounting));
+    let mut tool = vec![tool_words(&job.hob_spec.mounting)];
+    if job.hob_spec.has_pitch_errors() {
+        tool.push("pitch errors given for each gash".to_owned());
+    }
+    tool.retain(|words| !words.is_empty());
+    let tool = (ErrorLayer::Tool, tool.join(", "));
     sections.extend(machine_errors::section(&job.errors, &AXES, &[tool]));
     sections.extend(evaluated(job));
     sections.extend(measured.inspected.sections(&job.scene.measure));

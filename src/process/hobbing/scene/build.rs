@@ -9,7 +9,7 @@ use crate::scene::ScenePart;
 use crate::scene::build::{cutting_force, linear_programs, stock_or_offset_mm};
 use crate::scene::machine_errors::{machine_errors, tool_mounting};
 use crate::scene::values::{Values, View};
-use gearcut_core::units::TURN_RAD;
+use gearcut_core::units::{TURN_RAD, UM_PER_MM};
 use std::path::Path;
 
 /// Hobbing: hob, limits and operations.
@@ -64,6 +64,7 @@ fn hob(hob: View<'_>) -> Option<HobSpec> {
         thinning_mm: hob.number("thinning_mm")?,
         regrind_mm: hob.number("regrind_mm")?,
         mounting: tool_mounting(hob),
+        pitch_errors_mm: hob.numbers("pitch_errors_um")?.iter().map(|um| um / UM_PER_MM).collect(),
     })
 }
 

@@ -5,7 +5,7 @@ mod keys;
 pub mod model;
 
 use crate::machine_errors::{ErrorLayer, ToolMounting};
-use crate::scene::error_sources::{self, ErrorSource};
+use crate::scene::error_sources::{self, ErrorSource, KeyForm};
 use crate::scene::machine_errors;
 use crate::scene::problems::Found;
 use crate::scene::{FINISH_ALONE, ProcessPart, SceneProcess, Senseless};
@@ -15,7 +15,17 @@ use model::Hobbing;
 const NO_NORMAL_FORCE: &str = "only the force against the edge's motion is computed";
 
 /// Errors of the hob.
-static TOOL_ERRORS: &[ErrorSource] = &[error_sources::runout("tool.hob"), error_sources::wobble("tool.hob")];
+static TOOL_ERRORS: &[ErrorSource] = &[
+    error_sources::runout("tool.hob"),
+    error_sources::wobble("tool.hob"),
+    ErrorSource::new(
+        "tool.hob",
+        KeyForm::Entries { list: "pitch_errors_um", count: "gashes" },
+        "um",
+        4.0,
+        "pitch of hob gash",
+    ),
+];
 
 /// Hobbing with five and six axes.
 pub static SCENE: SceneProcess = SceneProcess {
@@ -57,6 +67,7 @@ pub static SCENE: SceneProcess = SceneProcess {
 /// Holds values against each other.
 fn check(found: &mut Found<'_, '_, '_>) {
     external(found);
+    let _: Option<()> = pitch_errors(found);
     machine_errors::check(found, &keys::AXES);
     machine_errors::check_noise_in_time(found, &keys::AXES, "a hob");
 }
@@ -69,19 +80,33 @@ fn external(found: &mut Found<'_, '_, '_>) {
     found.blame(internal, "gear.kind", message, way_out);
 }
 
+/// A pitch error for each gash, or for each gash of each thread.
+fn pitch_errors(found: &mut Found) -> Option<()> {
+    let key = "tool.hob.pitch_errors_um";
+    let hob = found.view("tool.hob");
+    let (starts, gashes, errors) = (hob.whole("starts")?, hob.whole("gashes")?, hob.numbers("pitch_errors_um")?.len());
+    let wrong = errors != 0 && errors != gashes as usize && errors != (starts * gashes) as usize;
+    let message = || format!("`{key}`: {errors} values for {gashes} gashes and {starts} threads");
+    let way_out = "give one value per gash, or one for each gash of each thread, or leave the key out";
+    found.blame(wrong, key, message, way_out);
+    Some(())
+}
+
 impl ProcessPart for Hobbing {
     fn process(&self) -> &'static SceneProcess {
         &SCENE
     }
 
     fn error_layers(&self) -> Vec<ErrorLayer> {
-        self.errors.layers(&[(ErrorLayer::Tool, !self.tool.mounting.is_none())])
+        let tool = !self.tool.mounting.is_none() || self.tool.has_pitch_errors();
+        self.errors.layers(&[(ErrorLayer::Tool, tool)])
     }
 
     fn keep_layers(&mut self, kept: &[ErrorLayer]) {
         self.errors.keep(kept);
         if !kept.contains(&ErrorLayer::Tool) {
             self.tool.mounting = ToolMounting::default();
+            self.tool.pitch_errors_mm.clear();
         }
     }
 

@@ -60,6 +60,25 @@ pub struct HobSpec {
     pub regrind_mm: f64,
     /// How the hob sits on its spindle.
     pub mounting: ToolMounting,
+    /// How far teeth stand off the thread along the axis, towards the entering end, mm: gash by gash, counted from the
+    /// one at the hob's angle 0 in the order of their cuts, the same for all threads or thread after thread; empty: not
+    /// at all.
+    pub pitch_errors_mm: Vec<f64>,
+}
+
+impl HobSpec {
+    /// Whether a tooth stands off its thread.
+    pub fn has_pitch_errors(&self) -> bool {
+        self.pitch_errors_mm.iter().any(|&error_mm| error_mm != 0.0)
+    }
+
+    /// How far the tooth of a thread, from 0, that cuts in a passage stands off it, mm.
+    pub fn pitch_error_mm(&self, start: u32, passage: i64) -> f64 {
+        let gash = passage.rem_euclid(i64::from(self.gashes)) as usize;
+        let of_all = self.pitch_errors_mm.len() <= self.gashes as usize;
+        let place = if of_all { gash } else { (start * self.gashes) as usize + gash };
+        self.pitch_errors_mm.get(place).copied().unwrap_or(0.0)
+    }
 }
 
 /// How gashes run.

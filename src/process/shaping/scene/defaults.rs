@@ -57,7 +57,8 @@ pub(super) fn reach_mm(values: &Values) -> Option<f64> {
 
 /// Distance of the blank's slices where the axes rest during all strokes and guide or clamping shift the cutter along
 /// the face: evenly, so that both ends of the face say all of its sections, or on a parabola, which needs the middle as
-/// well. Every other slice would be cut for a section that lies between those.
+/// well. Every other slice would be cut for a section that lies between those. Where noise goes on in time, sections
+/// differ at random, all of them alike in the mean: three stand for them.
 fn blank_slices(values: &mut Values) -> Option<()> {
     let feeds = |index: usize| values.view(&format!("operation.{index}")).boolean("feed_during_stroke") == Some(true);
     let is_there = |section: &str, keys: &[&str]| {
@@ -67,11 +68,15 @@ fn blank_slices(values: &mut Values) -> Option<()> {
     let bent = is_there(guide, &["radial_bow_um", "tangential_bow_um"]);
     let leans = is_there(guide, &["radial_um_per_100mm", "tangential_um_per_100mm"])
         || is_there("mounting", &["wobble_um_per_100mm"]);
-    if !(bent || leans) || (0..values.count("operation")).any(feeds) {
+    let axes = ["work", "cutter", "center_distance"].map(|axis| format!("machine.errors.{axis}"));
+    let wanders = axes
+        .iter()
+        .any(|axis| is_there(axis, &["noise_arcsec", "noise_um"]) && is_there(axis, &["noise_bandwidth_hz"]));
+    if !(bent || leans || wanders) || (0..values.count("operation")).any(feeds) {
         return None;
     }
     let face_mm = values.view("gear").number("face_width_mm")?;
-    let slices_mm = if bent { 0.5 * face_mm } else { face_mm };
+    let slices_mm = if bent || wanders { 0.5 * face_mm } else { face_mm };
     let usual_mm = values.view("fields.blank").number("slice_spacing_mm")?;
     values.put_default("fields.blank", "slice_spacing_mm", Checked::Number(slices_mm.max(usual_mm)));
     Some(())

@@ -30,10 +30,15 @@ const fn compliance(key: &'static str, unit: &'static str, step: f64, what: &'st
     ErrorSource::new("machine.compliance", KeyForm::Amount(key), unit, step, what).tried(Tried::WhereItIs)
 }
 
-/// A number of the cutter's rounded edges. How much of what is ploughed springs back is none: its usual value, all of
-/// it, is the end of its range.
-const fn rounding(key: &'static str, unit: &'static str, step: f64, what: &'static str) -> ErrorSource {
-    ErrorSource::new(keys::EDGE_ROUNDING, KeyForm::Amount(key), unit, step, what).tried(Tried::WhereItIs)
+/// A number of the cutter's rounded edges.
+const fn rounding(form: KeyForm, unit: &'static str, step: f64, what: &'static str) -> ErrorSource {
+    ErrorSource::new(keys::EDGE_ROUNDING, form, unit, step, what).tried(Tried::WhereItIs)
+}
+
+/// A number of the marks of a built-up edge, by its name: where marks lie is random. Which of them are scratches, and
+/// at which speeds there are any, is decided mark by mark.
+const fn marks(key: &'static str, unit: &'static str, step: f64, what: &'static str) -> ErrorSource {
+    ErrorSource::new(keys::BUILT_UP_EDGE, KeyForm::Amount(key), unit, step, what).tried(Tried::ByName)
 }
 
 /// What the cut itself does, and what is random in it.
@@ -44,14 +49,15 @@ static CUT_ERRORS: &[ErrorSource] = &[
     compliance("work_radial_um_per_kn", "um/kN", 1.0, "compliance: work, radial"),
     compliance("work_tangential_um_per_kn", "um/kN", 1.0, "compliance: work, tangential"),
     compliance("work_torsional_urad_per_nm", "urad/(N m)", 0.2, "compliance: work, torsional"),
-    rounding("radius_um", "um", 0.5, "edge radius"),
-    rounding("minimum_chip_share", "1", 0.05, "thinnest chip over radius"),
+    rounding(KeyForm::Amount("radius_um"), "um", 0.5, "edge radius"),
+    rounding(KeyForm::Amount("minimum_chip_share"), "1", 0.05, "thinnest chip over radius"),
+    rounding(KeyForm::Missing("recovery_share"), "1", 0.1, "share that stays pressed down").needs("radius_um"),
     ErrorSource::new(keys::EDGE_ROUGHNESS, KeyForm::Amount("rq_um"), "um", 0.1, "edge roughness Rq")
         .tried(Tried::ByName),
-    ErrorSource::new(keys::BUILT_UP_EDGE, KeyForm::Amount("density_per_mm2"), "1/mm2", 5.0, "marks of a built-up edge")
-        .tried(Tried::ByName),
-    ErrorSource::new(keys::BUILT_UP_EDGE, KeyForm::Amount("depth_um"), "um", 0.1, "depth of these marks")
-        .tried(Tried::ByName),
+    marks("density_per_mm2", "1/mm2", 5.0, "marks of a built-up edge"),
+    marks("depth_um", "um", 0.1, "depth of these marks"),
+    marks("width_um", "um", 2.0, "width of these marks"),
+    marks("scratch_length_um", "um", 5.0, "length of scratches"),
     ErrorSource::new("operation[]", KeyForm::Amount("stock_scatter_um"), "um", 2.0, "stock scatter")
         .tried(Tried::ByName),
 ];

@@ -4,6 +4,7 @@ use crate::machine_errors::{Compliance, MachineErrors};
 use crate::material::EdgeForce;
 use crate::random::Draws;
 use crate::scene::Scene;
+use gearcut_core::passes::planar::strokes::StrokeLaw;
 use std::path::PathBuf;
 
 /// Shaping: tool, machine and operations.
@@ -166,6 +167,13 @@ pub struct Machine {
     pub compliance: Compliance,
     /// Limits of the axes, where known.
     pub limits: AxisLimits,
+}
+
+impl Machine {
+    /// How the ram passes a face of this width, mm.
+    pub fn crank(&self, face_width_mm: f64) -> StrokeLaw {
+        StrokeLaw::crank(face_width_mm, self.approach_mm, self.overrun_mm)
+    }
 }
 
 /// Which way the cutter is drawn back for the return stroke; the laws are in

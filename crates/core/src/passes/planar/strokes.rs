@@ -26,7 +26,8 @@ pub const NODES: [f64; 4] =
 pub enum StrokeLaw {
     /// The pose of the stroke's own moment holds for its whole length.
     Frozen,
-    /// The axes rest during a stroke, but the guide of the ram leads the cutter to other places at other heights.
+    /// The feed rests during a stroke, but the cutter stands elsewhere at other heights: led aside by the guide of the
+    /// ram, or by what the axes do at random meanwhile.
     Guided {
         /// Half of the face width, mm: tau = 1 is at its lower end.
         half_face_mm: f64,

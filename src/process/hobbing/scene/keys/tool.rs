@@ -126,6 +126,16 @@ pub(super) static SECTIONS: &[KeySection] = &[KeySection {
         TOOL_RUNOUT_ANGLE,
         TOOL_WOBBLE,
         TOOL_WOBBLE_ANGLE,
+        Key {
+            name: "pitch_errors_um",
+            kind: Kind::Numbers { range: Range::closed(-1000.0, 1000.0), most: 480 },
+            unit: "um",
+            default: Default::EmptyList,
+            example: "[]",
+            teach: "How far the hob's teeth stand off their thread along its axis, towards the end where uncut work \
+                arrives: one value per gash in the order of their cuts, from the gash at the hob's angle 0 on, or one \
+                for each gash of each thread, thread after thread, or none.",
+        },
     ],
     groups: &[Group { names: &["lead_angle_deg", "reference_diameter_mm"], required: true }],
     teach: "Hob; module and pressure angle are the gear's, in the normal section.",
