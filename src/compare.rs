@@ -109,21 +109,21 @@ impl Comparison {
         (!changed).then(|| nothing.to_owned()).into_iter().chain(one_sided).collect()
     }
 
-    /// The table for the terminal.
-    pub fn print(&self, sheet: &mut Sheet) {
+    /// The tables for the terminal; where a line has a width and a table is wider, names stand above their numbers.
+    pub fn print(&self, sheet: &mut Sheet, width: Option<usize>) {
         let names: Vec<&str> = self.results.iter().map(|one| one.name.as_str()).collect();
         let (last, others) = names.split_last().expect("two or more");
         sheet.heading(&format!("{} and {last}", others.join(", ")));
-        let ranked = ranked::ranked(&self.lines);
+        let ranked = ranked::ranked(&self.lines, &ranked::limits_um(&self.results));
         if !ranked.is_empty() {
             sheet.heading("Changed most");
-            sheet.table(&self.printed_rows(ranked.iter().take(ranked::FIRST).map(|(line, _)| *line)));
+            self.print_rows(sheet, width, ranked.iter().take(ranked::FIRST).map(|(line, _)| *line));
         }
         for words in self.beside_changes(!ranked.is_empty()) {
             sheet.words(&words);
         }
         sheet.heading("All");
-        sheet.table(&self.printed_rows(self.lines.iter().filter(|line| line.level <= Level::Summary)));
+        self.print_rows(sheet, width, self.lines.iter().filter(|line| line.level <= Level::Summary));
         for one in self.results.iter().filter(|one| !one.findings.complete) {
             sheet.line("", format!("{} was stopped before all flanks were cut", one.name));
         }

@@ -22,7 +22,8 @@ mod sampling;
 mod window;
 
 pub use files::{NamedWindow, SURFACE_NOTE, named_windows, write};
-pub use findings::{findings, quantities, warnings};
+pub use findings::{findings, foreseen, quantities, warnings};
+pub use sampling::{SampledWindow, sampled};
 pub use window::{Window, windows};
 
 use crate::findings::Severity;
@@ -31,10 +32,11 @@ use crate::job::{GearJob, RAY_DEPTH_MODULES};
 use crate::measure::topography::{Arguments, Chain, Evaluation, Surface};
 use crate::output::progress::Progress;
 use gearcut_core::cut::Backend;
-use gearcut_core::dexel::{Layer, NO_PASS};
+use gearcut_core::dexel::NO_PASS;
 use gearcut_core::error::Result;
 use gearcut_core::units::UM_PER_MM;
 use rayon::prelude::*;
+use sampling::{LineMarks, sampled_one};
 
 /// Marks that a window should hold in a direction in which marks follow each other.
 pub const ENOUGH_MARKS: usize = 5;
@@ -117,31 +119,9 @@ impl WindowNote {
 }
 
 impl WindowTexture {
-    /// What a reader must know before trusting its numbers.
-    pub fn notes(&self) -> Vec<WindowNote> {
+    /// What a reader must know before trusting its numbers and only its cut tells.
+    fn notes(&self) -> Vec<WindowNote> {
         let mut notes = Vec::new();
-        for (marks, direction) in self.marks.iter().zip(["along the tooth", "along the profile"]) {
-            if (1..ENOUGH_MARKS).contains(marks) {
-                let marks = if *marks == 1 { "1 mark".to_owned() } else { format!("{marks} marks") };
-                notes.push(WindowNote::of(format!(
-                    "the window holds only {marks} {direction}; {ENOUGH_MARKS} at least make its numbers representative"
-                )));
-            }
-        }
-        let spacings = [("along the tooth", "lead_spacing_um"), ("along the profile", "profile_spacing_um")];
-        for (points, (direction, key)) in self.points_per_mark.iter().zip(spacings) {
-            if let Some(points) = points.filter(|&points| points < ENOUGH_POINTS) {
-                notes.push(WindowNote {
-                    severity: Severity::Warning,
-                    before: format!("a mark {direction} has only "),
-                    number: Some(points),
-                    after: format!(
-                        " points; with less than {ENOUGH_POINTS} slopes are averaged over cusps, and Sdq and Sdr come \
-                         out low: make {key} smaller"
-                    ),
-                });
-            }
-        }
         let holes = self.heights.as_ref().map_or(0, Surface::holes);
         if holes > 0 {
             notes.push(WindowNote::of(format!(
@@ -155,19 +135,50 @@ impl WindowTexture {
         notes
     }
 
-    /// The same as sentences of this window alone.
+    /// All that a reader must know before trusting its numbers, as sentences of this window alone.
     pub fn warnings(&self) -> Vec<String> {
-        self.notes().iter().map(|note| WindowNote::text(&[note])).collect()
+        let marks = LineMarks { count: self.marks, points: self.points_per_mark };
+        marks.notes().iter().chain(&self.notes()).map(|note| WindowNote::text(&[note])).collect()
     }
 }
 
-/// Cuts and evaluates windows of a job, as from [`windows()`].
+impl LineMarks {
+    /// What the marks of a window say of its numbers.
+    fn notes(&self) -> Vec<WindowNote> {
+        let mut notes = Vec::new();
+        for (marks, direction) in self.count.iter().zip(["along the tooth", "along the profile"]) {
+            if (1..ENOUGH_MARKS).contains(marks) {
+                let marks = if *marks == 1 { "1 mark".to_owned() } else { format!("{marks} marks") };
+                notes.push(WindowNote::of(format!(
+                    "the window holds only {marks} {direction}; {ENOUGH_MARKS} at least make its numbers representative"
+                )));
+            }
+        }
+        let spacings = [("along the tooth", "lead_spacing_um"), ("along the profile", "profile_spacing_um")];
+        for (points, (direction, key)) in self.points.iter().zip(spacings) {
+            if let Some(points) = points.filter(|&points| points < ENOUGH_POINTS) {
+                notes.push(WindowNote {
+                    severity: Severity::Warning,
+                    before: format!("a mark {direction} has only "),
+                    number: Some(points),
+                    after: format!(
+                        " points; with less than {ENOUGH_POINTS} slopes are averaged over cusps, and Sdq and Sdr come \
+                         out low: make {key} smaller"
+                    ),
+                });
+            }
+        }
+        notes
+    }
+}
+
+/// Cuts and evaluates windows of a job, as from [`sampled()`].
 ///
 /// # Errors
 /// Geometry and the backend. After Ctrl-C the windows that are finished are returned.
 pub fn measure(
     job: &dyn GearJob,
-    windows: &[Window],
+    windows: &[SampledWindow],
     backend: &dyn Backend,
     progress: &Progress,
     interrupt: &Interrupt,
@@ -176,7 +187,7 @@ pub fn measure(
     let textures: Vec<Vec<WindowTexture>> = windows
         .par_iter()
         .map(|window| {
-            let done = if interrupt.is_raised() { Ok(Vec::new()) } else { cut_window(job, backend, window) };
+            let done = if interrupt.is_raised() { Ok(Vec::new()) } else { cut_sampled(job, backend, window) };
             step.advance(1);
             done
         })
@@ -185,26 +196,26 @@ pub fn measure(
     Ok(textures.concat())
 }
 
-/// Cuts one window through all operations and evaluates what each of them left, or the last alone.
+/// Cuts one window, as finely as its marks ask for, through all operations and evaluates what each of them left, or the
+/// last alone.
 ///
 /// # Errors
 /// Geometry and the backend.
 pub fn cut_window(job: &dyn GearJob, backend: &dyn Backend, window: &Window) -> Result<Vec<WindowTexture>> {
-    let cut = |window: &Window| {
-        let arcs_mm: Vec<f64> = window.arcs_mm().collect();
-        job.cut_flank(backend, window.tooth, window.side, &arcs_mm, &window.rows_z_mm())
-    };
-    let layers = cut(window)?;
-    let (window, layers) = match sampling::finer(job, backend, window, &layers)? {
-        Some(finer) => (finer.clone(), cut(&finer)?),
-        None => (window.clone(), layers),
-    };
+    cut_sampled(job, backend, &sampled_one(job, window)?)
+}
+
+fn cut_sampled(job: &dyn GearJob, backend: &dyn Backend, sampled: &SampledWindow) -> Result<Vec<WindowTexture>> {
+    let SampledWindow { window, marks } = sampled;
+    let arcs_mm: Vec<f64> = window.arcs_mm().collect();
+    let layers = job.cut_flank(backend, window.tooth, window.side, &arcs_mm, &window.rows_z_mm())?;
     let [rows, columns] = window.count;
     Ok(layers
         .iter()
+        .zip(marks)
         .enumerate()
-        .skip(shown_from(&window, layers.len()))
-        .map(|(operation, layer)| {
+        .skip(shown_from(window, layers.len()))
+        .map(|(operation, (layer, marks))| {
             // Where a ray ends inside a cut, its end is no surface: a flank that is gone has no texture.
             let ends_mm = -ENDS_SHARE * RAY_DEPTH_MODULES * job.scene().gear.module_mm;
             let height = |i: usize| {
@@ -215,21 +226,13 @@ pub fn cut_window(job: &dyn GearJob, backend: &dyn Backend, window: &Window) -> 
             let heights_um: Vec<f64> = (0..columns * rows).map(height).collect();
             let [dx, dy] = window.spacing_mm().map(|mm| mm * UM_PER_MM);
             let heights = Surface::new(rows, columns, dx, dy, heights_um);
-            let along_tooth = if job.marks_follow_along_tooth(operation) {
-                facets(&middle_line(layer, window.count, 0))
-            } else {
-                (0, None)
-            };
-            let along_profile = facets(&middle_line(layer, window.count, 1));
-            let marks = [along_tooth.0, along_profile.0];
-            let points_per_mark = [along_tooth.1, along_profile.1];
-            let evaluated = heights.as_ref().map_err(Clone::clone).and_then(|heights| evaluate(heights, &window));
+            let evaluated = heights.as_ref().map_err(Clone::clone).and_then(|heights| evaluate(heights, window));
             WindowTexture {
                 window: window.clone(),
                 operation,
                 heights: heights.ok(),
-                marks,
-                points_per_mark,
+                marks: marks.count,
+                points_per_mark: marks.points,
                 evaluated,
             }
         })
@@ -241,27 +244,6 @@ fn shown_from(window: &Window, operations: usize) -> usize {
     if window.every_operation { 0 } else { operations - 1 }
 }
 
-/// Passes along the middle line of a window that has so many points along the tooth and along the profile: the line
-/// along the tooth (0) or along the profile (1).
-fn middle_line(layer: &Layer, [rows, columns]: [usize; 2], direction: usize) -> Vec<u32> {
-    if direction == 0 {
-        layer.passes[columns / 2 * rows..][..rows].to_vec()
-    } else {
-        layer.passes[rows / 2..].iter().copied().step_by(rows).collect()
-    }
-}
-
-/// Facets along a line, one more than the changes of the pass that left it, and the points of a whole one: parts of
-/// marks at both ends are not counted.
-fn facets(passes: &[u32]) -> (usize, Option<f64>) {
-    let edges: Vec<usize> = (1..passes.len()).filter(|&i| passes[i] != passes[i - 1]).collect();
-    let points = match edges.as_slice() {
-        [first, .., last] => Some((last - first) as f64 / (edges.len() - 1) as f64),
-        _ => None,
-    };
-    (edges.len() + 1, points)
-}
-
 fn evaluate(heights: &Surface, window: &Window) -> Result<Evaluated, String> {
     let (surface, chain) = Chain::of_form(window.form).apply(heights)?;
     let evaluation = Evaluation::of(&surface, &Arguments::default());
@@ -271,14 +253,6 @@ fn evaluate(heights: &Surface, window: &Window) -> Result<Evaluated, String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn points_are_those_of_whole_marks() {
-        assert_eq!(facets(&[7, 7, 7]), (1, None));
-        assert_eq!(facets(&[7, 8, 8]), (2, None));
-        // Half a mark, marks of 4 and 2 points, half a mark: 3 points each, not 10 over 4.
-        assert_eq!(facets(&[1, 1, 2, 2, 2, 2, 3, 3, 4, 4]), (4, Some(3.0)));
-    }
 
     #[test]
     fn alike_notes_become_one_with_the_range_of_their_numbers() {

@@ -27,7 +27,8 @@ fn hanging(label: &str, text: &str, indent: usize, width: usize) -> Vec<String> 
 }
 
 /// A text whose lines fit a width. A value goes on below where it begins, two blanks or more behind its label; a
-/// message goes on below its second letter. Rows of tables, with more columns than these, stay whole.
+/// message goes on below its second letter. Of rows of tables, with more columns than these, only words in the last
+/// column go on below where they begin; numbers stay whole.
 pub fn fitted(text: &str, width: usize) -> String {
     text.split('\n').map(|line| fitted_line(line, width)).collect::<Vec<_>>().join("\n")
 }
@@ -35,14 +36,23 @@ pub fn fitted(text: &str, width: usize) -> String {
 fn fitted_line(line: &str, width: usize) -> String {
     let lead = line.len() - line.trim_start().len();
     let columns = line.split("  ").filter(|part| !part.trim().is_empty()).count();
-    if line.chars().count() <= width || columns > 2 {
+    if line.chars().count() <= width {
         return line.to_owned();
     }
-    let value_at = if columns == 2 { line.rfind("  ").map_or(lead, |gap| gap + 2) } else { lead };
+    let value_at = if columns > 1 { line.rfind("  ").map_or(lead, |gap| gap + 2) } else { lead };
     let (label, value) = line.split_at(value_at);
     let column = label.chars().count();
-    let indent = if columns == 2 && column <= width / 2 { column } else { lead + 2 };
-    hanging(label, value, indent, width).join("\n")
+    let longest = value.split(' ').map(|word| word.chars().count()).max().unwrap_or(0);
+    // A word that only fits on a line of its own, such as a path, goes on one.
+    if columns == 2 && column + longest > width {
+        let indent = " ".repeat(lead + 2);
+        return format!("{}\n{}", label.trim_end(), hanging(&indent, value, lead + 2, width).join("\n"));
+    }
+    let beside = columns > 1 && column <= width / 2;
+    if columns > 2 && !(beside && value.contains(' ')) {
+        return line.to_owned();
+    }
+    hanging(label, value, if beside { column } else { lead + 2 }, width).join("\n")
 }
 
 /// A text of others, fit to print: characters that would command the terminal are shown by their codes, line breaks and
@@ -67,11 +77,13 @@ mod tests {
 
     #[test]
     fn values_and_messages_go_on_below_their_beginning() {
-        let text = "warning: one two three\n  label     four five six seven\n  a  b  c ddddddddddddddddddddd\nshort";
+        let text = "warning: one two three\n  label     four five six seven\n  a  b  ddddddddddddddddddddd\n  S  1  five six \
+                    seven\n  label     a/path/of/20/chars\nshort";
         let fitted = fitted(text, 20);
         assert_eq!(
             fitted,
-            "warning: one two\n  three\n  label     four\n    five six seven\n  a  b  c ddddddddddddddddddddd\nshort"
+            "warning: one two\n  three\n  label     four\n    five six seven\n  a  b  ddddddddddddddddddddd\n  S  1  five six\n        \
+             seven\n  label\n    a/path/of/20/chars\nshort"
         );
         let words = |text: &str| text.split_whitespace().map(str::to_owned).collect::<Vec<_>>();
         assert_eq!(words(&fitted), words(text));

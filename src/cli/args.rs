@@ -44,7 +44,7 @@ pub enum Command {
         gearcut cut scenes/shaping/elliptical_normal.toml --only numbers,report\n\n\
         Writes a folder (out/<scene> unless --out or the scene says otherwise): results.json with every\n\
         number, its unit and its definition; run.json to repeat the run; tables as CSV (mm, um, deg in\n\
-        the column names); maps of every flank as EXR and PNG (um); the gear as a closed mesh in STL,\n\
+        the column names); maps of every flank as EXR (mm) and PNG (um); the gear as a closed mesh in STL,\n\
         PLY and glTF (mm); pictures; axis tables and charts. An existing folder is replaced only if\n\
         gearcut wrote it, and only after the new one is complete. The summary goes to standard output,\n\
         progress to standard error.")]

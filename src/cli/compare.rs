@@ -30,7 +30,7 @@ pub fn run(arguments: &CompareArguments) -> Result<(), Failure> {
     })?;
 
     let mut sheet = Sheet::default();
-    comparison.print(&mut sheet);
+    comparison.print(&mut sheet, print::width());
     Ok(print::sheet(&format!("{}\npage, table and charts are in {}\n", sheet.into_text(), path.display()))?)
 }
 

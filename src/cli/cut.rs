@@ -69,7 +69,7 @@ pub fn run(arguments: &CutArguments) -> Result<(), Failure> {
             .map_err(|reason| Error::Output { path: done.folder.clone(), reason: reason.to_string() })?;
         print::to_stdout(&format!("{text}\n"))?;
     } else if !arguments.quiet {
-        print::to_stdout(&done.summary)?;
+        print::sheet(&done.summary)?;
     }
     if done.interrupted {
         return Err(Failure::ended_early(&done.folder, &out));

@@ -8,5 +8,5 @@ use super::{drivers, print};
 /// Runs the command.
 pub fn run() -> Result<(), Failure> {
     drivers::without_window_system();
-    Ok(print::to_stdout(&format!("{}\n", backend::devices()))?)
+    Ok(print::sheet(&format!("{}\n", backend::devices()))?)
 }

@@ -23,5 +23,5 @@ pub fn run(arguments: &MateArguments) -> Result<(), Failure> {
     write_new(path, &mate.text)?;
     let shown = path.display();
     let note = format!("`gearcut check {shown}` says what it means\n");
-    Ok(print::to_stdout(&format!("wrote {shown}: distance of the axes {:.6} mm\n{note}", mate.center_distance_mm))?)
+    Ok(print::sheet(&format!("wrote {shown}: distance of the axes {:.6} mm\n{note}", mate.center_distance_mm))?)
 }

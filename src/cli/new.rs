@@ -17,7 +17,7 @@ pub fn run(arguments: &NewArguments) -> Result<(), Failure> {
     let Some(path) = &arguments.out else { return Ok(print::to_stdout(&text)?) };
     write_new(path, &text)?;
     let next = format!("wrote {}; `gearcut check {}` says what it means\n", path.display(), path.display());
-    Ok(print::to_stdout(&next)?)
+    Ok(print::sheet(&next)?)
 }
 
 /// Writes a scene to a file that does not exist yet.

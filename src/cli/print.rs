@@ -12,17 +12,30 @@ const WIDTH: usize = 80;
 
 /// Prints a text. A reader that has heard enough (`gearcut schema | head`) is no failure.
 pub fn to_stdout(text: &str) -> Result<()> {
+    write_to_stdout(&printable(text))
+}
+
+fn write_to_stdout(text: &str) -> Result<()> {
     let mut out = io::stdout().lock();
-    match out.write_all(printable(text).as_bytes()).and_then(|()| out.flush()) {
+    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
         Err(failed) if failed.kind() != ErrorKind::BrokenPipe => Err(Error::writing("standard output")(failed)),
         _ => Ok(()),
     }
 }
 
-/// Prints a sheet of facts and tables; on a terminal in lines of 80 characters, while what goes into a file keeps a
-/// line for each.
+/// Prints a sheet of facts, tables and warnings; on a terminal in lines of 80 characters, warnings with their first
+/// word in colour, while what goes into a file keeps a line for each.
 pub fn sheet(text: &str) -> Result<()> {
-    if io::stdout().is_terminal() { to_stdout(&fitted(text, WIDTH)) } else { to_stdout(text) }
+    let text = printable(text);
+    match width() {
+        Some(width) => write_to_stdout(&in_colour(fitted(&text, width))),
+        None => write_to_stdout(&text),
+    }
+}
+
+/// Characters in a line of standard output; none where it is no terminal.
+pub fn width() -> Option<usize> {
+    io::stdout().is_terminal().then_some(WIDTH)
 }
 
 /// Prints warnings and how many they are on standard error, where they are seen when the report goes into a file.
@@ -36,12 +49,15 @@ pub fn warnings(warnings: &[Warning]) {
 /// Prints lines on standard error; on a terminal in lines of 80 characters, their first word in colour. Nobody is left
 /// to be told when standard error is closed.
 pub fn to_stderr(text: &str) {
-    let told = std::env::var_os("NO_COLOR").is_none() && std::env::var_os("TERM").is_none_or(|term| term != "dumb");
     let text = printable(text);
-    let terminal = io::stderr().is_terminal();
-    let text = if terminal { fitted(&text, WIDTH) } else { text };
-    let text = if told && terminal { painted(&text) } else { text };
+    let text = if io::stderr().is_terminal() { in_colour(fitted(&text, WIDTH)) } else { text };
     let _closed = writeln!(io::stderr(), "{text}");
+}
+
+/// A text for a terminal, in colour where the user and the terminal want it.
+fn in_colour(text: String) -> String {
+    let wanted = std::env::var_os("NO_COLOR").is_none() && std::env::var_os("TERM").is_none_or(|term| term != "dumb");
+    if wanted { painted(&text) } else { text }
 }
 
 /// The text with the words that tell its weight in colour.

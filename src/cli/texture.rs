@@ -67,13 +67,11 @@ pub fn run(arguments: &TextureArguments) -> Result<(), Failure> {
     let evaluation = Evaluation::of(&surface, &more);
     let lines = arguments.line.iter().map(|wish| line(wish, &surface)).collect::<Result<Vec<_>, _>>()?;
     interrupt.check()?;
-    let text = if arguments.json {
+    if arguments.json {
         let document = document(&arguments.file, &file, &surface, &words, &evaluation, &lines);
-        format!("{document:#}\n")
-    } else {
-        sheet(&arguments.file, &file, &surface, &words, &evaluation, &lines)
-    };
-    Ok(print::to_stdout(&text)?)
+        return Ok(print::to_stdout(&format!("{document:#}\n"))?);
+    }
+    Ok(print::sheet(&sheet(&arguments.file, &file, &surface, &words, &evaluation, &lines))?)
 }
 
 /// Numbers that no file can make sensible.

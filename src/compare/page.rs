@@ -23,7 +23,7 @@ pub(super) fn page(
     maps: Vec<MapSheet>,
 ) -> Page {
     let names: Vec<&str> = of.results.iter().map(|one| one.name.as_str()).collect();
-    let ranked = ranked::ranked(&of.lines);
+    let ranked = ranked::ranked(&of.lines, &ranked::limits_um(&of.results));
     let first: Vec<&Line> = ranked.iter().take(ranked::FIRST).map(|(line, _)| *line).collect();
     let lines = of.lines.iter().filter(|line| line.level <= Level::Summary);
     let mut changed = Vec::new();
@@ -39,7 +39,8 @@ pub(super) fn page(
         PageSection::new(
             "changed",
             "What changed most",
-            "The largest differences from the first result, over the larger of both values.",
+            "The largest differences from the first result, over the limit where a figure has one, else over the larger of \
+             both values.",
             changed,
         ),
         PageSection::new(

@@ -1,32 +1,53 @@
 //! Which lines of a comparison changed most: the first to read.
 //!
-//! In: the lines. Out: those of headline and summary by their change, the largest first. A change is the largest
-//! difference from the first result over the larger of both values, or over what is worth telling in that unit where
-//! both are smaller: 10 nm beside 1 nm is no change. Of lines with one key or with the same values (a number of the
-//! headline stands below its path as well, and one quantity below every operation) the one that changed most is there.
+//! In: the lines, and the limits that the results hold their figures against. Out: those of headline and summary by
+//! their change, the largest first. A change is the largest difference from the first result over a scale: the figure's
+//! own limit (of its class of ISO 1328-1, or the drawing's), where it has one; else the larger of both values, or what
+//! is worth telling in that unit where both are smaller: 10 nm beside 1 nm is no change, and neither is what rounding
+//! leaves beside 0. Of lines with one key or with the same values (a number of the headline stands below its path as
+//! well, and one quantity below every operation) the one that changed most is there.
 
+use super::Compared;
 use super::lines::Line;
-use crate::findings::{Level, Quantity};
-use std::collections::HashSet;
+use crate::findings::{Datum, Level, Quantity};
+use crate::steps::inspection::INSPECTION;
+use std::collections::{HashMap, HashSet};
 
 /// Lines that are printed first.
 pub(super) const FIRST: usize = 10;
 
-/// A value of this unit that is worth telling: what a drawing or an inspection machine resolves.
+/// A value of this unit that is worth telling: what a drawing or an inspection machine resolves, and of units that are
+/// listed nowhere (counts, rates, angles in seconds of arc) one.
 fn worth_telling(unit: Option<&str>) -> f64 {
     match unit {
-        Some("um" | "%" | "N" | "s" | "deg") => 1.0,
-        Some("mm") => 1e-3,
-        Some("1") => 0.01,
-        _ => f64::MIN_POSITIVE,
+        Some("mm" | "mm^2" | "mm2" | "kN" | "um^3/um^2") => 1e-3,
+        Some("1" | "cm^3/min" | "deg/s") => 0.01,
+        _ => 1.0,
     }
+}
+
+/// Limits of figures by their symbols, um, as the first result that has one states them.
+pub(super) fn limits_um(results: &[Compared]) -> HashMap<String, f64> {
+    let mut limits_um = HashMap::new();
+    for one in results {
+        let Some(table) = one.findings.find(INSPECTION).and_then(|section| section.table_of("figures")) else {
+            continue;
+        };
+        let Some(symbols) = table.column("figure") else { continue };
+        for (row, limit_um) in table.rows.iter().zip(table.numbers("limit")) {
+            if let (Some(Datum::Word(symbol)), Some(limit_um)) = (row.get(symbols), limit_um.filter(|um| *um > 0.0)) {
+                limits_um.entry(symbol.clone()).or_insert(limit_um);
+            }
+        }
+    }
+    limits_um
 }
 
 /// The lines with their changes, the largest first; of equal ones as they stand. Lines that did not change are left
 /// out.
-pub(super) fn ranked(lines: &[Line]) -> Vec<(&Line, f64)> {
+pub(super) fn ranked<'a>(lines: &'a [Line], limits_um: &HashMap<String, f64>) -> Vec<(&'a Line, f64)> {
     let read = lines.iter().filter(|line| line.level <= Level::Summary);
-    let mut ranked: Vec<(&Line, f64)> = read.filter_map(|line| Some((line, change(line)?))).collect();
+    let mut ranked: Vec<(&Line, f64)> = read.filter_map(|line| Some((line, change(line, limits_um)?))).collect();
     ranked.sort_by(|a, b| b.1.total_cmp(&a.1));
     let (mut keys, mut values) = (HashSet::new(), HashSet::new());
     ranked.retain(|(line, _)| {
@@ -38,8 +59,14 @@ pub(super) fn ranked(lines: &[Line]) -> Vec<(&Line, f64)> {
 }
 
 /// Largest change among the results; none without one.
-fn change(line: &Line) -> Option<f64> {
-    let least = worth_telling(line.either().and_then(Quantity::unit));
-    let of = |[first, other]: [f64; 2]| (other - first).abs() / first.abs().max(other.abs()).max(least);
+fn change(line: &Line, limits_um: &HashMap<String, f64>) -> Option<f64> {
+    let unit = line.either().and_then(Quantity::unit);
+    // Figures of an inspection end with their symbols.
+    let symbol = line.title.rsplit(' ').next().unwrap_or_default();
+    let limit_um = limits_um.get(symbol).filter(|_| unit == Some("um"));
+    let scale = |[first, other]: [f64; 2]| {
+        limit_um.copied().unwrap_or_else(|| first.abs().max(other.abs()).max(worth_telling(unit)))
+    };
+    let of = |pair: [f64; 2]| (pair[1] - pair[0]).abs() / scale(pair);
     line.pairs().flatten().map(of).reduce(f64::max).filter(|&change| change > 0.0)
 }

@@ -6,7 +6,7 @@ use super::lines::Line;
 use super::{Comparison, letters};
 use crate::findings::{Datum, Quantity};
 use crate::output::table::write_table;
-use crate::output::text::significant;
+use crate::output::text::{Sheet, significant};
 use gearcut_core::Result;
 
 /// Longest words that stand in a column of the terminal, characters.
@@ -51,6 +51,52 @@ impl Comparison {
             row
         });
         [titles].into_iter().chain(rows).collect()
+    }
+}
+
+/// Blanks between columns of numbers below their names, and before the first of them.
+const STACKED_GAP: usize = 2;
+
+impl Comparison {
+    /// A table of lines, stacked where it is wider than a line.
+    pub(super) fn print_rows<'a>(
+        &self,
+        sheet: &mut Sheet,
+        width: Option<usize>,
+        lines: impl Iterator<Item = &'a Line>,
+    ) {
+        let rows = self.printed_rows(lines);
+        let mut table = Sheet::default();
+        table.table(&rows);
+        match width.filter(|&width| table.is_wider_than(width)) {
+            None => sheet.table(&rows),
+            Some(width) => self.print_stacked(sheet, width, &rows),
+        }
+    }
+
+    /// Each name with its unit above its numbers; the results are columns a, b, ..., and as many stand in a line as fit.
+    fn print_stacked(&self, sheet: &mut Sheet, width: usize, rows: &[Vec<String>]) {
+        let Some((titles, rows)) = rows.split_first() else { return };
+        let numbers = titles.len() - 2;
+        let results = self.results.len();
+        let heads: Vec<String> =
+            letters().map(String::from).take(results).chain(titles[1 + results..].to_vec()).collect();
+        let cells = rows.iter().flat_map(|row| &row[1..=numbers]).chain(&heads[..numbers]);
+        let widest = cells.map(|cell| cell.chars().count()).max().unwrap_or(0);
+        let in_line = ((width - 2) / (widest + STACKED_GAP)).max(1);
+        let lines = |cells: &[String]| -> Vec<String> {
+            let cell = |cell: &String| format!("{:STACKED_GAP$}{cell:>widest$}", "");
+            cells.chunks(in_line).map(|line| line.iter().map(cell).collect::<String>().trim_end().to_owned()).collect()
+        };
+        for (letter, one) in heads.iter().zip(&self.results) {
+            sheet.words(&format!("{letter}: {}", one.name));
+        }
+        lines(&heads[..numbers]).iter().for_each(|line| sheet.words(line));
+        for row in rows {
+            let unit = &row[1 + numbers];
+            sheet.words(&if unit.is_empty() { row[0].clone() } else { format!("{}, {unit}", row[0]) });
+            lines(&row[1..=numbers]).iter().for_each(|line| sheet.words(line));
+        }
     }
 }
 

@@ -58,6 +58,7 @@ pub fn texture_numbers(
     process::prepare(&loaded.scene)?.with_gear(&mut |gear| {
         let mut windows = texture::windows(gear)?;
         windows.retain(|window| flanks.contains(&(window.tooth, window.side)));
+        let windows = texture::sampled(gear, &windows)?;
         let textures = texture::measure(gear, &windows, choice.backend.as_ref(), &quiet, interrupt)?;
         interrupt.check()?;
         let section = texture::findings(gear, &textures);

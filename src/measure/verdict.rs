@@ -80,6 +80,24 @@ impl JudgedFigure {
     }
 }
 
+fn sizes(round: &RoundGear) -> ToleranceSizes {
+    ToleranceSizes {
+        teeth: round.teeth,
+        reference_diameter_mm: round.reference_diameter_mm(),
+        normal_module_mm: round.normal_module_mm,
+        face_width_mm: round.face_width_mm,
+        helix_angle_rad: round.helix_angle_rad,
+    }
+}
+
+/// Why ISO 1328-1 gives no classes to a gear with these sizes, none where it is not round; none where it does.
+pub fn no_class(round: Option<&RoundGear>) -> Option<String> {
+    match round.map(sizes) {
+        None => Some("the classes of ISO 1328-1 are for round gears whose flanks reach the pitch circle".to_owned()),
+        Some(sizes) => sizes.beyond(),
+    }
+}
+
 /// All figures of a gear.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GearVerdict {
@@ -97,19 +115,7 @@ impl GearVerdict {
         measure: &Measure,
         round: Option<&RoundGear>,
     ) -> Self {
-        let sizes = round.map(|round| ToleranceSizes {
-            teeth: round.teeth,
-            reference_diameter_mm: round.reference_diameter_mm(),
-            normal_module_mm: round.normal_module_mm,
-            face_width_mm: round.face_width_mm,
-            helix_angle_rad: round.helix_angle_rad,
-        });
-        let no_class = match &sizes {
-            None => {
-                Some("the classes of ISO 1328-1 are for round gears whose flanks reach the pitch circle".to_owned())
-            }
-            Some(sizes) => sizes.beyond(),
-        };
+        let sizes = round.map(sizes);
         let judged = |figure: InspectionFigure| {
             // Normal over transverse deviations.
             let normal = match round {
@@ -128,7 +134,7 @@ impl GearVerdict {
             });
             judged
         };
-        Self { figures: InspectionFigure::ALL.into_iter().map(judged).collect(), no_class }
+        Self { figures: InspectionFigure::ALL.into_iter().map(judged).collect(), no_class: no_class(round) }
     }
 
     /// One of them.

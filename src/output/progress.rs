@@ -18,6 +18,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
+use crate::wrap::{fitted, printable};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 use serde_json::json;
 
@@ -25,6 +26,8 @@ use serde_json::json;
 const TIME_LEFT_AFTER: Duration = Duration::from_secs(2);
 /// Between two plain lines: often enough to see that it lives, seldom enough for a log file.
 const LINE_EVERY: Duration = Duration::from_secs(5);
+/// Characters in a line of a terminal.
+const WIDTH: usize = 80;
 /// Between two JSON events: smooth for a program that draws its own bar.
 const EVENT_EVERY: Duration = Duration::from_millis(500);
 
@@ -145,7 +148,8 @@ impl Progress {
     pub fn note(&self, text: &str) {
         match self.mode {
             ProgressMode::Quiet => {}
-            ProgressMode::Bar | ProgressMode::Lines => self.line(text),
+            ProgressMode::Bar => self.line(&fitted(&printable(text), WIDTH)),
+            ProgressMode::Lines => self.line(&printable(text)),
             ProgressMode::Json => self.line(&json!({"event": "note", "text": text}).to_string()),
         }
     }
@@ -323,6 +327,29 @@ mod tests {
         without_plan.finish("note", 0.1);
         assert_eq!(nearly.taken, [("cut".to_owned(), 7.5), ("draw".to_owned(), 1.5)]);
         assert_eq!(left_words(Some(3.0), Some(9.6)), ", 3.0 s left, 10 s left in all");
+    }
+
+    #[test]
+    fn notes_fit_a_terminal_and_are_whole_in_a_log() {
+        struct Shared(Arc<Mutex<Vec<u8>>>);
+        impl Write for Shared {
+            fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+                locked(&self.0).write(bytes)
+            }
+            fn flush(&mut self) -> io::Result<()> {
+                Ok(())
+            }
+        }
+        let note = "mesh/gear.* and pictures of the whole gear are left out: what the linkage as printed leaves has no \
+                    flanks to join";
+        let told = |mode| {
+            let out = Arc::new(Mutex::new(Vec::new()));
+            Progress::to_writer(mode, Box::new(Shared(Arc::clone(&out)))).note(note);
+            String::from_utf8(locked(&out).clone()).expect("UTF-8")
+        };
+        let lines = told(ProgressMode::Bar);
+        assert!(lines.lines().count() == 2 && lines.lines().all(|line| line.chars().count() <= WIDTH), "{lines}");
+        assert_eq!(told(ProgressMode::Lines), format!("{note}\n"));
     }
 
     #[test]

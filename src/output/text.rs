@@ -10,8 +10,9 @@ use crate::wrap::wrapped;
 pub const VALUE_COLUMN: usize = 32;
 /// Characters of a line within which tables keep if they can.
 const LINE: usize = 80;
-/// Blanks between the columns of a table, and between those of one that would be too wide.
-const GAPS: [usize; 2] = [3, 2];
+/// Blanks between the columns of a table, and between those of one that would be too wide; where even one blank is too
+/// many, the columns keep apart.
+const GAPS: [usize; 3] = [3, 2, 1];
 
 /// Text that grows line by line.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
@@ -57,7 +58,7 @@ impl Sheet {
         let longest_word = |cell: &String| cell.split(' ').map(|word| word.chars().count()).max().unwrap_or(0);
         let widths: Vec<usize> =
             (0..columns).map(|column| width(body, column).max(head.get(column).map_or(0, longest_word))).collect();
-        let gap = if line(&widths, GAPS[0]) > LINE { GAPS[1] } else { GAPS[0] };
+        let gap = GAPS.into_iter().find(|&gap| line(&widths, gap) <= LINE).unwrap_or(GAPS[1]);
         let names: Vec<Vec<String>> = head.iter().zip(&widths).map(|(cell, &width)| wrapped(cell, width)).collect();
         let high = names.iter().map(Vec::len).max().unwrap_or(0);
         for k in 0..high {
@@ -78,6 +79,11 @@ impl Sheet {
                 if column == 0 { write!(line, " {cell:<width$}") } else { write!(line, "{:gap$}{cell:>width$}", "") };
         }
         let _ = writeln!(self.text, "{}", line.trim_end());
+    }
+
+    /// Whether one of its lines has more characters.
+    pub fn is_wider_than(&self, width: usize) -> bool {
+        self.text.lines().any(|line| line.chars().count() > width)
     }
 
     /// The text, ending with a newline.

@@ -7,7 +7,7 @@ use crate::findings::{Datum, Entry, Level, Quantity, Section, Table, TableColumn
 use crate::job::CylindricalGear;
 use crate::measure::inspection::{GearInspection, InspectedFlank};
 use crate::measure::round_gear::RoundGear;
-use crate::measure::verdict::{ClassReached, GearVerdict, JudgedFigure};
+use crate::measure::verdict::{ClassReached, GearVerdict, JudgedFigure, no_class};
 use crate::output::summary;
 use crate::output::text::{Sheet, significant};
 use crate::scene::model::Measure;
@@ -50,14 +50,20 @@ impl Inspected {
         self.round.as_ref().map(cut).into_iter().chain([figures(&self.verdict)])
     }
 
-    /// Figures beyond their limits, and limits that the standard does not give.
-    pub fn warnings(&self, measure: &Measure) -> Vec<Warning> {
-        let mut warnings: Vec<Warning> = self.verdict.failed().filter_map(beyond).collect();
-        if let (Some(class), Some(why)) = (measure.iso_1328_class, &self.verdict.no_class) {
-            warnings.push(Warning::warn(format!("class {class} is not judged: {why}; write [measure.limits]")));
-        }
-        warnings
+    /// Figures beyond their limits.
+    pub fn warnings(&self) -> impl Iterator<Item = Warning> {
+        self.verdict.failed().filter_map(beyond)
     }
+}
+
+/// A class that is asked for and that the standard does not give.
+///
+/// # Errors
+/// The tool generates no flank.
+pub fn not_judged(job: &dyn CylindricalGear) -> Result<Option<Warning>> {
+    let Some(class) = job.scene().measure.iso_1328_class else { return Ok(None) };
+    let why = no_class(job.round_gear()?.as_ref());
+    Ok(why.map(|why| Warning::warn(format!("class {class} is not judged: {why}; write [measure.limits]"))))
 }
 
 fn beyond(judged: &JudgedFigure) -> Option<Warning> {

@@ -11,6 +11,7 @@ pub mod check_curve;
 pub mod computer_speed;
 pub mod conclusion;
 pub mod cut_flanks;
+pub mod foreseen;
 pub mod gear_maps;
 pub mod gear_surfaces;
 pub mod inspection;

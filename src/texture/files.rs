@@ -23,10 +23,10 @@ const FRAME: &str = "x = along the tooth; y = arc length along the target profil
 pub const SURFACE_NOTE: &str = "surface";
 
 /// What of a window after an operation names its files and its section.
-type Named = (usize, u32, Side);
+pub(super) type Named = (usize, u32, Side);
 
 /// Folders inside the output with the stems of the names of files, of windows after operations in their order.
-fn stems_of(job: &dyn GearJob, named: &[Named]) -> Vec<String> {
+pub(super) fn stems_of(job: &dyn GearJob, named: &[Named]) -> Vec<String> {
     let operations = job.operations();
     let stem = |(i, (operation, tooth, side)): (usize, &Named)| {
         let index = named[..i].iter().filter(|other| **other == named[i]).count();
@@ -54,6 +54,18 @@ pub struct NamedWindow {
     pub words: String,
 }
 
+/// Windows, each with something of theirs, after those of so many operations that they show.
+pub(super) fn shown<'a, T: Copy + 'a>(
+    windows: impl Iterator<Item = (&'a Window, T)>,
+    operations: usize,
+) -> Vec<(Named, T)> {
+    let of = |(window, with): (&'a Window, T)| {
+        let first = shown_from(window, operations);
+        (first..operations).map(move |operation| ((operation, window.tooth, window.side), with))
+    };
+    windows.flat_map(of).collect()
+}
+
 /// All windows after all operations that they show, nothing cut.
 ///
 /// # Errors
@@ -61,13 +73,7 @@ pub struct NamedWindow {
 pub fn named_windows(job: &dyn GearJob) -> Result<Vec<NamedWindow>> {
     let count = job.operations().len();
     let windows = windows(job)?;
-    let shown: Vec<(Named, &Window)> = windows
-        .iter()
-        .flat_map(|window| {
-            let first = shown_from(window, count);
-            (first..count).map(move |operation| ((operation, window.tooth, window.side), window))
-        })
-        .collect();
+    let shown = shown(windows.iter().map(|window| (window, window)), count);
     let stems = stems_of(job, &shown.iter().map(|(named, _)| *named).collect::<Vec<_>>());
     let named = shown.into_iter().zip(stems).map(|((named, window), stem)| NamedWindow {
         window: window.clone(),

@@ -1,7 +1,7 @@
 //! Texture of windows as findings: a section for each operation, in it one for each window.
 
-use super::files::stems;
-use super::{WindowNote, WindowTexture, chart};
+use super::files::{shown, stems, stems_of};
+use super::{SampledWindow, Window, WindowNote, WindowTexture, chart};
 use crate::findings::{Datum, Quantity, Section, Table, TableColumn, Warning};
 use crate::job::GearJob;
 use crate::measure::topography::{Evaluation, Parameter};
@@ -34,30 +34,57 @@ pub fn findings(job: &dyn GearJob, textures: &[WindowTexture]) -> Section {
     Section::new("texture", "Surface texture (ISO 25178-2)").parts(parts)
 }
 
-/// What a reader must know before trusting the numbers of windows: a sentence for all windows of an operation that it
-/// is true of, about the window's section where it is one.
+/// What a reader must know before trusting the numbers of windows and their cut tells: a sentence for all windows of an
+/// operation that it is true of, about the window's section where it is one.
 pub fn warnings(job: &dyn GearJob, textures: &[WindowTexture]) -> Vec<Warning> {
-    let (stems, operations) = (stems(job, textures), job.operations());
-    let noted =
-        textures.iter().zip(&stems).flat_map(|window| window.0.notes().into_iter().map(move |note| (window, note)));
-    let mut groups: Vec<Vec<((&WindowTexture, &String), WindowNote)>> = Vec::new();
-    for (window, note) in noted {
-        let alike = |group: &&mut Vec<((&WindowTexture, &String), WindowNote)>| {
-            group[0].0.0.operation == window.0.operation && group[0].1.is_like(&note)
+    let stems = stems(job, textures);
+    let noted = textures.iter().zip(&stems).flat_map(|(texture, stem)| {
+        let of = WindowAfter { window: &texture.window, operation: texture.operation, stem };
+        texture.notes().into_iter().map(move |note| (of, note))
+    });
+    told(job, noted)
+}
+
+/// The same as far as marks tell it, which are known before anything is cut.
+pub fn foreseen(job: &dyn GearJob, windows: &[SampledWindow]) -> Vec<Warning> {
+    let count = job.operations().len();
+    let shown = shown(windows.iter().map(|sampled| (&sampled.window, sampled)), count);
+    let stems = stems_of(job, &shown.iter().map(|(named, _)| *named).collect::<Vec<_>>());
+    let noted = shown.iter().zip(&stems).flat_map(|(((operation, ..), sampled), stem)| {
+        let of = WindowAfter { window: &sampled.window, operation: *operation, stem };
+        sampled.marks[*operation].notes().into_iter().map(move |note| (of, note))
+    });
+    told(job, noted)
+}
+
+/// A window after an operation.
+#[derive(Clone, Copy)]
+struct WindowAfter<'a> {
+    window: &'a Window,
+    operation: usize,
+    stem: &'a str,
+}
+
+/// Notes as warnings, those of one operation that are alike together.
+fn told<'a>(job: &dyn GearJob, noted: impl Iterator<Item = (WindowAfter<'a>, WindowNote)>) -> Vec<Warning> {
+    let mut groups: Vec<Vec<(WindowAfter, WindowNote)>> = Vec::new();
+    for (of, note) in noted {
+        let alike = |group: &&mut Vec<(WindowAfter, WindowNote)>| {
+            group[0].0.operation == of.operation && group[0].1.is_like(&note)
         };
         match groups.iter_mut().find(alike) {
-            Some(group) => group.push((window, note)),
-            None => groups.push(vec![(window, note)]),
+            Some(group) => group.push((of, note)),
+            None => groups.push(vec![(of, note)]),
         }
     }
-    let told = |group: Vec<((&WindowTexture, &String), WindowNote)>| {
-        let operation = operations[group[0].0.0.operation].0;
+    let operations = job.operations();
+    let told = |group: Vec<(WindowAfter, WindowNote)>| {
+        let operation = operations[group[0].0.operation].0;
         let text = WindowNote::text(&group.iter().map(|(_, note)| note).collect::<Vec<_>>());
-        let names =
-            group.iter().map(|((texture, _), _)| format!("{} {}", texture.window.tooth, texture.window.side.name()));
+        let names = group.iter().map(|(of, _)| format!("{} {}", of.window.tooth, of.window.side.name()));
         let names = names.collect::<Vec<_>>().join(", ");
         let section = match group.as_slice() {
-            [((_, stem), _)] => format!("texture.{operation}.{}", key_of(stem)),
+            [(of, _)] => format!("texture.{operation}.{}", key_of(of.stem)),
             _ => format!("texture.{operation}"),
         };
         let severity = group[0].1.severity();

@@ -1,22 +1,24 @@
-//! How finely a window is sampled whose scene leaves that open.
+//! How finely a window is sampled whose scene leaves that open, and what its marks then are.
 //!
-//! In: a window at the spacing of the flank's own dexels, cut. Out: one with more points in a direction in which marks
-//! follow each other with fewer than [`ENOUGH_POINTS`] points each, or none where they have enough. Law: the points of
-//! marks are counted on two lines through the middle of the window, one along the profile and one along the tooth; the
-//! step shrinks by what is missing and the line is cut anew, until it is enough.
+//! In: a window at the spacing of the flank's own dexels, nothing cut. Out: a [`SampledWindow`]: the same with more
+//! points in a direction in which marks follow each other with fewer than [`ENOUGH_POINTS`] points each, and the marks
+//! and points that are counted in it. Law: marks are counted on two lines through the middle of the window, one along
+//! the profile and one along the tooth, cut natively whatever the backend; the step shrinks by what is missing and the
+//! line is cut anew, until it is enough. Two lines take milliseconds, so that what they say of a window's numbers is
+//! known before anything else is cut ([`super::foreseen`]).
 //!
 //! A window that would then have too many points, or points much finer than the flank's dexels (a draft, coarse by
-//! intention), stays as it is, and a note tells what its slopes are worth ([`super::WindowTexture::notes`]).
+//! intention), stays as it is, and a note tells what its slopes are worth.
 //!
 //! Road not taken: the length of marks from feed and curvature. Every process has its own law for it, and where passes
 //! of several teeth cross, none in closed form.
 
 use super::window::Window;
-use super::{ENOUGH_POINTS, facets, middle_line, shown_from};
+use super::{ENOUGH_POINTS, shown_from};
 use crate::job::GearJob;
-use gearcut_core::cut::Backend;
-use gearcut_core::dexel::Layer;
+use gearcut_core::cut::cpu::Cpu;
 use gearcut_core::error::Result;
+use rayon::prelude::*;
 
 /// Points of a window that was made finer: some 50 MB while it is evaluated, on every core.
 const MOST_POINTS: usize = 500_000;
@@ -28,57 +30,94 @@ const ROOM: f64 = 1.1;
 /// Times that marks are counted: where they are shorter than points are apart, the first count is too high.
 const ATTEMPTS: usize = 3;
 
-/// A finer window than the one that left these layers, if it needs one.
-///
-/// # Errors
-/// Geometry and the backend.
-pub(super) fn finer(
-    job: &dyn GearJob,
-    backend: &dyn Backend,
-    window: &Window,
-    layers: &[Layer],
-) -> Result<Option<Window>> {
-    let mut sampled = None;
-    for direction in [0, 1] {
-        if !window.open_step[direction] {
-            continue;
-        }
-        let finest_mm = window.spacing_mm()[direction] / MOST_TIMES_FINER;
-        let mut finer = sampled.as_ref().unwrap_or(window).clone();
-        for attempt in 0..ATTEMPTS {
-            let as_cut = attempt == 0 && sampled.is_none();
-            let lines: Vec<Vec<u32>> = if as_cut {
-                layers.iter().map(|layer| middle_line(layer, finer.count, direction)).collect()
-            } else {
-                cut_lines(job, backend, &finer, direction)?
-            };
-            let points = fewest_points(job, &finer, direction, &lines);
-            let Some(points) = points else { break };
-            if points >= ENOUGH_POINTS {
-                if !as_cut {
-                    sampled = Some(finer);
-                }
-                break;
-            }
-            let step_mm = finer.spacing_mm()[direction] * points / (ROOM * ENOUGH_POINTS);
-            finer = finer.with_step(direction, step_mm);
-            if step_mm < finest_mm || finer.count[0] * finer.count[1] > MOST_POINTS {
-                break;
-            }
-        }
-    }
-    Ok(sampled)
+/// Marks of one operation on the middle lines of a window.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct LineMarks {
+    /// Marks that follow each other along the tooth and along the profile; 0 along the tooth where they run along it
+    /// without end.
+    pub(super) count: [usize; 2],
+    /// Points of a whole mark; none where there is no whole one.
+    pub(super) points: [Option<f64>; 2],
 }
 
-/// Passes along the middle line of a window, cut alone.
-fn cut_lines(job: &dyn GearJob, backend: &dyn Backend, window: &Window, direction: usize) -> Result<Vec<Vec<u32>>> {
+/// A window with its points as they are cut, and what is known of its marks.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SampledWindow {
+    /// The window.
+    pub window: Window,
+    /// Of every operation.
+    pub(super) marks: Vec<LineMarks>,
+}
+
+/// Windows of a job, as from [`super::windows()`], sampled as finely as their marks ask for.
+///
+/// # Errors
+/// Geometry.
+pub fn sampled(job: &dyn GearJob, windows: &[Window]) -> Result<Vec<SampledWindow>> {
+    windows.par_iter().map(|window| sampled_one(job, window)).collect()
+}
+
+/// The same for one window.
+///
+/// # Errors
+/// Geometry.
+pub(super) fn sampled_one(job: &dyn GearJob, window: &Window) -> Result<SampledWindow> {
+    let operations = job.operations().len();
+    let follow = (0..operations).any(|operation| job.marks_follow_along_tooth(operation));
+    let cut_both = |window: &Window| {
+        let along_tooth = if follow { line(job, window, 0)? } else { vec![Vec::new(); operations] };
+        Ok::<_, gearcut_core::Error>([along_tooth, line(job, window, 1)?])
+    };
+    let mut found = window.clone();
+    let mut lines = cut_both(&found)?;
+    for direction in [0, 1] {
+        if window.open_step[direction]
+            && let Some(finer) = finer(job, &found, direction, &lines[direction])?
+        {
+            lines = cut_both(&finer)?;
+            found = finer;
+        }
+    }
+    let [along_tooth, along_profile] = lines;
+    let marks = along_tooth.iter().zip(&along_profile).enumerate().map(|(operation, (tooth, profile))| {
+        let tooth = if job.marks_follow_along_tooth(operation) { facets(tooth) } else { (0, None) };
+        let profile = facets(profile);
+        LineMarks { count: [tooth.0, profile.0], points: [tooth.1, profile.1] }
+    });
+    let marks = marks.collect();
+    Ok(SampledWindow { window: found, marks })
+}
+
+/// A window with points closer together in a direction, if its marks need that and may have it; `passes` are those of
+/// all operations along the window's line.
+fn finer(job: &dyn GearJob, window: &Window, direction: usize, passes: &[Vec<u32>]) -> Result<Option<Window>> {
+    let finest_mm = window.spacing_mm()[direction] / MOST_TIMES_FINER;
+    let mut finer = window.clone();
+    let mut points = fewest_points(job, window, direction, passes);
+    for attempt in 0..ATTEMPTS {
+        let Some(few) = points else { break };
+        if few >= ENOUGH_POINTS {
+            return Ok((attempt > 0).then_some(finer));
+        }
+        let step_mm = finer.spacing_mm()[direction] * few / (ROOM * ENOUGH_POINTS);
+        finer = finer.with_step(direction, step_mm);
+        if attempt + 1 == ATTEMPTS || step_mm < finest_mm || finer.count[0] * finer.count[1] > MOST_POINTS {
+            break;
+        }
+        points = fewest_points(job, &finer, direction, &line(job, &finer, direction)?);
+    }
+    Ok(None)
+}
+
+/// Passes of every operation along the middle line of a window: the line along the tooth (0) or along the profile (1).
+fn line(job: &dyn GearJob, window: &Window, direction: usize) -> Result<Vec<Vec<u32>>> {
     let (mut arcs_mm, mut rows_z_mm): (Vec<f64>, Vec<f64>) = (window.arcs_mm().collect(), window.rows_z_mm());
     if direction == 0 {
         arcs_mm = vec![arcs_mm[arcs_mm.len() / 2]];
     } else {
         rows_z_mm = vec![rows_z_mm[rows_z_mm.len() / 2]];
     }
-    let layers = job.cut_flank(backend, window.tooth, window.side, &arcs_mm, &rows_z_mm)?;
+    let layers = job.cut_flank(&Cpu::default(), window.tooth, window.side, &arcs_mm, &rows_z_mm)?;
     Ok(layers.into_iter().map(|layer| layer.passes).collect())
 }
 
@@ -88,4 +127,28 @@ fn fewest_points(job: &dyn GearJob, window: &Window, direction: usize, lines: &[
     let shown = lines.iter().enumerate().skip(shown_from(window, lines.len()));
     let points = shown.filter(|(operation, _)| direction == 1 || job.marks_follow_along_tooth(*operation));
     points.filter_map(|(_, passes)| facets(passes).1).reduce(f64::min)
+}
+
+/// Facets along a line, one more than the changes of the pass that left it, and the points of a whole one: parts of
+/// marks at both ends are not counted.
+fn facets(passes: &[u32]) -> (usize, Option<f64>) {
+    let edges: Vec<usize> = (1..passes.len()).filter(|&i| passes[i] != passes[i - 1]).collect();
+    let points = match edges.as_slice() {
+        [first, .., last] => Some((last - first) as f64 / (edges.len() - 1) as f64),
+        _ => None,
+    };
+    (edges.len() + 1, points)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::facets;
+
+    #[test]
+    fn points_are_those_of_whole_marks() {
+        assert_eq!(facets(&[7, 7, 7]), (1, None));
+        assert_eq!(facets(&[7, 8, 8]), (2, None));
+        // Half a mark, marks of 4 and 2 points, half a mark: 3 points each, not 10 over 4.
+        assert_eq!(facets(&[1, 1, 2, 2, 2, 2, 3, 3, 4, 4]), (4, Some(3.0)));
+    }
 }

@@ -9,6 +9,7 @@ use crate::output::text::{Sheet, plain, significant};
 use crate::steps::axes;
 use crate::steps::check_cost::{BYTES_PER_DEXEL, TimeCost};
 use crate::steps::computer_speed::ComputerSpeed;
+use crate::steps::foreseen::{OF_WINDOWS, print_unknown};
 use crate::steps::stages;
 use gearcut_core::cut::Backend as _;
 use gearcut_core::cut::cpu::Cpu;
@@ -41,7 +42,9 @@ pub fn print(sheet: &mut Sheet, job: &BevelJob) -> Result<Vec<Warning>> {
         axes::print(operation, sheet);
     }
     print_cost(sheet, job)?;
-    findings::known_before(job, &operations)
+    let kinds = ["parts of flanks that the roll does not cover", OF_WINDOWS];
+    print_unknown(sheet, &kinds);
+    Ok(findings::foresee(job, &operations)?.warnings)
 }
 
 /// The gear in a line.

@@ -4,7 +4,7 @@ mod tables;
 pub mod whole;
 
 use super::axes_report::{BevelAxesReport, idle_share};
-use super::blank::CutCells;
+use super::blank::{CellGrid, CutCells};
 use super::chips::SlotLedger;
 use super::gear::BevelGear;
 use super::job::BevelJob;
@@ -15,6 +15,7 @@ use crate::findings::{Datum, Entry, Findings, Place, Quantity, Section, Table, T
 use crate::machine_errors::ErrorLayer;
 use crate::output::text::significant;
 use crate::steps::axes::{self, AxesOfOperation as _};
+use crate::steps::foreseen::Foreseen;
 use crate::steps::machine_errors::{self, size, tool_words};
 use crate::texture::{self, WindowTexture};
 use gearcut_core::bevel::ease_off::{Explained, Setting};
@@ -30,6 +31,8 @@ const TRACE: &str = "a dexel of the trace was reached by no pass";
 pub struct BevelMeasured<'a> {
     /// The six-axis machine, operation by operation.
     pub motion: &'a [BevelAxesReport<'a>],
+    /// Warnings that were known before the cut.
+    pub foreseen: &'a [Warning],
     /// Texture windows.
     pub textures: &'a [WindowTexture],
     /// The whole gear and the chips of a slot; nothing where the run was stopped before.
@@ -41,14 +44,14 @@ pub struct BevelMeasured<'a> {
 /// # Errors
 /// Flanks without a middle.
 pub fn findings(job: &BevelJob, gear: &BevelGear, measured: &BevelMeasured) -> Result<Findings> {
-    let BevelMeasured { motion, textures, whole } = *measured;
+    let BevelMeasured { motion, foreseen, textures, whole } = *measured;
     let work = &gear.work;
     let candidates = Quantity::number(
         work.stats.dexel_passes as f64 / work.dexels.max(1) as f64,
         "passes",
         "passes visited per dexel and operation; two or three touch it",
     );
-    let mut warnings = known_before(job, motion)?;
+    let mut warnings = foreseen.to_vec();
     let untouched = gear.flanks.iter().map(|flank| flank.untouched).sum();
     warnings.extend(work.warnings(untouched, "the roll does not cover the whole flanks"));
     warnings.extend(texture::warnings(job, textures));
@@ -79,14 +82,17 @@ pub fn findings(job: &BevelJob, gear: &BevelGear, measured: &BevelMeasured) -> R
 }
 
 /// What is known before anything is cut: keys that contradict each other, a head that hits the next tooth, undercut,
-/// and what the axes say.
+/// what the axes say, and where texture is looked at.
 ///
 /// # Errors
-/// A place that the roll does not generate.
-pub fn known_before(job: &BevelJob, motion: &[BevelAxesReport]) -> Result<Vec<Warning>> {
+/// A place that the roll does not generate, a window that lies on no flank, too many rays through the blank.
+pub fn foresee(job: &BevelJob, motion: &[BevelAxesReport]) -> Result<Foreseen> {
+    CellGrid::of_scene(job)?;
+    let windows = texture::windows(job)?;
     let hit = job.next_tooth_warning()?.map(Warning::fault);
     let off = job.contradictions().into_iter().chain(job.undercut_warning()?).map(Warning::warn);
-    Ok(ranked(hit.into_iter().chain(off).chain(axes::warnings(motion))))
+    let own = hit.into_iter().chain(off).chain(axes::warnings(motion)).collect();
+    Foreseen::new(job, &windows, own, true)
 }
 
 fn headline(job: &BevelJob, gear: &BevelGear, motion: &[BevelAxesReport]) -> Vec<Entry> {

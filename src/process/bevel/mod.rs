@@ -60,6 +60,6 @@ impl super::ProcessJob for BevelJob {
 
     fn axes(&self, folder: &OutputFolder, interrupt: &Interrupt, sheet: &mut Sheet) -> Result<Vec<Warning>> {
         let motion = BevelAxesReport::of_job(self);
-        axes::command(&motion, findings::known_before(self, &motion)?, folder, interrupt, sheet)
+        axes::command(&motion, findings::foresee(self, &motion)?.warnings, folder, interrupt, sheet)
     }
 }

@@ -2,7 +2,6 @@
 //! written about the gear.
 
 use super::axes_report::BevelAxesReport;
-use super::blank::CellGrid;
 use super::drawing::{self, Drawn};
 use super::findings::{self, BevelMeasured};
 use super::gear::cut_gear;
@@ -29,12 +28,11 @@ pub(super) fn run(job: &BevelJob, tools: &Tools) -> Result<CutDone> {
     let Tools { resolved, backend, backend_why, progress, interrupt, folder, parts, notes } = *tools;
     let costs = stages::Costs { before: &[], flank_s: 0.4, root_s: 0.0, blank_s: 0.05 };
     progress.plan(stages::plan(job, parts, None, &costs));
-    // A window that lies on no flank, or too many rays through the blank, are refused before the first cut.
-    CellGrid::of_scene(job)?;
-    let windows = texture::windows(job)?;
+    let motion = BevelAxesReport::of_job(job);
+    let foreseen = findings::foresee(job, &motion)?;
     let gear = cut_gear(job, backend, progress, interrupt, Some((folder, notes, parts)))?;
     let mut attempts = Attempts::new(progress);
-    let textures = texture::measure(job, &windows, backend, progress, interrupt);
+    let textures = texture::measure(job, &foreseen.windows, backend, progress, interrupt);
     let textures = attempts.of("texture", textures)?.unwrap_or_default();
     let mut work = gear.work;
     let whole = if work.interrupted { None } else { blank::cut(job, backend, progress, interrupt)? };
@@ -44,8 +42,12 @@ pub(super) fn run(job: &BevelJob, tools: &Tools) -> Result<CutDone> {
         None => None,
     };
     work.interrupted |= ledger.is_none();
-    let motion = BevelAxesReport::of_job(job);
-    let measured = BevelMeasured { motion: &motion, textures: &textures, whole: whole.as_ref().zip(ledger.as_ref()) };
+    let measured = BevelMeasured {
+        foreseen: &foreseen.warnings,
+        motion: &motion,
+        textures: &textures,
+        whole: whole.as_ref().zip(ledger.as_ref()),
+    };
     let mut found = findings::findings(job, &gear, &measured)?;
     let charts = ledger.as_ref().map_or_else(Default::default, |ledger| findings::whole::charts(job, ledger));
     if parts.has(Part::Chips) {

@@ -6,7 +6,7 @@ use crate::findings::Warning;
 use crate::output::text::{Sheet, plain};
 use crate::process::hobbing::axes_report::HobbingAxesReport;
 use crate::process::hobbing::warnings::greatest_common_divisor;
-use crate::process::hobbing::{HobCutter, HobbingJob, warnings};
+use crate::process::hobbing::{HobCutter, HobbingJob, foreseen};
 use crate::steps::axes;
 use crate::steps::check_curve::{self, gear_words};
 use crate::steps::flanks_of;
@@ -32,7 +32,8 @@ pub fn print(sheet: &mut Sheet, job: &HobbingJob) -> Result<Vec<Warning>> {
         axes::print(operation, sheet);
     }
     cost::print(sheet, &cutter)?;
-    warnings::before(&cutter, &operations)
+    foreseen::print(sheet);
+    Ok(foreseen::foresee(&cutter, &operations)?.warnings)
 }
 
 fn print_hob(sheet: &mut Sheet, job: &HobbingJob) {

@@ -6,6 +6,7 @@ pub mod blank;
 pub mod check;
 pub mod cutter;
 pub mod flank_patch;
+pub mod foreseen;
 pub mod gcode;
 pub mod gear;
 pub mod hob;
@@ -58,7 +59,7 @@ impl super::ProcessJob for HobbingJob {
 
     fn axes(&self, folder: &OutputFolder, interrupt: &Interrupt, sheet: &mut Sheet) -> Result<Vec<Warning>> {
         let motion = HobbingAxesReport::of_job(self);
-        let warnings = warnings::before(&HobCutter::new(self)?, &motion)?;
-        axes::command(&motion, warnings, folder, interrupt, sheet)
+        let foreseen = foreseen::foresee(&HobCutter::new(self)?, &motion)?;
+        axes::command(&motion, foreseen.warnings, folder, interrupt, sheet)
     }
 }

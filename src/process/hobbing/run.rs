@@ -8,6 +8,7 @@ pub mod load;
 mod marks;
 mod points;
 
+use super::foreseen::foresee;
 use super::gear::cut_gear;
 use super::report;
 use crate::findings::Findings;
@@ -38,23 +39,23 @@ pub(super) fn run(job: &HobbingJob, tools: &Tools) -> Result<CutDone> {
         None,
         &stages::Costs { before: &[("marks", 0.03)], flank_s: 0.6, root_s: 0.02, blank_s: 0.15 },
     ));
-    // A window that lies on no flank, or too large a blank field, is refused before the first cut.
-    job.blank_grid()?;
-    let windows = texture::windows(&cutter)?;
+    let motion = HobbingAxesReport::of_job(job);
+    let foreseen = foresee(&cutter, &motion)?;
+    let windows = &foreseen.windows;
     let mut gear = cut_gear(&cutter, backend, progress, interrupt, Some((folder, notes, parts)))?;
     let mut attempts = Attempts::new(progress);
-    let textures = texture::measure(&cutter, &windows, backend, progress, interrupt);
+    let textures = texture::measure(&cutter, windows, backend, progress, interrupt);
     let textures = attempts.of("texture", textures)?.unwrap_or_default();
-    let lattices = attempts.of("lattice of marks", marks::measure(&cutter, &windows, tools))?.unwrap_or_default();
+    let lattices = attempts.of("lattice of marks", marks::measure(&cutter, windows, tools))?.unwrap_or_default();
     let whole = if gear.work.interrupted { None } else { blank::cut(&cutter, backend, progress, interrupt)? };
     gear.work.interrupted |= whole.is_none();
     let loads = whole.as_ref().map_or_else(Vec::new, |whole| load::measure(&cutter, &whole.blank));
     let forces = whole.as_ref().map_or_else(Vec::new, |whole| force::measure(&cutter, &whole.blank));
-    let motion = HobbingAxesReport::of_job(job);
     let inspected = Inspected::new(&cutter, &gear.flanks, &gear.inspection)?;
     let measured = findings::Measured {
         inspected: &inspected,
         motion: &motion,
+        foreseen: &foreseen.warnings,
         textures: &textures,
         lattices: &lattices,
         whole: whole.as_ref().map(|whole| (whole, loads.as_slice(), forces.as_slice())),

@@ -40,6 +40,7 @@ pub fn before(cutter: &HobCutter, motion: &[HobbingAxesReport]) -> Result<Vec<Wa
              target and as gouges",
         ));
     }
+    warnings.extend(unreached(cutter)?);
     warnings.extend(axes::warnings(motion));
     Ok(ranked(warnings))
 }
@@ -134,21 +135,25 @@ fn undercut(cutter: &HobCutter) -> Result<Option<String>> {
     }))
 }
 
+/// Flanks that do not reach an end that the scene names.
+fn unreached(cutter: &HobCutter) -> Result<Option<Warning>> {
+    let named = cutter.job.scene.measure.heights_mm();
+    let of = |(tooth, side)| {
+        let ends_mm = cutter.measured_ends_mm(cutter.target(tooth, side)?);
+        Ok(named.iter().zip(ends_mm).any(|(named, end)| named.is_some() && end.is_none()))
+    };
+    let flanks: Vec<bool> = flanks_of(cutter).into_par_iter().map(of).collect::<Result<_>>()?;
+    let count = flanks.into_iter().filter(|&is_unreached| is_unreached).count();
+    Ok((count > 0).then(|| {
+        Warning::note(format!(
+            "{count} flanks do not reach an end of [measure]: there 5 % of the profile are left out instead"
+        ))
+    }))
+}
+
 fn of_flanks(cutter: &HobCutter, gear: &HobbedGear) -> Vec<Warning> {
     let job = cutter.job;
     let mut warnings = Vec::new();
-    let unreached = gear.flanks.iter().filter(|flank| {
-        let target = cutter.target(flank.tooth, flank.side).ok();
-        let ends_mm = target.map(|target| cutter.measured_ends_mm(target));
-        let named = job.scene.measure.heights_mm();
-        ends_mm.is_some_and(|ends_mm| named.iter().zip(ends_mm).any(|(named, end)| named.is_some() && end.is_none()))
-    });
-    let unreached = unreached.count();
-    if unreached > 0 {
-        warnings.push(Warning::note(format!(
-            "{unreached} flanks do not reach an end of [measure]: there 5 % of the profile are left out instead"
-        )));
-    }
     let reach_mm = RAY_DEPTH_MODULES * job.scene.gear.module_mm;
     let lowest_mm = gear.flanks.iter().filter_map(|f| f.own.finished).map(|h| h.lowest_mm).fold(0.0, f64::min);
     if lowest_mm < -0.999 * reach_mm {

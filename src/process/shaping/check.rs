@@ -11,7 +11,7 @@ use crate::output::text::Sheet;
 use crate::process::shaping::ShapingJob;
 use crate::process::shaping::axes_report::OperationAxes;
 use crate::process::shaping::tooth_facts::ToothFacts;
-use crate::process::shaping::{findings, warnings};
+use crate::process::shaping::{findings, foreseen};
 use crate::steps::axes;
 use crate::steps::check_curve::{self, gear_words};
 use crate::steps::inspection;
@@ -38,5 +38,6 @@ pub fn print(sheet: &mut Sheet, job: &ShapingJob) -> Result<Vec<Warning>> {
     }
     returns::print(sheet, job)?;
     cost::print(sheet, job, &facts)?;
-    warnings::before(job, &operations, ring.as_ref())
+    foreseen::print(sheet, job);
+    Ok(foreseen::foresee(job, &operations)?.warnings)
 }

@@ -247,6 +247,11 @@ impl ShapingJob {
         job
     }
 
+    /// Whether the strokes stand where they cut: a machine that yields displaces them.
+    pub fn is_as_cut(&self) -> bool {
+        self.machine.compliance.is_none() || self.operations.iter().any(|operation| !operation.deflections.is_empty())
+    }
+
     /// Where the gear axis sits off the work spindle in the middle of the face, mm.
     pub(crate) fn eccentricity_mm(&self) -> DVec2 {
         self.machine.errors.mounting.axis_mm(0.0)

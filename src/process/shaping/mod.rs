@@ -13,6 +13,7 @@ pub mod edge_polygon;
 pub mod edge_roughness;
 mod edge_rounding;
 pub mod findings;
+pub mod foreseen;
 pub mod gcode;
 pub mod gear;
 pub mod generation;

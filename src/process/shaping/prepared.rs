@@ -5,8 +5,9 @@
 
 use super::axes_report::OperationAxes;
 use super::chips::deflections;
+use super::foreseen::foresee;
 use super::section::CutSection;
-use super::{ShapingJob, check, findings, run, warnings};
+use super::{ShapingJob, check, run};
 use crate::findings::Warning;
 use crate::interrupt::Interrupt;
 use crate::job::GearJob;
@@ -68,8 +69,7 @@ impl ProcessJob for PreparedShaping {
 
     fn axes(&self, folder: &OutputFolder, interrupt: &Interrupt, sheet: &mut Sheet) -> Result<Vec<Warning>> {
         let motion = OperationAxes::of_job(&self.rigid);
-        let ring = findings::ring::of_job(&self.rigid);
-        let warnings = warnings::before(&self.rigid, &motion, ring.as_ref())?;
-        axes::command(&motion, warnings, folder, interrupt, sheet)
+        let foreseen = foresee(&self.rigid, &motion)?;
+        axes::command(&motion, foreseen.warnings, folder, interrupt, sheet)
     }
 }

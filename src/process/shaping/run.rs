@@ -6,6 +6,7 @@ mod chip_files;
 mod files;
 mod frames;
 
+use super::foreseen::foresee;
 use super::gear::cut_gear;
 use super::{findings, report, warnings};
 use crate::findings::Findings;
@@ -35,34 +36,28 @@ pub(super) fn run(job: &ShapingJob, tools: &Tools, frames: Option<u32>) -> Resul
         frames,
         &stages::Costs { before: &[("chips", 0.09)], flank_s: 0.05, root_s: 0.0, blank_s: 0.06 },
     ));
-    // A window that lies on no flank, too large a blank field or back-off is refused before the first cut.
-    let windows = texture::windows(job)?;
-    job.planar().blank_grid()?;
-    for operation in 0..job.operations.len() {
-        job.return_facts(operation)?;
-    }
+    let motion = OperationAxes::of_job(job);
+    let foreseen = foresee(job, &motion)?;
     let mut gear = cut_gear(job, backend, progress, interrupt, Some((folder, notes, parts)))?;
     if gear.report.flanks.is_empty() {
         return Err(Error::Interrupted);
     }
     let mut attempts = Attempts::new(progress);
-    let textures = texture::measure(job, &windows, backend, progress, interrupt);
+    let textures = texture::measure(job, &foreseen.windows, backend, progress, interrupt);
     let textures = attempts.of("texture", textures)?.unwrap_or_default();
     let blank = if gear.work.interrupted { Ok(None) } else { blank::cut(job, backend, progress, interrupt) };
     let blank = attempts.of("whole blank", blank)?;
     let mut interrupted = matches!(blank, Some(None));
     let whole = blank.flatten();
-    let motion = OperationAxes::of_job(job);
     let mut sections = findings::sections(job, &gear.report, &gear.chips, &motion)?;
     let inspected = Inspected::new(job, &gear.report.flanks, &gear.report.inspection)?;
     sections.extend(inspected.sections(&job.scene.measure));
     sections.extend(whole.as_ref().map(|(cut, report)| blank_findings::findings(&job.planar(), cut, report)));
     sections.push(texture::findings(job, &textures));
-    let ring = sections.iter().find(|section| section.key == findings::ring::KEY);
-    let mut list = warnings::before(job, &motion, ring)?;
+    let mut list = foreseen.warnings;
     let blank_report = whole.as_ref().map(|(_, report)| report);
     list.extend(warnings::after(job, &gear.report, &gear.chips, &gear.work, blank_report));
-    list.extend(inspected.warnings(&job.scene.measure));
+    list.extend(inspected.warnings());
     list.extend(texture::warnings(job, &textures));
     let mut found = Findings {
         program_version: env!("CARGO_PKG_VERSION").to_owned(),

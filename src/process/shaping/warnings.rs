@@ -4,7 +4,7 @@
 //! `results.json` and programs show ([`crate::findings::warning`]). Sentences that only one subject can make stand with
 //! it (teeth, ring, return strokes, axes); here they come together with their severity.
 
-use super::chips::ChipLedger;
+use super::chips::{ChipLedger, OperationChips, StrokeChips, entries};
 use super::findings::{program, returns, ring};
 use super::measure::below_finished::below_finished;
 use super::measure::{FlankReport, GearReport};
@@ -53,6 +53,9 @@ pub fn before(job: &ShapingJob, motion: &[OperationAxes], ring: Option<&Section>
     warnings.extend(axes::warnings(motion));
     warnings.extend(program::warnings(job, motion));
     warnings.extend(stroke_noise::warnings(job));
+    if job.is_as_cut() {
+        warnings.extend(entry_forces(job));
+    }
     Ok(ranked(warnings))
 }
 
@@ -122,8 +125,29 @@ fn too_deep(job: &ShapingJob) -> Vec<Warning> {
     by_offset.chain(by_flank).collect()
 }
 
-/// Operations whose strokes ask more of the ram than it gives.
+/// Operations whose first stroke asks more of the ram than it gives.
+fn entry_forces(job: &ShapingJob) -> Vec<Warning> {
+    let what = "the first stroke comes at full depth and takes";
+    let way_out = "give the operation an infeed, or leave it less stock";
+    let told = |(operation, stroke): (usize, Option<StrokeChips>)| {
+        beyond_ram(job, operation, what, stroke?.cutting_n, way_out)
+    };
+    entries(job).into_iter().enumerate().filter_map(told).collect()
+}
+
+/// Operations whose later strokes do.
 fn forces(job: &ShapingJob, chips: &ChipLedger) -> Vec<Warning> {
+    let told = |(operation, chips): (usize, &OperationChips)| {
+        let (stroke, largest) = chips.largest(|stroke| stroke.cutting_n)?;
+        let what = format!("the cutting force reaches, at stroke {stroke},");
+        let way_out = "take more strokes, or more revolutions to full depth";
+        beyond_ram(job, operation, &what, largest.cutting_n, way_out)
+    };
+    chips.operations.iter().enumerate().filter_map(told).collect()
+}
+
+/// A force beyond what the ram gives.
+fn beyond_ram(job: &ShapingJob, operation: usize, what: &str, force_n: f64, way_out: &str) -> Option<Warning> {
     let asked_n = job.machine.limits.cutting_force_n;
     let limit_n = asked_n.unwrap_or(USUAL_FORCE_N);
     let source = match asked_n {
@@ -131,30 +155,14 @@ fn forces(job: &ShapingJob, chips: &ChipLedger) -> Vec<Warning> {
         None => "what rams for module 20 are built for; machine.limits.cutting_force_n states another limit",
     };
     let kn = |force_n: f64| significant(force_n / 1e3, 3);
-    let mut warnings = Vec::new();
-    for (operation, chips) in job.operations.iter().zip(&chips.operations) {
-        let name = &operation.spec.name;
-        let beyond = |what: &str, force_n: f64, way_out: &str| {
-            (force_n > limit_n).then(|| {
-                Warning::warn(format!(
-                    "operation {name}: {what} {} kN, more than {} kN ({source}): {way_out}",
-                    kn(force_n),
-                    kn(limit_n)
-                ))
-            })
-        };
-        let entry = chips.entry().map(|stroke| stroke.cutting_n);
-        warnings.extend(entry.and_then(|force_n| {
-            let what = "the first stroke comes at full depth and takes";
-            beyond(what, force_n, "give the operation an infeed, or leave it less stock")
-        }));
-        let largest = chips.largest(|stroke| stroke.cutting_n).map(|(stroke, chips)| (stroke, chips.cutting_n));
-        warnings.extend(largest.and_then(|(stroke, force_n)| {
-            let what = format!("the cutting force reaches, at stroke {stroke},");
-            beyond(&what, force_n, "take more strokes, or more revolutions to full depth")
-        }));
-    }
-    warnings
+    (force_n > limit_n).then(|| {
+        Warning::warn(format!(
+            "operation {}: {what} {} kN, more than {} kN ({source}): {way_out}",
+            job.operations[operation].spec.name,
+            kn(force_n),
+            kn(limit_n)
+        ))
+    })
 }
 
 /// Dexels that do not tell how deep they were cut.
@@ -224,8 +232,8 @@ fn rubbing(job: &ShapingJob, report: &BlankReport) -> Option<Warning> {
         _ => "set another machine.retraction or machine.back_off_mm",
     };
     Some(Warning::warn(format!(
-        "operation {}: after stroke {} the returning cutter stands {} um deep in tooth {} {}, and in {} mm3 of the \
-         gear in all: {way_out}; gearcut check says where it clears",
+        "operation {}: in the gear as cut, the returning cutter stands after stroke {} {} um deep in tooth {} {}, and \
+         in {} mm3 in all: {way_out}; gearcut check says where it clears",
         job.operations[deepest.operation].spec.name,
         deepest.stroke,
         significant(UM_PER_MM * deepest.depth_mm, 3),

@@ -27,7 +27,15 @@ fn the_papers_gear_is_described() {
         "to draw and write",
         "MB",
     ]);
-    assert!(outcome.err.contains("warning: operation finish: backing off by 0.5 mm"), "{}", outcome.err);
+    // Both operations come at full depth; a whole cut of this scene takes 141 and 52.6 kN there.
+    for words in [
+        "warning: operation finish: backing off by 0.5 mm",
+        "warning: operation rough: the first stroke comes at full depth and takes 141 kN, more than 40.0 kN",
+        "warning: operation finish: the first stroke comes at full depth and takes 52.6 kN, more than 40.0 kN",
+    ] {
+        assert!(outcome.err.contains(words), "no {words:?} in {}", outcome.err);
+    }
+    assert!(outcome.out.contains("Warnings that only a cut can find"), "{}", outcome.out);
 }
 
 #[test]
@@ -113,6 +121,39 @@ mod slow {
             println!("{what}: {found} estimated, {expected} planned");
             assert!((found / expected - 1.0).abs() < tolerance, "{what}: {found} estimated, {expected} planned");
         }
+    }
+}
+
+/// What `cut` refuses before its first cut, `check` and `axes` refuse in the same words, for every process.
+#[test]
+fn what_cut_refuses_is_refused_before() {
+    let round = "scenes/shaping/circular_m3_z24.toml";
+    let hobbed = "scenes/hobbing/circular_spur.toml";
+    let bevel = "scenes/bevel/crown_gear.toml";
+    let far = "texture=[{ tooth = 1, center_profile_mm = 30, length_profile_mm = 1 }]";
+    let many = "texture=[{ tooth = 1, profile_spacing_um = 0.1, lead_spacing_um = 0.1 }]";
+    let gone = "texture=[{ tooth = 99 }]";
+    let fine = ["fields.blank.spacing_mm=0.001", "fields.blank.slice_spacing_mm=0.01"];
+    let folder = tempfile::tempdir().expect("a folder");
+    let out = folder.path().join("out");
+    let out = ["--out", out.to_str().expect("a path")];
+    for (scene, settings, words) in [
+        (round, &[gone][..], "teeth"),
+        (hobbed, &[gone], "teeth"),
+        (bevel, &[gone], "teeth"),
+        (round, &[far], "does not lie on tooth 1 left"),
+        (hobbed, &[far], "does not lie on tooth 1 left"),
+        (round, &[many], "more than 40 million"),
+        (hobbed, &fine, "fields.blank"),
+    ] {
+        let settings: Vec<&str> = settings.iter().flat_map(|setting| ["--set", setting]).collect();
+        let run = |command: &str, more: &[&str]| gearcut(&[&[command, scene][..], &settings, more].concat());
+        let refused = run("check", &[]).failed(1, &[words, "way out"]);
+        for command in ["axes", "cut"] {
+            let other = run(command, &out).failed(1, &[words]);
+            assert!(other.err.contains(refused.err.trim_end()), "{command}: {}\ncheck: {}", other.err, refused.err);
+        }
+        assert!(!Path::new(out[1]).exists(), "{scene} {settings:?} left a folder");
     }
 }
 

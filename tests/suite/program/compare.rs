@@ -164,6 +164,58 @@ fn the_largest_changes_come_first_and_places_are_not_subtracted() {
     assert!(csv.contains("\ntexture.tooth,1,3.0,7.0,,,made by hand\n"), "{csv}");
 }
 
+/// A figure with a limit is judged by that: half of a limit of 4 um is more than a third of a force. What rounding leaves
+/// beside 0 is no change in any unit.
+#[test]
+fn limits_are_the_scale_where_there_are_some() {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    let of = |pitch_um: f64, force_n: f64, noise: f64, limit_um: Option<f64>| {
+        let summary = |value: f64, unit: &str, title: &str| {
+            let mut quantity = number(value, unit);
+            quantity["level"] = json!("summary");
+            quantity["title"] = json!(title);
+            quantity
+        };
+        let column = |key: &str| json!({ "key": key, "unit": null, "definition": "made by hand" });
+        let mut limit = column("limit");
+        (limit["unit"], limit["why"]) = (json!("um"), json!("made by hand"));
+        let figures = json!({
+            "title": "Figures", "columns": [column("figure"), limit], "rows": [["f_p", limit_um]],
+        });
+        document(
+            "shaping",
+            &json!({}),
+            &json!({
+                "deviations": {
+                    "$title": "Deviations",
+                    "single_pitch": summary(pitch_um, "um", "single pitch deviation f_p"),
+                    "force": summary(force_n, "N", "force"),
+                    "volume": summary(noise, "mm3", "volume"),
+                    "section": summary(2.0 * noise, "mm^2", "section"),
+                    "flanks": summary(3.0 * noise, "flanks", "flanks"),
+                    "load": summary(4.0 * noise, "kN", "load"),
+                },
+                "inspection": { "$title": "Inspection", "figures": figures },
+            }),
+        )
+    };
+    let first = |limit_um: Option<f64>, name: &str| {
+        put(&folder, "a", &of(20.0, 1000.0, 0.0, limit_um));
+        put(&folder, "b", &of(22.0, 1500.0, 1e-9, limit_um));
+        let out = gearcut_in(folder.path(), &["compare", "out/a", "out/b", "--out", name]).done().out;
+        out.split("\nAll\n").next().expect("what comes before all lines").to_owned()
+    };
+    let place = |first: &str, words: &str| first.find(words).unwrap_or_else(|| panic!("no {words:?} in {first}"));
+    // 2 um are half of the limit, 500 N a third of the force; without a limit 2 um are an eleventh.
+    let limited = first(Some(4.0), "limited");
+    assert!(place(&limited, "single pitch") < place(&limited, "force"), "{limited}");
+    let free = first(None, "free");
+    assert!(place(&free, "force") < place(&free, "single pitch"), "{free}");
+    for noise in ["volume", "section", "flanks", "load"] {
+        assert!(place(&free, noise) > place(&free, "single pitch"), "{free}");
+    }
+}
+
 /// Maps that both runs have are subtracted cell by cell.
 #[test]
 fn maps_of_deviations_are_subtracted() {

@@ -16,6 +16,8 @@ mod pair;
 mod scatter;
 #[cfg(unix)]
 mod stopped;
+#[cfg(target_os = "linux")]
+mod terminal;
 mod texture;
 mod usage;
 mod warnings;

@@ -87,6 +87,58 @@ fn every_place_shows_the_same_list() {
     assert!(page.contains(&format!("{}</a>", counted(&listed))), "the page does not count them");
 }
 
+/// What is a function of the scene is known before the cut: the first stroke's force, a class that the standard does
+/// not give, marks with too few points. What `cut` adds is what `check` says that only a cut can find.
+#[test]
+fn a_cut_adds_only_what_no_scene_says() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let out = folder.path().join("cut");
+    let settings = [
+        &SETTINGS[..],
+        &[
+            "gear.face_width_mm=3",
+            "measure.iso_1328_class=5",
+            "measure.limits.profile_form_um=0.01",
+            "texture=[{ tooth = 2, profile_spacing_um = 100, lead_spacing_um = 500 }]",
+        ],
+    ]
+    .concat();
+    let check = run("check", UNDERCUT, &settings, &[]).done();
+    let known: Vec<&str> = check.err.lines().collect();
+    for words in [
+        "warning: operation rough: the first stroke comes at full depth and takes",
+        "warning: class 5 is not judged: ",
+        "warning: texture of tooth 2 left, 2 right after rough: a mark along the profile has only",
+    ] {
+        assert!(known.iter().any(|line| line.starts_with(words)), "no {words:?} in {known:?}");
+    }
+    run("cut", UNDERCUT, &settings, &["--only", "report", "--out", out.to_str().expect("a path")]).done();
+    let added: Vec<String> = listed(&out).into_iter().filter(|line| !known.contains(&line.as_str())).collect();
+    let kinds =
+        ["beyond the limit of 0.01", "below the target", "points of the window are holes", "is still the blank"];
+    for line in &added {
+        assert!(kinds.iter().any(|kind| line.contains(kind)), "a scene says: {line}");
+    }
+    assert!(added.iter().any(|line| line.contains(kinds[0])), "{added:?}");
+    for kind in ["deviations beyond limits", "holes of texture windows", "no stroke reaches"] {
+        assert!(unbroken(&check.out).contains(kind), "{}", check.out);
+    }
+}
+
+/// How deep the returning cutter stands has one number from the surfaces that are generated and one from the gear as
+/// cut, each told as such; no place is deeper than the way back.
+#[test]
+fn depths_of_the_returning_cutter_say_whence_they_are() {
+    let deep = ["operation.rough.offset_mm=-5"];
+    let err = run("check", "scenes/shaping/elliptical_normal.toml", &deep, &[]).failed(3, &[]).err;
+    let line = err.lines().find(|line| line.contains("the returning cutter stands")).expect("it rubs");
+    let words = "by the surfaces that it generates, the returning cutter stands ";
+    let depth_um: f64 =
+        line.split(words).nth(1).and_then(|rest| rest.split(' ').next()?.parse().ok()).expect("a depth");
+    assert!((100.0..200.0).contains(&depth_um), "{line}: a cut of it finds 137 um");
+    assert!(err.contains("um to first order for 0.5 mm"), "{err}");
+}
+
 /// Two starts on an even number of teeth, and a feed that makes chips of more than half a millimetre.
 #[test]
 fn a_hob_that_hunts_and_takes_thick_chips_is_warned_about() {

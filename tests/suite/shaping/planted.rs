@@ -138,6 +138,7 @@ fn cases() -> Vec<Case> {
     add("stroke 211 0.1 mm deep".to_owned(), Fault, off(), one(211, |k| k.center_distance_mm -= 0.1));
     add("stroke 212 a jump of 594 mm".to_owned(), Fault, off(), one(212, |k| k.center_distance_mm -= 594.0));
     add("stroke 213 two micrometres deep".to_owned(), Warning, off(), one(213, |k| k.center_distance_mm -= 0.002));
+    add("stroke 215 1.2 um deep".to_owned(), Warning, off(), one(215, |k| k.center_distance_mm -= 0.0012));
     add("stroke 214 15 um deep".to_owned(), Warning, off(), one(214, |k| k.center_distance_mm -= 0.015));
     // The ram.
     for factor in [0.5, 0.99, 1.01, 2.0] {
@@ -208,6 +209,24 @@ fn forty_planted_defects_get_their_verdicts() {
         }
     }
     assert!(wrong.is_empty(), "{} of {}:\n{}", wrong.len(), cases.len(), wrong.join("\n"));
+}
+
+/// A gouge of a micrometre is what a program may be off where `output.gcode_contour_error_um` asks for 1: both sides of
+/// the rule, and where less is asked.
+#[test]
+fn a_micrometre_deep_is_within_what_is_asked() {
+    let deep = |depth_um: f64, asked: &[&str]| {
+        let mut job = job(asked);
+        let mut planted = own(&job);
+        planted.knots[213].center_distance_mm -= 1e-3 * depth_um;
+        verdict(&mut job, planted)
+    };
+    assert_eq!(deep(1.0, &[]), (None, String::new()));
+    for (depth_um, asked) in [(1.01, &[][..]), (1.0, &["output.gcode_contour_error_um=0.9"])] {
+        let (severity, told) = deep(depth_um, asked);
+        assert_eq!(severity, Some(Severity::Warning), "{depth_um} um: {told}");
+        assert!(told.contains("um off the scene's own strokes, at stroke 213"), "{told}");
+    }
 }
 
 /// A jump in one stroke shows in the program's own speeds, whatever the schedule asks of the axes.

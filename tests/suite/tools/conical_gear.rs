@@ -286,6 +286,7 @@ fn files_pictures_page_and_texture_ask_for_no_pitch_curve() {
     page.write(&folder.path("report.html").expect("a place")).expect("written");
 
     let windows = texture::windows(&job).expect("windows on the cones");
+    let windows = texture::sampled(&job, &windows).expect("marks on the cones");
     assert_eq!(windows.len(), 4, "both flanks of the tooth that differs most and of the papers' tooth");
     let textures = texture::measure(&job, &windows, &cpu, &progress, &interrupt).expect("texture");
     for texture in &textures {

@@ -2,7 +2,7 @@
 
 use super::{blank, flank_table, force, load, marks, points};
 use crate::findings::warning::ranked;
-use crate::findings::{Entry, Findings, Place, Quantity, Section};
+use crate::findings::{Entry, Findings, Place, Quantity, Section, Warning};
 use crate::machine_errors::ErrorLayer;
 use crate::measure::deviation::PitchDeviations;
 use crate::process::hobbing::axes_report::HobbingAxesReport;
@@ -33,6 +33,8 @@ const END: &str = "upper end of the evaluated profile, as height over the pitch 
 pub struct Measured<'a> {
     /// What every operation asks of the machine.
     pub motion: &'a [HobbingAxesReport<'a>],
+    /// Warnings that were known before the cut.
+    pub foreseen: &'a [Warning],
     /// Texture of windows.
     pub textures: &'a [WindowTexture],
     /// Sizes, figures and limits.
@@ -88,10 +90,10 @@ pub fn findings(cutter: &HobCutter, gear: &HobbedGear, measured: &Measured) -> R
         sections.extend(force::findings(job, forces));
         sections.push(blank::findings(cutter, whole));
     }
-    let mut list = warnings::before(cutter, measured.motion)?;
+    let mut list = measured.foreseen.to_vec();
     let of_blank = measured.whole.map(|(whole, loads, _)| (&whole.report, loads));
     list.extend(warnings::after(cutter, gear, of_blank));
-    list.extend(measured.inspected.warnings(&job.scene.measure));
+    list.extend(measured.inspected.warnings());
     list.extend(texture::warnings(cutter, measured.textures));
     Ok(Findings {
         program_version: env!("CARGO_PKG_VERSION").to_owned(),

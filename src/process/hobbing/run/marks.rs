@@ -6,7 +6,7 @@ use crate::process::hobbing::linkage::marks::MarkStep;
 use crate::process::hobbing::measure::marks;
 use crate::process::hobbing::measure::marks::{MarkLattice, between_rad};
 use crate::steps::Tools;
-use crate::texture::Window;
+use crate::texture::SampledWindow;
 use gearcut_core::error::Result;
 use rayon::prelude::*;
 
@@ -14,8 +14,8 @@ use rayon::prelude::*;
 ///
 /// # Errors
 /// The backend's. After Ctrl-C those that are finished are returned.
-pub fn measure(cutter: &HobCutter, windows: &[Window], tools: &Tools) -> Result<Vec<MarkLattice>> {
-    let mut flanks: Vec<_> = windows.iter().map(|window| (window.tooth, window.side)).collect();
+pub fn measure(cutter: &HobCutter, windows: &[SampledWindow], tools: &Tools) -> Result<Vec<MarkLattice>> {
+    let mut flanks: Vec<_> = windows.iter().map(|of| (of.window.tooth, of.window.side)).collect();
     flanks.dedup();
     let step = tools.progress.step("marks", flanks.len() as u64, "flanks");
     let lattices: Vec<Option<MarkLattice>> = flanks

@@ -50,8 +50,9 @@ pub struct ChipLedger {
 }
 
 /// What one space gives to the ledger.
-struct SpaceChips {
-    chips: Vec<ToothChip>,
+pub(super) struct SpaceChips {
+    /// Of its own teeth, in order of time.
+    pub(super) chips: Vec<ToothChip>,
     /// Per operation, (row of the map over strokes, thickness at the stations).
     rows: Vec<Vec<(usize, Vec<f32>)>>,
 }
@@ -139,7 +140,7 @@ fn raise(map: &mut [f32], values: &[f32]) {
 }
 
 /// All chips of a space, stroke by stroke.
-fn chips_of(space: &Space, forces: &[ElementForce]) -> SpaceChips {
+pub(super) fn chips_of(space: &Space, forces: &[ElementForce]) -> SpaceChips {
     let (job, operations) = (space.job, &space.job.operations);
     let mut chips = Vec::new();
     let mut rows: Vec<Vec<(usize, Vec<f32>)>> = vec![Vec::new(); operations.len()];

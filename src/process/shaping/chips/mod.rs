@@ -17,6 +17,7 @@
 mod column_group;
 mod deciding;
 pub mod deflection;
+mod entry;
 pub mod flank;
 pub mod ledger;
 pub mod oblique;
@@ -28,6 +29,7 @@ mod space;
 pub mod stroke;
 
 pub use deflection::deflections;
+pub use entry::entries;
 pub use flank::last_chips;
 pub(in crate::process::shaping) use flank::{last_chips_at, last_chips_on_map};
 pub use ledger::{ChipLedger, OperationChips, ThicknessMap};

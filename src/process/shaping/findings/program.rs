@@ -12,6 +12,9 @@ use crate::process::shaping::gcode::Judgement;
 use crate::steps::axes::AxesOfOperation as _;
 use gearcut_core::units::UM_PER_MM;
 
+/// Programs are written with six decimals of a millimetre: what lies this little off is not told apart, mm.
+const LAST_DIGIT_MM: f64 = 1e-6;
+
 /// The section; none where the operation is cut by the scene's own strokes.
 pub fn section(motion: &OperationAxes) -> Option<Section> {
     let Judgement { distance_mm, distance_at, missing, doubled, off, strokes_per_minute } = motion.program()?;
@@ -56,7 +59,7 @@ pub fn not_of_the_gear(job: &ShapingJob, motion: &[OperationAxes]) -> Option<Str
     let judged = motion.iter().filter_map(|operation| Some((operation.name(), operation.program()?)));
     let worst = judged.max_by(|a, b| a.1.distance_mm.total_cmp(&b.1.distance_mm))?;
     let (name, judgement) = worst;
-    (judgement.distance_mm > asked_mm).then(|| {
+    (judgement.distance_mm > asked_mm + LAST_DIGIT_MM).then(|| {
         format!(
             "known of the scene's own strokes alone; the program of {name} that cuts this gear lies up to {} mm off \
              them",
@@ -75,7 +78,7 @@ fn told(job: &ShapingJob, name: &str, judgement: &Judgement) -> Vec<Warning> {
     let mut warnings = Vec::new();
     let asked_mm = job.scene.output.gcode_contour_error_mm;
     let distance_mm = judgement.distance_mm;
-    if distance_mm > asked_mm {
+    if distance_mm > asked_mm + LAST_DIGIT_MM {
         let text = format!(
             "operation {name}: the program lies up to {} um off the scene's own strokes, at stroke {}; {} um are asked \
              (output.gcode_contour_error_um)",

@@ -146,14 +146,14 @@ pub fn warning(operation: &str, section: &Section) -> Option<String> {
     let way_out = section.words("smallest_clearance_advice");
     Some(if clearance_um >= 0.0 {
         format!(
-            "operation {operation}: the returning cutter clears the teeth near {place} by {clearance_um:.2} um only: \
-             {way_out}"
+            "operation {operation}: by the surfaces that it generates, the returning cutter clears the teeth near \
+             {place} by {clearance_um:.2} um only: {way_out}"
         )
     } else {
         let overlap_mm2 = section.number("overlap")?;
         format!(
-            "operation {operation}: the returning cutter stands {:.1} um deep in the teeth near {place}, over \
-             {overlap_mm2:.4} mm2 of their section: {way_out}",
+            "operation {operation}: by the surfaces that it generates, the returning cutter stands {:.1} um deep in \
+             the teeth near {place}, over {overlap_mm2:.4} mm2 of their section: {way_out}",
             -clearance_um
         )
     })

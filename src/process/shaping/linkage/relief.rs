@@ -132,8 +132,8 @@ impl SmallestRelief {
             )),
             ReliefVerdict::Rubs => Some(format!(
                 "the return stroke rubs: backing off along the line of centres moves the cutter into {place} by \
-                 {:.1} um for {back_off_mm} mm; back off along the normal of the pitch curve, or take a larger \
-                 pressure angle or a cutter with more teeth",
+                 {:.1} um to first order for {back_off_mm} mm; back off along the normal of the pitch curve, or take a \
+                 larger pressure angle or a cutter with more teeth",
                 -clearance_um
             )),
         }

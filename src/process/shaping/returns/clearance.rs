@@ -15,11 +15,13 @@
 //! negative the edge stands in material by -c. Over all poses of the turn this is the surface that the operation
 //! leaves; over those up to the stroke it is what stands there when the cutter returns, stock included. Nothing here
 //! knows the gear's teeth: internal and external gears, tips that the cutter's base relieves and undercut are all
-//! covered.
+//! covered. The law holds on the teeth of the cutter. Its root circle between them belongs to no tooth and covers
+//! nothing here, so that what it meets is left to the blank field of a run: half a tooth's gap would be taken for a
+//! depth where tips of the gear reach it.
 
 use super::swept::Swept;
 use crate::process::shaping::ShaperCutter;
-use crate::process::shaping::edge_polygon::EdgePolygon;
+use crate::process::shaping::edge_polygon::{EdgePolygon, Station};
 use crate::process::shaping::linkage::CutterPose;
 use gearcut_core::frame::Rigid2;
 use glam::DVec2;
@@ -50,9 +52,12 @@ impl Clearance {
 pub struct ReturnRoom {
     /// What the cutter has covered.
     pub swept: Swept,
-    pub(super) polygon: EdgePolygon,
-    /// Way along the edge to each of its corners, mm.
+    /// Corners of a tooth's edge without the cutter's root beside it, blade frame, mm.
+    pub(super) edge_mm: Vec<DVec2>,
+    /// Way along the edge to each of them, mm.
     arcs_mm: Vec<f64>,
+    /// Places of the same edge with their normals.
+    stations: Vec<Station>,
     pub(super) module_mm: f64,
 }
 
@@ -66,15 +71,20 @@ impl ReturnRoom {
         pose: &dyn Fn(f64) -> CutterPose,
         earlier: &[&dyn Fn(f64) -> CutterPose],
     ) -> Self {
+        let swept = Swept::new(cutter, teeth, pose, earlier);
         let polygon = EdgePolygon::new(cutter.edge(), EDGE_SPACING_MODULES * module_mm);
+        let on_tooth = |point_mm: &DVec2| swept.from_tooth_mm(*point_mm) <= CONTACT_MM;
+        let edge_mm: Vec<DVec2> =
+            polygon.corners_mm[..=polygon.edge_chords()].iter().copied().filter(on_tooth).collect();
         let mut arc_mm = 0.0;
-        let chords = polygon.corners_mm[..=polygon.edge_chords()].windows(2).map(|chord| chord[0].distance(chord[1]));
+        let chords = edge_mm.windows(2).map(|chord| chord[0].distance(chord[1]));
         let arcs_mm = std::iter::once(0.0).chain(chords.map(|chord_mm| {
             arc_mm += chord_mm;
             arc_mm
         }));
         let arcs_mm = arcs_mm.collect();
-        Self { swept: Swept::new(cutter, teeth, pose, earlier), polygon, arcs_mm, module_mm }
+        let stations = polygon.stations.into_iter().filter(|station| on_tooth(&station.point_mm)).collect();
+        Self { swept, edge_mm, arcs_mm, stations, module_mm }
     }
 
     /// Room round the cutter that has gone back from the stroke at a place to `retracted` (gear from cutter);
@@ -92,7 +102,7 @@ impl ReturnRoom {
     ) -> Clearance {
         let blades: Vec<Rigid2> = self.swept.tools_from_blades().collect();
         let work_from_blades: Vec<Rigid2> = blades.iter().map(|blade| retracted.after(blade)).collect();
-        let corner = |[blade, corner]: [usize; 2]| work_from_blades[blade].point(self.polygon.corners_mm[corner]);
+        let corner = |[blade, corner]: [usize; 2]| work_from_blades[blade].point(self.edge_mm[corner]);
         let mut found = below;
         search(
             blades.len(),
@@ -121,15 +131,15 @@ impl ReturnRoom {
     ) -> Option<[f64; 2]> {
         let blades: Vec<Rigid2> = self.swept.tools_from_blades().collect();
         let work_from_blades: Vec<Rigid2> = blades.iter().map(|blade| self.swept.pose(place).after(blade)).collect();
-        let arcs_mm: Vec<f64> = self.polygon.stations.iter().map(|station| station.arc_mm).collect();
-        let point = |[blade, at]: [usize; 2]| work_from_blades[blade].point(self.polygon.stations[at].point_mm);
+        let arcs_mm: Vec<f64> = self.stations.iter().map(|station| station.arc_mm).collect();
+        let point = |[blade, at]: [usize; 2]| work_from_blades[blade].point(self.stations[at].point_mm);
         let mut range = known;
         search(
             blades.len(),
             &arcs_mm,
             |at| beyond_mm(point(at)),
             |[blade, station], reach_mm| {
-                let normal = work_from_blades[blade].direction(self.polygon.stations[station].normal);
+                let normal = work_from_blades[blade].direction(self.stations[station].normal);
                 let angle_rad = into_work.angle_to(normal);
                 if range.is_some_and(|[low, high]| (low..=high).contains(&angle_rad)) {
                     return true;

@@ -22,7 +22,7 @@ impl ReturnRoom {
     /// from cutter) after the stroke at a place, `beyond_mm` says how far a point lies outside the uncut blank,
     /// negative inside.
     pub fn overlap_mm2(&self, place: usize, retracted: &Rigid2, beyond_mm: impl Fn(DVec2) -> f64) -> f64 {
-        let edge = &self.polygon.corners_mm[..=self.polygon.edge_chords()];
+        let edge = self.edge_mm.as_slice();
         let spacing_mm = LINE_SPACING_MODULES * self.module_mm;
         let (low_mm, high_mm) = edge.iter().fold((f64::INFINITY, 0.0_f64), |(a, b), p| (a.min(p.x), b.max(p.x)));
         let lines = ((high_mm - low_mm) / spacing_mm) as usize;

@@ -244,9 +244,8 @@ mod tests {
     /// Room at a place with every corner of every cutter tooth looked at.
     fn room_of_all_corners(survey: &Survey, at: &PlacedRoom) -> Clearance {
         let mut found = Clearance::ANY;
-        let polygon = &survey.room().polygon;
         for blade in survey.room().swept.tools_from_blades() {
-            for &corner_mm in &polygon.corners_mm[..=polygon.edge_chords()] {
+            for &corner_mm in &survey.room().edge_mm {
                 let p = at.returning.after(&blade).point(corner_mm);
                 if survey.beyond_mm(p, at.phi_rad) <= 0.0 {
                     let [surface_mm, material_mm] =
@@ -290,5 +289,18 @@ mod tests {
                 assert!((0..short).any(|index| off_mm(index).abs() > 0.001), "{name}");
             }
         }
+    }
+
+    /// The way back is no longer than the back-off, and no place of a tooth stands deeper than it has gone: also where
+    /// the gear's tips reach the cutter's root circle, which roughing 5 mm too deep does.
+    #[test]
+    fn no_place_stands_deeper_than_the_way_back() {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes/shaping/elliptical_normal.toml");
+        let scene = process::load(&path, &["operation.rough.offset_mm=-5".to_owned()]).expect("a scene").scene;
+        let job = ShapingJob::new(scene).expect("it can be cut");
+        let rooms = job.operations[0].survey.rooms(0.5, |_| RetractionLaw::CenterLine).expect("poses");
+        let deepest_mm = rooms.iter().map(|room| -room.clearance.surface_mm).fold(0.0, f64::max);
+        println!("deepest {deepest_mm} mm");
+        assert!(deepest_mm > 0.1 && deepest_mm < 0.5, "{deepest_mm} mm");
     }
 }

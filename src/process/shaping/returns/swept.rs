@@ -83,6 +83,11 @@ impl Swept {
         (0..self.cutter_teeth).map(move |blade| Rigid2::new(TURN_RAD * f64::from(blade) / teeth, DVec2::ZERO))
     }
 
+    /// How far a point of a blade's frame lies from the tooth, mm; negative inside.
+    pub fn from_tooth_mm(&self, point_mm: DVec2) -> f64 {
+        self.distance.at_mm(point_mm)
+    }
+
     /// How deep a point stands in the pose that covers it deepest: over all poses, and over those up to the stroke. A
     /// depth that is `enough` ends the search.
     pub fn covered_mm(&self, place: usize, tool_from_blade: &Rigid2, p: DVec2, enough: [f64; 2]) -> [f64; 2] {
