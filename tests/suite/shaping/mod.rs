@@ -30,3 +30,4 @@ mod retraction;
 mod round_gear;
 mod rubbing;
 mod tearing;
+mod undercut;
