@@ -7,8 +7,8 @@
 //! and follow each other. Parts that never touch (a tip circle in a sharp hollow) are left out.
 //!
 //! Which way phi runs along a piece follows from its normal: on the way from left to right the outside of an external
-//! gear lies to the right, that of a ring to the left. Road not taken: the ends' polar angles. The path of a corner that
-//! undercuts swings back under the tooth, and its ends say nothing.
+//! gear lies to the right, that of a ring to the left. Road not taken: the ends' polar angles. The path of a corner
+//! that undercuts swings back under the tooth, and its ends say nothing.
 
 use super::generation::{Generation, TipPart};
 use crate::steps::planar::ProfilePoint;
@@ -26,12 +26,12 @@ const STEPS_PER_PITCH: f64 = 128.0;
 pub struct Fillet<'a> {
     generation: &'a Generation,
     space: i64,
-    pieces: Vec<Piece>,
+    pieces: Vec<FilletPiece>,
 }
 
 /// What one part of the tip leaves.
 #[derive(Debug, Clone, Copy)]
-struct Piece {
+struct FilletPiece {
     part: TipPart,
     /// Parameter of the linkage at its end on the left and on the right.
     phi_rad: [f64; 2],
@@ -55,7 +55,7 @@ impl<'a> Fillet<'a> {
             let [a, b] = [0.5, 0.5 + 1.0 / f64::from(CHORDS)].map(|share| contact(from + share * (to - from)));
             let ((a, normal), (b, _)) = (a?, b?);
             let is_backwards = (b - a).dot(normal.perp()) * generation.gear().tip_sign() < 0.0;
-            Some(Piece { part, phi_rad: if is_backwards { [to, from] } else { [from, to] } })
+            Some(FilletPiece { part, phi_rad: if is_backwards { [to, from] } else { [from, to] } })
         };
         Self { generation, space, pieces: generation.tip_parts().into_iter().filter_map(piece).collect() }
     }
@@ -72,7 +72,7 @@ impl<'a> Fillet<'a> {
         self.on_piece(&self.pieces[index], place - index as f64)
     }
 
-    fn on_piece(&self, piece: &Piece, share: f64) -> Option<(f64, DVec2, DVec2)> {
+    fn on_piece(&self, piece: &FilletPiece, share: f64) -> Option<(f64, DVec2, DVec2)> {
         let [from, to] = piece.phi_rad;
         let phi = from + (to - from) * share;
         let (point, normal) = self.generation.tip_contact(phi, self.space, &piece.part)?;

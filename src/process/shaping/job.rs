@@ -320,8 +320,8 @@ impl ShapingJob {
         self.planar().flank_field(arcs_mm.map(point), rows_z_mm)
     }
 
-    /// Target root of the space after tooth `space`, as points about `spacing_mm` apart: from its left flank to its right
-    /// one. Under a flank that is undercut it begins where both cross.
+    /// Target root of the space after tooth `space`, as points about `spacing_mm` apart: from its left flank to its
+    /// right one. Under a flank that is undercut it begins where both cross.
     pub fn target_root(&self, space: u32, spacing_mm: f64) -> Vec<ProfilePoint> {
         let teeth = self.scene.gear.teeth;
         let fillet = Fillet::new(self.target_generation(), i64::from(space));

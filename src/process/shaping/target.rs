@@ -289,7 +289,8 @@ pub(super) fn no_flank(tooth: u32, side: Side, what: &str) -> Refusal {
     Refusal::new(
         "tool.shaper_cutter",
         format!("no flank is generated on tooth {tooth} {}: {what}", side.name()),
-        "use a cutter with fewer teeth or a smaller addendum_coefficient, or a pitch curve with a larger smallest radius",
+        "use a cutter with fewer teeth or a smaller addendum_coefficient, or a pitch curve with a larger smallest \
+        radius",
     )
 }
 

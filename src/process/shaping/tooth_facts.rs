@@ -102,7 +102,7 @@ pub fn warnings(job: &ShapingJob, facts: &[ToothFacts]) -> Vec<String> {
         let flanks = facts.iter().flat_map(|tooth| tooth.flanks().map(|(_, flank)| flank));
         let deepest_mm = flanks.map(|flank| flank.undercut_mm).fold(0.0, f64::max);
         warnings.push(format!(
-            "the cutter undercuts {undercut}, up to {} um below the flanks' start: use a smaller \
+            "the cutter undercuts {undercut}, up to {} um deep: use a smaller \
             tool.shaper_cutter.addendum_coefficient, more teeth on the gear, or a pitch curve with a larger smallest \
             radius of curvature",
             significant(UM_PER_MM * deepest_mm, 3)

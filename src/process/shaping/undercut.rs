@@ -5,9 +5,9 @@
 //!
 //! An envelope that turns back (at the base circle of a round gear) ends in a cusp. The corner's path begins on the
 //! branch behind the cusp, in air, dives through the flank and runs on under it: what stands of the flank ends where
-//! both cross, above the cusp. The crossing is sought upwards from the root. There the fillet lies inside the flank, and
-//! the first place at which it does not is the one. Inside and outside are told at equal heights over the pitch curve,
-//! which climb steadily along a flank: by (p - q) n, p on the fillet, q and n point and normal of the flank.
+//! both cross, above the cusp. The crossing is sought upwards from the root. There the fillet lies inside the flank,
+//! and the first place at which it does not is the one. Inside and outside are told at equal heights over the pitch
+//! curve, which climb steadily along a flank: by (p - q) n, p on the fillet, q and n point and normal of the flank.
 
 use super::fillet::Fillet;
 use super::generation::Generation;

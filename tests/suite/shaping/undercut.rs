@@ -7,7 +7,10 @@ use crate::fixtures::command::{gearcut, read_json};
 use gearcut::job::CylindricalGear;
 use gearcut::process;
 use gearcut::process::shaping::ShapingJob;
+use gearcut::process::shaping::axes_report::OperationAxes;
+use gearcut::process::shaping::gcode::{AxisProgram, Knot};
 use gearcut::process::shaping::target::FlankEnd;
+use gearcut::process::shaping::warnings;
 use gearcut::terms::Side;
 use glam::DVec2;
 use std::f64::consts::{PI, TAU};
@@ -301,7 +304,8 @@ fn undercut_is_no_gouge_and_ends_a_cut_well() {
     {
         let [z, z0] = teeth(gear, cutter);
         let out = folder.path().join(format!("{gear}_{cutter}"));
-        let mut arguments = vec!["cut", scene.to_str().expect("a path"), "--only", "numbers", "--backend", "cpu"];
+        let mut arguments =
+            vec!["cut", scene.to_str().expect("a path"), "--only", "numbers,meshes", "--backend", "cpu"];
         for setting in
             [&*z, &*z0, "fields.flank.profile_spacing_um=20", "fields.blank.spacing_mm=0.4"].into_iter().chain(more)
         {
@@ -313,5 +317,34 @@ fn undercut_is_no_gouge_and_ends_a_cut_well() {
         let warnings = results["warnings"].to_string();
         assert!(!warnings.contains("below the target") && !warnings.contains("reached by no pass"), "{warnings}");
         assert_eq!(warnings.contains("the cutter undercuts tooth 1 left"), more.is_none(), "{warnings}");
+    }
+}
+
+/// A program that pulls the cutter back does not undercut as the scene's own strokes do: nothing is said of it.
+#[test]
+fn undercut_is_told_of_the_scenes_own_strokes_alone() {
+    let [z, z0] = teeth(8, 40);
+    let mut job = job(&[&z, &z0]);
+    let tells = |job: &ShapingJob| {
+        let told = warnings::before(job, &OperationAxes::of_job(job), None).expect("poses");
+        told.iter().any(|warning| warning.text.contains("the cutter undercuts"))
+    };
+    assert!(tells(&job));
+    for (back_mm, told) in [(0.0, true), (0.5, false)] {
+        let schedule = &job.operations[1].schedule;
+        let knot = |stroke: usize| {
+            let state = schedule.state(stroke as f64);
+            Knot {
+                stroke: stroke as f64,
+                psi_c_rad: state.psi_c_rad,
+                psi_b_rad: state.psi_b_rad,
+                center_distance_mm: state.center_distance_mm + back_mm,
+            }
+        };
+        let double_strokes_per_minute = 60.0 / schedule.time_s(1.0);
+        let knots = (0..schedule.count()).map(knot).collect();
+        job.operations[1].program = Some(AxisProgram { double_strokes_per_minute, knots });
+        assert_eq!(tells(&job), told, "{back_mm} mm back");
+        job.operations[1].program = None;
     }
 }

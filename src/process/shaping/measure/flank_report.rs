@@ -1,8 +1,8 @@
 //! Everything measured on one flank after all operations.
 //!
 //! In: the job, the target flank, the cut field. Out: [`FlankReport`]: where the flank begins and ends, stock between
-//! each operation and the finished surface, heights, scallops, profile deviations, cuts below it, the witness mark. Heights
-//! come from the dexels; begin and end from the closed form.
+//! each operation and the finished surface, heights, scallops, profile deviations, cuts below it, the witness mark.
+//! Heights come from the dexels; begin and end from the closed form.
 
 use crate::measure::deviation::Trace;
 use crate::measure::inspection::{InspectedFlank, TracedLines};
