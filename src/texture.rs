@@ -1,6 +1,6 @@
-//! Surface texture of cut flanks: windows, their heights after every operation, ISO 25178 numbers, files and pictures.
+//! Surface texture of cut flanks: windows, their heights after an operation, ISO 25178 numbers, files and pictures.
 //!
-//! In: a [`GearJob`] and a backend. Out: [`WindowTexture`] per window and operation, which goes to `results.json` and
+//! In: a [`GearJob`] and a backend. Out: [`WindowTexture`] per window, which goes to `results.json` and
 //! into `texture/<operation>/`:
 //!
 //! | file | what |
@@ -47,13 +47,11 @@ pub const ENOUGH_POINTS: f64 = 20.0;
 /// finer.
 const ENDS_SHARE: f64 = 0.999;
 
-/// What one operation left in one window.
+/// What the operation of a window left in it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct WindowTexture {
     /// The window.
     pub window: Window,
-    /// Index of the operation.
-    pub operation: usize,
     /// Normal deviations, um; x along the tooth, y along the profile towards the tip; NaN where no pass
     /// came or a ray ends inside a cut. None where there is no height at all.
     pub heights: Option<Surface>,
@@ -173,23 +171,23 @@ pub fn measure(
     interrupt: &Interrupt,
 ) -> Result<Vec<WindowTexture>> {
     let step = progress.step("texture", windows.len() as u64, "windows");
-    let textures: Vec<Vec<WindowTexture>> = windows
+    let textures: Vec<Option<WindowTexture>> = windows
         .par_iter()
         .map(|window| {
-            let done = if interrupt.is_raised() { Ok(Vec::new()) } else { cut_window(job, backend, window) };
+            let done = if interrupt.is_raised() { Ok(None) } else { cut_window(job, backend, window).map(Some) };
             step.advance(1);
             done
         })
         .collect::<Result<_>>()?;
     step.finish();
-    Ok(textures.concat())
+    Ok(textures.into_iter().flatten().collect())
 }
 
-/// Cuts one window through all operations and evaluates what each of them left, or the last alone.
+/// Cuts one window through all operations and evaluates what the one that it shows left.
 ///
 /// # Errors
 /// Geometry and the backend.
-pub fn cut_window(job: &dyn GearJob, backend: &dyn Backend, window: &Window) -> Result<Vec<WindowTexture>> {
+pub fn cut_window(job: &dyn GearJob, backend: &dyn Backend, window: &Window) -> Result<WindowTexture> {
     let cut = |window: &Window| {
         let arcs_mm: Vec<f64> = window.arcs_mm().collect();
         job.cut_flank(backend, window.tooth, window.side, &arcs_mm, &window.rows_z_mm())
@@ -199,46 +197,27 @@ pub fn cut_window(job: &dyn GearJob, backend: &dyn Backend, window: &Window) -> 
         Some(finer) => (finer.clone(), cut(&finer)?),
         None => (window.clone(), layers),
     };
-    let [rows, columns] = window.count;
-    Ok(layers
-        .iter()
-        .enumerate()
-        .skip(shown_from(&window, layers.len()))
-        .map(|(operation, layer)| {
-            // Where a ray ends inside a cut, its end is no surface: a flank that is gone has no texture.
-            let ends_mm = -ENDS_SHARE * RAY_DEPTH_MODULES * job.scene().gear.module_mm;
-            let height = |i: usize| {
-                let height_mm = f64::from(layer.heights_mm[i]);
-                let is_surface = layer.passes[i] != NO_PASS && height_mm > ends_mm;
-                if is_surface { height_mm * UM_PER_MM } else { f64::NAN }
-            };
-            let heights_um: Vec<f64> = (0..columns * rows).map(height).collect();
-            let [dx, dy] = window.spacing_mm().map(|mm| mm * UM_PER_MM);
-            let heights = Surface::new(rows, columns, dx, dy, heights_um);
-            let along_tooth = if job.marks_follow_along_tooth(operation) {
-                facets(&middle_line(layer, window.count, 0))
-            } else {
-                (0, None)
-            };
-            let along_profile = facets(&middle_line(layer, window.count, 1));
-            let marks = [along_tooth.0, along_profile.0];
-            let points_per_mark = [along_tooth.1, along_profile.1];
-            let evaluated = heights.as_ref().map_err(Clone::clone).and_then(|heights| evaluate(heights, &window));
-            WindowTexture {
-                window: window.clone(),
-                operation,
-                heights: heights.ok(),
-                marks,
-                points_per_mark,
-                evaluated,
-            }
-        })
-        .collect())
-}
-
-/// The first of so many operations that a window shows.
-fn shown_from(window: &Window, operations: usize) -> usize {
-    if window.every_operation { 0 } else { operations - 1 }
+    let ([rows, columns], layer) = (window.count, &layers[window.operation]);
+    // Where a ray ends inside a cut, its end is no surface: a flank that is gone has no texture.
+    let ends_mm = -ENDS_SHARE * RAY_DEPTH_MODULES * job.scene().gear.module_mm;
+    let height = |i: usize| {
+        let height_mm = f64::from(layer.heights_mm[i]);
+        let is_surface = layer.passes[i] != NO_PASS && height_mm > ends_mm;
+        if is_surface { height_mm * UM_PER_MM } else { f64::NAN }
+    };
+    let heights_um: Vec<f64> = (0..columns * rows).map(height).collect();
+    let [dx, dy] = window.spacing_mm().map(|mm| mm * UM_PER_MM);
+    let heights = Surface::new(rows, columns, dx, dy, heights_um);
+    let along_tooth = if job.marks_follow_along_tooth(window.operation) {
+        facets(&middle_line(layer, window.count, 0))
+    } else {
+        (0, None)
+    };
+    let along_profile = facets(&middle_line(layer, window.count, 1));
+    let marks = [along_tooth.0, along_profile.0];
+    let points_per_mark = [along_tooth.1, along_profile.1];
+    let evaluated = heights.as_ref().map_err(Clone::clone).and_then(|heights| evaluate(heights, &window));
+    Ok(WindowTexture { heights: heights.ok(), marks, points_per_mark, evaluated, window })
 }
 
 /// Passes along the middle line of a window that has so many points along the tooth and along the profile: the line

@@ -22,10 +22,10 @@ pub fn quantities(parameters: &[Parameter]) -> Vec<(String, Quantity)> {
     parameters.iter().map(|p| (p.symbol.clone(), quantity(p))).collect()
 }
 
-/// Texture of all windows after every operation.
+/// Texture of all windows, operation by operation.
 pub fn findings(job: &dyn GearJob, textures: &[WindowTexture]) -> Section {
     let stems = stems(job, textures);
-    let of = |index: usize| textures.iter().zip(&stems).filter(move |(texture, _)| texture.operation == index);
+    let of = |index: usize| textures.iter().zip(&stems).filter(move |(texture, _)| texture.window.operation == index);
     let operations = job.operations();
     let parts =
         operations.iter().enumerate().filter(|(index, _)| of(*index).next().is_some()).map(|(index, (name, _))| {
@@ -43,7 +43,7 @@ pub fn warnings(job: &dyn GearJob, textures: &[WindowTexture]) -> Vec<Warning> {
     let mut groups: Vec<Vec<((&WindowTexture, &String), WindowNote)>> = Vec::new();
     for (window, note) in noted {
         let alike = |group: &&mut Vec<((&WindowTexture, &String), WindowNote)>| {
-            group[0].0.0.operation == window.0.operation && group[0].1.is_like(&note)
+            group[0].0.0.window.operation == window.0.window.operation && group[0].1.is_like(&note)
         };
         match groups.iter_mut().find(alike) {
             Some(group) => group.push((window, note)),
@@ -51,7 +51,7 @@ pub fn warnings(job: &dyn GearJob, textures: &[WindowTexture]) -> Vec<Warning> {
         }
     }
     let told = |group: Vec<((&WindowTexture, &String), WindowNote)>| {
-        let operation = operations[group[0].0.0.operation].0;
+        let operation = operations[group[0].0.0.window.operation].0;
         let text = WindowNote::text(&group.iter().map(|(_, note)| note).collect::<Vec<_>>());
         let names =
             group.iter().map(|((texture, _), _)| format!("{} {}", texture.window.tooth, texture.window.side.name()));

@@ -12,7 +12,7 @@
 //! of several teeth cross, none in closed form.
 
 use super::window::Window;
-use super::{ENOUGH_POINTS, facets, middle_line, shown_from};
+use super::{ENOUGH_POINTS, facets, middle_line};
 use crate::job::GearJob;
 use gearcut_core::cut::Backend;
 use gearcut_core::dexel::Layer;
@@ -47,12 +47,13 @@ pub(super) fn finer(
         let mut finer = sampled.as_ref().unwrap_or(window).clone();
         for attempt in 0..ATTEMPTS {
             let as_cut = attempt == 0 && sampled.is_none();
-            let lines: Vec<Vec<u32>> = if as_cut {
-                layers.iter().map(|layer| middle_line(layer, finer.count, direction)).collect()
+            let line = if as_cut {
+                middle_line(&layers[window.operation], finer.count, direction)
             } else {
-                cut_lines(job, backend, &finer, direction)?
+                cut_line(job, backend, &finer, direction)?
             };
-            let points = fewest_points(job, &finer, direction, &lines);
+            let follow = direction == 1 || job.marks_follow_along_tooth(window.operation);
+            let points = if follow { facets(&line).1 } else { None };
             let Some(points) = points else { break };
             if points >= ENOUGH_POINTS {
                 if !as_cut {
@@ -71,21 +72,13 @@ pub(super) fn finer(
 }
 
 /// Passes along the middle line of a window, cut alone.
-fn cut_lines(job: &dyn GearJob, backend: &dyn Backend, window: &Window, direction: usize) -> Result<Vec<Vec<u32>>> {
+fn cut_line(job: &dyn GearJob, backend: &dyn Backend, window: &Window, direction: usize) -> Result<Vec<u32>> {
     let (mut arcs_mm, mut rows_z_mm): (Vec<f64>, Vec<f64>) = (window.arcs_mm().collect(), window.rows_z_mm());
     if direction == 0 {
         arcs_mm = vec![arcs_mm[arcs_mm.len() / 2]];
     } else {
         rows_z_mm = vec![rows_z_mm[rows_z_mm.len() / 2]];
     }
-    let layers = job.cut_flank(backend, window.tooth, window.side, &arcs_mm, &rows_z_mm)?;
-    Ok(layers.into_iter().map(|layer| layer.passes).collect())
-}
-
-/// Points of a whole mark on a line, the fewest of the operations that a window shows; none where no whole mark lies on
-/// it.
-fn fewest_points(job: &dyn GearJob, window: &Window, direction: usize, lines: &[Vec<u32>]) -> Option<f64> {
-    let shown = lines.iter().enumerate().skip(shown_from(window, lines.len()));
-    let points = shown.filter(|(operation, _)| direction == 1 || job.marks_follow_along_tooth(*operation));
-    points.filter_map(|(_, passes)| facets(passes).1).reduce(f64::min)
+    let mut layers = job.cut_flank(backend, window.tooth, window.side, &arcs_mm, &rows_z_mm)?;
+    Ok(layers.swap_remove(window.operation).passes)
 }
