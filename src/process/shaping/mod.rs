@@ -34,7 +34,7 @@ mod tearing;
 pub mod tip_relief;
 pub mod tooth_facts;
 pub mod tooth_target;
-mod undercut;
+pub mod undercut;
 pub mod warnings;
 
 use super::Process;
