@@ -203,6 +203,7 @@ fn cut(linkage: &str, settings: &[String]) -> Found<Gear> {
         .map(|(length_mm, tooth)| TextureWindow {
             tooth,
             sides: WindowSides::Both,
+            operation: None,
             center_profile_mm: None,
             center_lead_mm: 0.0,
             length_profile_mm: Some(length_mm),
@@ -221,8 +222,7 @@ fn cut(linkage: &str, settings: &[String]) -> Found<Gear> {
     let sa_um = all
         .par_iter()
         .map(|window| {
-            let textures = cut_window(&job, &Cpu::default(), window)?;
-            let finished = textures.last().ok_or("no operation")?.evaluated.clone()?;
+            let finished = cut_window(&job, &Cpu::default(), window)?.evaluated?;
             Ok(finished.evaluation.value("Sa").ok_or("no Sa")?)
         })
         .collect::<Found<Vec<f64>>>()?;

@@ -45,6 +45,7 @@ fn measured(scene: &str, feed: Feed, rows: &mut Vec<Row>) -> Result<(), Box<dyn 
     let window = |sides, center_profile_mm, length_profile_mm| TextureWindow {
         tooth: 3,
         sides,
+        operation: None,
         center_profile_mm,
         center_lead_mm: 0.0,
         length_profile_mm,
@@ -62,23 +63,30 @@ fn measured(scene: &str, feed: Feed, rows: &mut Vec<Row>) -> Result<(), Box<dyn 
         about_pitch_curve.push(window(sides, crossing_mm, Some(LENGTHS_MM[1])));
         whole.push(window(sides, Some(0.5 * flank.length_mm()), Some(flank.length_mm())));
     }
-    scene.textures = [vec![window(WindowSides::Both, None, Some(LENGTHS_MM[0]))], about_pitch_curve, whole].concat();
+    let windows_of_all =
+        [vec![window(WindowSides::Both, None, Some(LENGTHS_MM[0]))], about_pitch_curve, whole].concat();
+    // Roughing and finishing of each.
+    let names: Vec<String> = probe.operations.iter().map(|operation| operation.spec.name.clone()).collect();
+    scene.textures = windows_of_all
+        .iter()
+        .flat_map(|window| names.iter().map(|name| TextureWindow { operation: Some(name.clone()), ..window.clone() }))
+        .collect();
     let job = ShapingJob::new(scene)?;
     for (index, window) in windows(&job)?.into_iter().enumerate() {
-        for texture in cut_window(&job, &Cpu::default(), &window)? {
-            let operation = &job.operations[texture.operation];
-            let evaluated = texture.evaluated.clone()?;
-            let linkage = if path.contains("traditional") { "traditional" } else { "normal" };
-            rows.push(Row {
-                window: ["middle", "middle", "pitch curve", "pitch curve", "whole", "whole"][index],
-                surface: format!("{}, {linkage}", operation.spec.name),
-                side: window.side,
-                feed_mm: job.curve.perimeter_mm() / operation.schedule.count() as f64,
-                strokes: operation.schedule.count(),
-                values_um: SYMBOLS.map(|symbol| evaluated.evaluation.value(symbol).unwrap_or(f64::NAN)),
-                marks: texture.marks[1],
-            });
-        }
+        let texture = cut_window(&job, &Cpu::default(), &window)?;
+        let operation = &job.operations[window.operation];
+        let evaluated = texture.evaluated?;
+        let linkage = if path.contains("traditional") { "traditional" } else { "normal" };
+        rows.push(Row {
+            // Both sides after both operations.
+            window: ["middle", "pitch curve", "whole"][index / 4],
+            surface: format!("{}, {linkage}", operation.spec.name),
+            side: window.side,
+            feed_mm: job.curve.perimeter_mm() / operation.schedule.count() as f64,
+            strokes: operation.schedule.count(),
+            values_um: SYMBOLS.map(|symbol| evaluated.evaluation.value(symbol).unwrap_or(f64::NAN)),
+            marks: texture.marks[1],
+        });
     }
     Ok(())
 }

@@ -1,6 +1,6 @@
-//! Surface texture of cut flanks: windows, their heights after every operation, ISO 25178 numbers, files and pictures.
+//! Surface texture of cut flanks: windows, their heights after an operation, ISO 25178 numbers, files and pictures.
 //!
-//! In: a [`GearJob`] and a backend. Out: [`WindowTexture`] per window and operation, which goes to `results.json` and
+//! In: a [`GearJob`] and a backend. Out: [`WindowTexture`] per window, which goes to `results.json` and
 //! into `texture/<operation>/`:
 //!
 //! | file | what |
@@ -49,13 +49,11 @@ pub const ENOUGH_POINTS: f64 = 20.0;
 /// finer.
 const ENDS_SHARE: f64 = 0.999;
 
-/// What one operation left in one window.
+/// What the operation of a window left in it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct WindowTexture {
     /// The window.
     pub window: Window,
-    /// Index of the operation.
-    pub operation: usize,
     /// Normal deviations, um; x along the tooth, y along the profile towards the tip; NaN where no pass
     /// came or a ray ends inside a cut. None where there is no height at all.
     pub heights: Option<Surface>,
@@ -184,64 +182,45 @@ pub fn measure(
     interrupt: &Interrupt,
 ) -> Result<Vec<WindowTexture>> {
     let step = progress.step("texture", windows.len() as u64, "windows");
-    let textures: Vec<Vec<WindowTexture>> = windows
+    let textures: Vec<Option<WindowTexture>> = windows
         .par_iter()
         .map(|window| {
-            let done = if interrupt.is_raised() { Ok(Vec::new()) } else { cut_sampled(job, backend, window) };
+            let done = if interrupt.is_raised() { Ok(None) } else { cut_sampled(job, backend, window).map(Some) };
             step.advance(1);
             done
         })
         .collect::<Result<_>>()?;
     step.finish();
-    Ok(textures.concat())
+    Ok(textures.into_iter().flatten().collect())
 }
 
-/// Cuts one window, as finely as its marks ask for, through all operations and evaluates what each of them left, or the
-/// last alone.
+/// Cuts one window, as finely as its marks ask for, through all operations and evaluates what the one that it shows
+/// left.
 ///
 /// # Errors
 /// Geometry and the backend.
-pub fn cut_window(job: &dyn GearJob, backend: &dyn Backend, window: &Window) -> Result<Vec<WindowTexture>> {
+pub fn cut_window(job: &dyn GearJob, backend: &dyn Backend, window: &Window) -> Result<WindowTexture> {
     cut_sampled(job, backend, &sampled_one(job, window)?)
 }
 
-fn cut_sampled(job: &dyn GearJob, backend: &dyn Backend, sampled: &SampledWindow) -> Result<Vec<WindowTexture>> {
+fn cut_sampled(job: &dyn GearJob, backend: &dyn Backend, sampled: &SampledWindow) -> Result<WindowTexture> {
     let SampledWindow { window, marks } = sampled;
     let arcs_mm: Vec<f64> = window.arcs_mm().collect();
     let layers = job.cut_flank(backend, window.tooth, window.side, &arcs_mm, &window.rows_z_mm())?;
-    let [rows, columns] = window.count;
-    Ok(layers
-        .iter()
-        .zip(marks)
-        .enumerate()
-        .skip(shown_from(window, layers.len()))
-        .map(|(operation, (layer, marks))| {
-            // Where a ray ends inside a cut, its end is no surface: a flank that is gone has no texture.
-            let ends_mm = -ENDS_SHARE * RAY_DEPTH_MODULES * job.scene().gear.module_mm;
-            let height = |i: usize| {
-                let height_mm = f64::from(layer.heights_mm[i]);
-                let is_surface = layer.passes[i] != NO_PASS && height_mm > ends_mm;
-                if is_surface { height_mm * UM_PER_MM } else { f64::NAN }
-            };
-            let heights_um: Vec<f64> = (0..columns * rows).map(height).collect();
-            let [dx, dy] = window.spacing_mm().map(|mm| mm * UM_PER_MM);
-            let heights = Surface::new(rows, columns, dx, dy, heights_um);
-            let evaluated = heights.as_ref().map_err(Clone::clone).and_then(|heights| evaluate(heights, window));
-            WindowTexture {
-                window: window.clone(),
-                operation,
-                heights: heights.ok(),
-                marks: marks.count,
-                points_per_mark: marks.points,
-                evaluated,
-            }
-        })
-        .collect())
-}
-
-/// The first of so many operations that a window shows.
-fn shown_from(window: &Window, operations: usize) -> usize {
-    if window.every_operation { 0 } else { operations - 1 }
+    let ([rows, columns], layer) = (window.count, &layers[window.operation]);
+    // Where a ray ends inside a cut, its end is no surface: a flank that is gone has no texture.
+    let ends_mm = -ENDS_SHARE * RAY_DEPTH_MODULES * job.scene().gear.module_mm;
+    let height = |i: usize| {
+        let height_mm = f64::from(layer.heights_mm[i]);
+        let is_surface = layer.passes[i] != NO_PASS && height_mm > ends_mm;
+        if is_surface { height_mm * UM_PER_MM } else { f64::NAN }
+    };
+    let heights_um: Vec<f64> = (0..columns * rows).map(height).collect();
+    let [dx, dy] = window.spacing_mm().map(|mm| mm * UM_PER_MM);
+    let heights = Surface::new(rows, columns, dx, dy, heights_um);
+    let evaluated = heights.as_ref().map_err(Clone::clone).and_then(|heights| evaluate(heights, window));
+    let (marks, points_per_mark) = (marks.count, marks.points);
+    Ok(WindowTexture { window: window.clone(), heights: heights.ok(), marks, points_per_mark, evaluated })
 }
 
 fn evaluate(heights: &Surface, window: &Window) -> Result<Evaluated, String> {

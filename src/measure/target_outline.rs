@@ -4,9 +4,9 @@
 //! In: points of the chain, counter-clockwise, and the stock's back. Out: area, material on rays, signed distances;
 //! what the blank field is judged against, by formulas that share nothing with it.
 //!
-//! Where the fillet has cut into a flank (undercut), the envelopes of flank and fillet run on past their crossing; the
-//! little loop that they form runs clockwise round air, on a ring counter-clockwise. Material of an external gear is
-//! therefore where the winding number is positive, that of a ring where it is not, and nothing has to be trimmed.
+//! Where a part of the chain runs on past its crossing with the next one, the little loop that they form runs clockwise
+//! round air, on a ring counter-clockwise. Material of an external gear is therefore where the winding number is
+//! positive, that of a ring where it is not, and nothing has to be trimmed.
 
 use gearcut_core::dexel::intervals;
 use gearcut_core::gear::{Back, GearKind};
@@ -64,7 +64,7 @@ impl TargetOutline {
         [(cell.x as usize).min(self.columns - 1), (cell.y as usize).min(rows - 1)]
     }
 
-    /// Area that the polygon encloses, mm2, loops of undercut taken off.
+    /// Area that the polygon encloses, mm2, loops round air taken off.
     pub fn area_mm2(&self) -> f64 {
         0.5 * (0..self.points_mm.len()).map(|i| self.segment(i)).map(|[a, b]| a.perp_dot(b)).sum::<f64>()
     }

@@ -102,6 +102,7 @@ pub fn measure(scene: &Scene, flank: FlankWish, backend: &dyn Backend) -> Result
     scene.textures = vec![TextureWindow {
         tooth: flank.tooth,
         sides: if flank.side == Side::Left { WindowSides::Left } else { WindowSides::Right },
+        operation: None,
         center_profile_mm: None,
         center_lead_mm: 0.0,
         length_profile_mm: Some(WINDOW_MM),
@@ -152,8 +153,8 @@ fn heights_mm(layer: &Layer) -> Vec<f64> {
 
 fn texture(gear: &dyn GearJob, backend: &dyn Backend) -> Result<Values> {
     let window = windows(gear)?.remove(0);
-    let textures = cut_window(gear, backend, &window)?;
-    let evaluated = textures.last().and_then(|texture| texture.evaluated.as_ref().ok());
+    let texture = cut_window(gear, backend, &window)?;
+    let evaluated = texture.evaluated.as_ref().ok();
     let value = |symbol: &str| {
         let parameters = &evaluated?.evaluation.parameters;
         parameters.iter().find(|parameter| parameter.symbol == symbol)?.value.as_ref().ok().copied()

@@ -185,6 +185,7 @@ fn texture(window: View<'_>) -> Option<TextureWindow> {
             "both" => WindowSides::Both,
             _ => return None,
         },
+        operation: window.text("operation").map(str::to_owned),
         center_profile_mm: window.number("center_profile_mm"),
         center_lead_mm: window.number("center_lead_mm")?,
         length_profile_mm: window.number("length_profile_mm"),

@@ -161,12 +161,14 @@ impl Measure {
 }
 
 /// A window on the flanks of one tooth whose texture is evaluated.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct TextureWindow {
     /// Tooth, from 1.
     pub tooth: u32,
     /// Which of its flanks.
     pub sides: WindowSides,
+    /// Name of the operation after which it is looked at; `None`: the last one.
+    pub operation: Option<String>,
     /// Middle along the profile, mm from the form point; `None`: the middle of the evaluated profile.
     pub center_profile_mm: Option<f64>,
     /// Middle along the tooth, mm from the middle of the face.

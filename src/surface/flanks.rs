@@ -28,8 +28,8 @@ pub struct SurfaceGrid {
     pub rows_mm: Vec<f64>,
     /// Unit normal of the target out of the gear, of each column in the first row.
     pub normals: Vec<DVec3>,
-    /// Points of the target's one profile, gear frame, mm; `None` where every section has a profile of its own.
-    pub straight_target_mm: Option<Vec<DVec2>>,
+    /// Whether all sections have one target profile, so that straight heights are straight lines.
+    pub is_straight: bool,
     /// Points on the surface, gear frame, mm.
     pub points_mm: Vec<DVec3>,
     /// Normal deviation, µm.
@@ -88,9 +88,7 @@ impl SurfaceGrid {
             arcs_mm: columns.iter().map(|&c| arcs_mm[c]).collect(),
             rows_mm: rows.iter().map(|&r| rows_mm[r]).collect(),
             normals: columns.iter().map(|&c| field.normal(c, rows[0])).collect(),
-            straight_target_mm: field
-                .is_straight()
-                .then(|| columns.iter().map(|&c| field.point_mm(c, rows[0], 0.0).truncate()).collect()),
+            is_straight: field.is_straight(),
             points_mm: places().map(|(c, r)| field.point_mm(c, r, f64::from(last.heights_mm[c * all + r]))).collect(),
             height_um: dexels().map(|i| last.heights_mm[i] * UM_PER_MM as f32).collect(),
             stock_mm,

@@ -7,10 +7,8 @@
 //!
 //! The order follows from the gear alone: right flank of a tooth from form point to tip, its tip land, its left flank
 //! down again, the root of the space behind it, and so on. What no pass reached (tip lands, teeth outside a window) is
-//! the blank's own outline. Where the fillet has cut into a flank (undercut), targets that are straight along the tooth
-//! let flank and root run on past their crossing; what lies behind it is air and is left out. The roots of a gear whose
-//! sections differ end where its flanks begin, in every section at another place: nothing is sought there, for a
-//! crossing of one section is none of the others, and the common end itself would pass for one or not by the last bit.
+//! the blank's own outline. Roots end where flanks begin, undercut or not: nothing lies behind, and no crossing is
+//! sought.
 
 use super::flanks::{SurfaceGrid, straight_rows};
 use gearcut_core::dexel::NO_PASS;
@@ -94,29 +92,19 @@ impl Outline {
         let has_stock = surfaces.teeth.iter().all(|t| t.right.stock_mm.is_some());
         let mut outline = Self { rows_z_mm, columns: Vec::new(), parts: Vec::new(), has_stock };
         let mut gap = UncutColumns::default();
-        let teeth = &surfaces.teeth;
-        let count = teeth.len();
-        for (index, tooth) in teeth.iter().enumerate() {
-            let behind = RootCrossing::of(&tooth.right, &teeth[(index + count - 1) % count].root, true);
-            let ahead = RootCrossing::of(&tooth.left, &tooth.root, false);
-            let next = RootCrossing::of(&teeth[(index + 1) % count].right, &tooth.root, true);
-            let number = index as u32 + 1;
+        for (number, tooth) in (1..).zip(&surfaces.teeth) {
             let all = |grid: &SurfaceGrid| (0..grid.columns()).collect::<Vec<_>>();
-            let [right, left, root] = [&tooth.right, &tooth.left, &tooth.root].map(all);
             outline.begin(flank_name(number, Side::Right));
-            outline.corner(behind.point_mm);
-            outline.append(&tooth.right, &right[behind.flank_columns..], blank, &mut gap);
+            outline.append(&tooth.right, &all(&tooth.right), blank, &mut gap);
             outline.begin(format!("tip_{number:02}"));
             if let Some(tip) = &tooth.tip {
                 outline.append(tip, &all(tip), blank, &mut gap);
             }
             outline.begin(flank_name(number, Side::Left));
-            let down: Vec<usize> = left[ahead.flank_columns..].iter().rev().copied().collect();
+            let down: Vec<usize> = (0..tooth.left.columns()).rev().collect();
             outline.append(&tooth.left, &down, blank, &mut gap);
             outline.begin(format!("root_{number:02}"));
-            outline.corner(ahead.point_mm);
-            let until = root.len().saturating_sub(next.root_columns).max(ahead.root_columns);
-            outline.append(&tooth.root, &root[ahead.root_columns..until], blank, &mut gap);
+            outline.append(&tooth.root, &all(&tooth.root), blank, &mut gap);
         }
         outline.close(blank, &gap);
         outline
@@ -134,13 +122,6 @@ impl Outline {
 
     fn begin(&mut self, part: String) {
         self.parts.push(part);
-    }
-
-    /// The sharp edge where a fillet cuts into a flank.
-    fn corner(&mut self, point_mm: Option<DVec2>) {
-        if let Some(point_mm) = point_mm {
-            self.push(self.bare(point_mm));
-        }
     }
 
     /// A column on which nothing was measured.
@@ -255,48 +236,6 @@ impl Outline {
     }
 }
 
-/// Where a target flank and the target root beside it cross each other.
-struct RootCrossing {
-    /// Columns of the flank, from its form point, that lie behind the crossing.
-    flank_columns: usize,
-    /// Columns of the root, from the flank's side, that lie behind the crossing.
-    root_columns: usize,
-    /// The crossing.
-    point_mm: Option<DVec2>,
-}
-
-impl RootCrossing {
-    /// Crossing of a flank with the root that begins (or, `reversed`, ends) beside it; none on an ordinary flank, where
-    /// they meet at the form point.
-    fn of(flank: &SurfaceGrid, root: &SurfaceGrid, reversed: bool) -> Self {
-        let none = Self { flank_columns: 0, root_columns: 0, point_mm: None };
-        let (Some(up), Some(mut along)) = (&flank.straight_target_mm, root.straight_target_mm.clone()) else {
-            return none;
-        };
-        if reversed {
-            along.reverse();
-        }
-        // The furthest crossing up the flank: behind it both run through air.
-        for (i, a) in up.windows(2).enumerate().rev() {
-            for (j, b) in along.windows(2).enumerate() {
-                if let Some(point_mm) = crossing([a[0], a[1]], [b[0], b[1]]) {
-                    return Self { flank_columns: i + 1, root_columns: j + 1, point_mm: Some(point_mm) };
-                }
-            }
-        }
-        none
-    }
-}
-
-/// Inner crossing of two straight pieces.
-fn crossing(a: [DVec2; 2], b: [DVec2; 2]) -> Option<DVec2> {
-    let (d, e) = (a[1] - a[0], b[1] - b[0]);
-    let across = d.perp_dot(e);
-    let (s, t) = ((b[0] - a[0]).perp_dot(e) / across, (b[0] - a[0]).perp_dot(d) / across);
-    let inside = |share: f64| (0.0..1.0).contains(&share);
-    (inside(s) && inside(t)).then(|| a[0] + s * d)
-}
-
 /// Polar angle of the foot of a point on the blank's outline, rad.
 fn outline_angle(blank: &Blank, point_mm: DVec2) -> f64 {
     blank.height(point_mm, point_mm.to_angle()).1
@@ -311,7 +250,7 @@ fn common_rows(surfaces: &GearSurfaces) -> Vec<f64> {
     let mut rows_z_mm: Vec<f64> = grids.iter().flat_map(|grid| grid.rows_mm.iter().copied()).collect();
     rows_z_mm.sort_unstable_by(f64::total_cmp);
     rows_z_mm.dedup_by(|later, kept| *later - *kept < NEAREST_MM);
-    if grids.iter().any(|grid| grid.straight_target_mm.is_none()) {
+    if grids.iter().any(|grid| !grid.is_straight) {
         return rows_z_mm;
     }
     let all: Vec<usize> = (0..rows_z_mm.len()).collect();
@@ -377,7 +316,7 @@ mod tests {
             arcs_mm: vec![0.0, 1.0, 2.0],
             rows_mm: rows_mm.to_vec(),
             normals: vec![DVec3::X; 3],
-            straight_target_mm: Some(vec![DVec2::ZERO; 3]),
+            is_straight: true,
             points_mm: vec![DVec3::ZERO; 3 * rows_mm.len()],
             height_um: of_all(&|z| UM_PER_MM * height_mm(z)),
             stock_mm: Some(of_all(&stock_mm)),
@@ -413,7 +352,7 @@ mod tests {
         assert!(missed_mm <= STRAIGHT_MM && rows_mm.len() <= 5, "{missed_mm} mm, {rows_mm:?}");
         // Helical sections wind about the axis: straight heights are no straight lines there.
         let mut helical = gear(&straight(&[-5.0, 5.0]));
-        helical.teeth[0].right.straight_target_mm = None;
+        helical.teeth[0].right.is_straight = false;
         assert_eq!(common_rows(&helical).len(), 2 + 24);
     }
 

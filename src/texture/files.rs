@@ -1,6 +1,6 @@
 //! Files and pictures of the windows.
 
-use super::{Window, WindowTexture, chart, shown_from, windows};
+use super::{Window, WindowTexture, chart, windows};
 use crate::colormap::ColourScale;
 use crate::job::GearJob;
 use crate::measure::topography::Surface;
@@ -22,7 +22,7 @@ const FRAME: &str = "x = along the tooth; y = arc length along the target profil
 /// Name of the note that says which surface a file holds.
 pub const SURFACE_NOTE: &str = "surface";
 
-/// What of a window after an operation names its files and its section.
+/// What of a window names its files and its section: operation, tooth, flank.
 pub(super) type Named = (usize, u32, Side);
 
 /// Folders inside the output with the stems of the names of files, of windows after operations in their order.
@@ -37,13 +37,17 @@ pub(super) fn stems_of(job: &dyn GearJob, named: &[Named]) -> Vec<String> {
     named.iter().enumerate().map(stem).collect()
 }
 
-/// Stems of all textures, in their order.
-pub fn stems(job: &dyn GearJob, textures: &[WindowTexture]) -> Vec<String> {
-    let named = |texture: &WindowTexture| (texture.operation, texture.window.tooth, texture.window.side);
-    stems_of(job, &textures.iter().map(named).collect::<Vec<_>>())
+/// What names the files of a window.
+pub(super) fn named(window: &Window) -> Named {
+    (window.operation, window.tooth, window.side)
 }
 
-/// A window after one of the operations that it shows, by the names that its results have.
+/// Stems of all textures, in their order.
+pub fn stems(job: &dyn GearJob, textures: &[WindowTexture]) -> Vec<String> {
+    stems_of(job, &textures.iter().map(|texture| named(&texture.window)).collect::<Vec<_>>())
+}
+
+/// A window by the names that its results have.
 #[derive(Debug, Clone, PartialEq)]
 pub struct NamedWindow {
     /// The window.
@@ -54,38 +58,24 @@ pub struct NamedWindow {
     pub words: String,
 }
 
-/// Windows, each with something of theirs, after those of so many operations that they show.
-pub(super) fn shown<'a, T: Copy + 'a>(
-    windows: impl Iterator<Item = (&'a Window, T)>,
-    operations: usize,
-) -> Vec<(Named, T)> {
-    let of = |(window, with): (&'a Window, T)| {
-        let first = shown_from(window, operations);
-        (first..operations).map(move |operation| ((operation, window.tooth, window.side), with))
-    };
-    windows.flat_map(of).collect()
-}
-
-/// All windows after all operations that they show, nothing cut.
+/// All windows, nothing cut.
 ///
 /// # Errors
 /// As for [`windows`].
 pub fn named_windows(job: &dyn GearJob) -> Result<Vec<NamedWindow>> {
-    let count = job.operations().len();
     let windows = windows(job)?;
-    let shown = shown(windows.iter().map(|window| (window, window)), count);
-    let stems = stems_of(job, &shown.iter().map(|(named, _)| *named).collect::<Vec<_>>());
-    let named = shown.into_iter().zip(stems).map(|((named, window), stem)| NamedWindow {
-        window: window.clone(),
+    let stems = stems_of(job, &windows.iter().map(named).collect::<Vec<_>>());
+    let named = windows.into_iter().zip(stems).map(|(window, stem)| NamedWindow {
         path: stem.replace('/', "."),
-        words: words(job, named.0, window),
+        words: words(job, &window),
+        window,
     });
     Ok(named.collect())
 }
 
 /// What files say of their surface.
-fn words(job: &dyn GearJob, operation: usize, window: &Window) -> String {
-    format!("{}: tooth {}, {} flank", job.operations()[operation].0, window.tooth, window.side.name())
+fn words(job: &dyn GearJob, window: &Window) -> String {
+    format!("{}: tooth {}, {} flank", job.operations()[window.operation].0, window.tooth, window.side.name())
 }
 
 /// Writes files and pictures of all windows; `notes` are the scene and the run record.
@@ -110,7 +100,7 @@ fn write_one(
     notes: &[(String, String)],
 ) -> Result<()> {
     let window = &texture.window;
-    let what = words(job, texture.operation, window);
+    let what = words(job, window);
     let Some(heights) = &texture.heights else { return Ok(()) };
     let [x, y] = window.start_mm;
     let mut all = vec![

@@ -1,6 +1,6 @@
 //! Texture of windows as findings: a section for each operation, in it one for each window.
 
-use super::files::{shown, stems, stems_of};
+use super::files::{named, stems, stems_of};
 use super::{SampledWindow, Window, WindowNote, WindowTexture, chart};
 use crate::findings::{Datum, Quantity, Section, Table, TableColumn, Warning};
 use crate::job::GearJob;
@@ -22,10 +22,10 @@ pub fn quantities(parameters: &[Parameter]) -> Vec<(String, Quantity)> {
     parameters.iter().map(|p| (p.symbol.clone(), quantity(p))).collect()
 }
 
-/// Texture of all windows after every operation.
+/// Texture of all windows, operation by operation.
 pub fn findings(job: &dyn GearJob, textures: &[WindowTexture]) -> Section {
     let stems = stems(job, textures);
-    let of = |index: usize| textures.iter().zip(&stems).filter(move |(texture, _)| texture.operation == index);
+    let of = |index: usize| textures.iter().zip(&stems).filter(move |(texture, _)| texture.window.operation == index);
     let operations = job.operations();
     let parts =
         operations.iter().enumerate().filter(|(index, _)| of(*index).next().is_some()).map(|(index, (name, _))| {
@@ -39,7 +39,7 @@ pub fn findings(job: &dyn GearJob, textures: &[WindowTexture]) -> Section {
 pub fn warnings(job: &dyn GearJob, textures: &[WindowTexture]) -> Vec<Warning> {
     let stems = stems(job, textures);
     let noted = textures.iter().zip(&stems).flat_map(|(texture, stem)| {
-        let of = WindowAfter { window: &texture.window, operation: texture.operation, stem };
+        let of = StemmedWindow { window: &texture.window, stem };
         texture.notes().into_iter().map(move |note| (of, note))
     });
     told(job, noted)
@@ -47,30 +47,27 @@ pub fn warnings(job: &dyn GearJob, textures: &[WindowTexture]) -> Vec<Warning> {
 
 /// The same as far as marks tell it, which are known before anything is cut.
 pub fn foreseen(job: &dyn GearJob, windows: &[SampledWindow]) -> Vec<Warning> {
-    let count = job.operations().len();
-    let shown = shown(windows.iter().map(|sampled| (&sampled.window, sampled)), count);
-    let stems = stems_of(job, &shown.iter().map(|(named, _)| *named).collect::<Vec<_>>());
-    let noted = shown.iter().zip(&stems).flat_map(|(((operation, ..), sampled), stem)| {
-        let of = WindowAfter { window: &sampled.window, operation: *operation, stem };
-        sampled.marks[*operation].notes().into_iter().map(move |note| (of, note))
+    let stems = stems_of(job, &windows.iter().map(|sampled| named(&sampled.window)).collect::<Vec<_>>());
+    let noted = windows.iter().zip(&stems).flat_map(|(sampled, stem)| {
+        let of = StemmedWindow { window: &sampled.window, stem };
+        sampled.marks.notes().into_iter().map(move |note| (of, note))
     });
     told(job, noted)
 }
 
-/// A window after an operation.
+/// A window with the stem of its files.
 #[derive(Clone, Copy)]
-struct WindowAfter<'a> {
+struct StemmedWindow<'a> {
     window: &'a Window,
-    operation: usize,
     stem: &'a str,
 }
 
 /// Notes as warnings, those of one operation that are alike together.
-fn told<'a>(job: &dyn GearJob, noted: impl Iterator<Item = (WindowAfter<'a>, WindowNote)>) -> Vec<Warning> {
-    let mut groups: Vec<Vec<(WindowAfter, WindowNote)>> = Vec::new();
+fn told<'a>(job: &dyn GearJob, noted: impl Iterator<Item = (StemmedWindow<'a>, WindowNote)>) -> Vec<Warning> {
+    let mut groups: Vec<Vec<(StemmedWindow, WindowNote)>> = Vec::new();
     for (of, note) in noted {
-        let alike = |group: &&mut Vec<(WindowAfter, WindowNote)>| {
-            group[0].0.operation == of.operation && group[0].1.is_like(&note)
+        let alike = |group: &&mut Vec<(StemmedWindow, WindowNote)>| {
+            group[0].0.window.operation == of.window.operation && group[0].1.is_like(&note)
         };
         match groups.iter_mut().find(alike) {
             Some(group) => group.push((of, note)),
@@ -78,8 +75,8 @@ fn told<'a>(job: &dyn GearJob, noted: impl Iterator<Item = (WindowAfter<'a>, Win
         }
     }
     let operations = job.operations();
-    let told = |group: Vec<(WindowAfter, WindowNote)>| {
-        let operation = operations[group[0].0.operation].0;
+    let told = |group: Vec<(StemmedWindow, WindowNote)>| {
+        let operation = operations[group[0].0.window.operation].0;
         let text = WindowNote::text(&group.iter().map(|(_, note)| note).collect::<Vec<_>>());
         let names = group.iter().map(|(of, _)| format!("{} {}", of.window.tooth, of.window.side.name()));
         let names = names.collect::<Vec<_>>().join(", ");

@@ -13,11 +13,11 @@
 //! Road not taken: the length of marks from feed and curvature. Every process has its own law for it, and where passes
 //! of several teeth cross, none in closed form.
 
+use super::ENOUGH_POINTS;
 use super::window::Window;
-use super::{ENOUGH_POINTS, shown_from};
 use crate::job::GearJob;
 use gearcut_core::cut::cpu::Cpu;
-use gearcut_core::error::Result;
+use gearcut_core::error::{Error, Result};
 use rayon::prelude::*;
 
 /// Points of a window that was made finer: some 50 MB while it is evaluated, on every core.
@@ -30,7 +30,7 @@ const ROOM: f64 = 1.1;
 /// Times that marks are counted: where they are shorter than points are apart, the first count is too high.
 const ATTEMPTS: usize = 3;
 
-/// Marks of one operation on the middle lines of a window.
+/// Marks of a window's operation on its middle lines.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct LineMarks {
     /// Marks that follow each other along the tooth and along the profile; 0 along the tooth where they run along it
@@ -45,8 +45,8 @@ pub(super) struct LineMarks {
 pub struct SampledWindow {
     /// The window.
     pub window: Window,
-    /// Of every operation.
-    pub(super) marks: Vec<LineMarks>,
+    /// Its marks.
+    pub(super) marks: LineMarks,
 }
 
 /// Windows of a job, as from [`super::windows()`], sampled as finely as their marks ask for.
@@ -62,38 +62,26 @@ pub fn sampled(job: &dyn GearJob, windows: &[Window]) -> Result<Vec<SampledWindo
 /// # Errors
 /// Geometry.
 pub(super) fn sampled_one(job: &dyn GearJob, window: &Window) -> Result<SampledWindow> {
-    let operations = job.operations().len();
-    let follow = (0..operations).any(|operation| job.marks_follow_along_tooth(operation));
-    let cut_both = |window: &Window| {
-        let along_tooth = if follow { line(job, window, 0)? } else { vec![Vec::new(); operations] };
-        Ok::<_, gearcut_core::Error>([along_tooth, line(job, window, 1)?])
-    };
+    let cut_both = |window: &Window| Ok::<_, Error>([facets_along(job, window, 0)?, facets_along(job, window, 1)?]);
     let mut found = window.clone();
     let mut lines = cut_both(&found)?;
     for direction in [0, 1] {
         if window.open_step[direction]
-            && let Some(finer) = finer(job, &found, direction, &lines[direction])?
+            && let Some(finer) = finer(job, &found, direction, lines[direction].1)?
         {
             lines = cut_both(&finer)?;
             found = finer;
         }
     }
-    let [along_tooth, along_profile] = lines;
-    let marks = along_tooth.iter().zip(&along_profile).enumerate().map(|(operation, (tooth, profile))| {
-        let tooth = if job.marks_follow_along_tooth(operation) { facets(tooth) } else { (0, None) };
-        let profile = facets(profile);
-        LineMarks { count: [tooth.0, profile.0], points: [tooth.1, profile.1] }
-    });
-    let marks = marks.collect();
+    let marks = LineMarks { count: lines.map(|line| line.0), points: lines.map(|line| line.1) };
     Ok(SampledWindow { window: found, marks })
 }
 
-/// A window with points closer together in a direction, if its marks need that and may have it; `passes` are those of
-/// all operations along the window's line.
-fn finer(job: &dyn GearJob, window: &Window, direction: usize, passes: &[Vec<u32>]) -> Result<Option<Window>> {
+/// A window with points closer together in a direction, if its marks, which have so many points as it is, need that and
+/// may have it.
+fn finer(job: &dyn GearJob, window: &Window, direction: usize, mut points: Option<f64>) -> Result<Option<Window>> {
     let finest_mm = window.spacing_mm()[direction] / MOST_TIMES_FINER;
     let mut finer = window.clone();
-    let mut points = fewest_points(job, window, direction, passes);
     for attempt in 0..ATTEMPTS {
         let Some(few) = points else { break };
         if few >= ENOUGH_POINTS {
@@ -104,29 +92,25 @@ fn finer(job: &dyn GearJob, window: &Window, direction: usize, passes: &[Vec<u32
         if attempt + 1 == ATTEMPTS || step_mm < finest_mm || finer.count[0] * finer.count[1] > MOST_POINTS {
             break;
         }
-        points = fewest_points(job, &finer, direction, &line(job, &finer, direction)?);
+        points = facets_along(job, &finer, direction)?.1;
     }
     Ok(None)
 }
 
-/// Passes of every operation along the middle line of a window: the line along the tooth (0) or along the profile (1).
-fn line(job: &dyn GearJob, window: &Window, direction: usize) -> Result<Vec<Vec<u32>>> {
+/// Facets along the middle line of a window, the line along the tooth (0) or along the profile (1), and the points of a
+/// whole one: none along the tooth where marks run along it without end.
+fn facets_along(job: &dyn GearJob, window: &Window, direction: usize) -> Result<(usize, Option<f64>)> {
     let (mut arcs_mm, mut rows_z_mm): (Vec<f64>, Vec<f64>) = (window.arcs_mm().collect(), window.rows_z_mm());
     if direction == 0 {
+        if !job.marks_follow_along_tooth(window.operation) {
+            return Ok((0, None));
+        }
         arcs_mm = vec![arcs_mm[arcs_mm.len() / 2]];
     } else {
         rows_z_mm = vec![rows_z_mm[rows_z_mm.len() / 2]];
     }
     let layers = job.cut_flank(&Cpu::default(), window.tooth, window.side, &arcs_mm, &rows_z_mm)?;
-    Ok(layers.into_iter().map(|layer| layer.passes).collect())
-}
-
-/// Points of a whole mark on a line, the fewest of the operations that a window shows; none where no whole mark lies on
-/// it.
-fn fewest_points(job: &dyn GearJob, window: &Window, direction: usize, lines: &[Vec<u32>]) -> Option<f64> {
-    let shown = lines.iter().enumerate().skip(shown_from(window, lines.len()));
-    let points = shown.filter(|(operation, _)| direction == 1 || job.marks_follow_along_tooth(*operation));
-    points.filter_map(|(_, passes)| facets(passes).1).reduce(f64::min)
+    Ok(facets(&layers[window.operation].passes))
 }
 
 /// Facets along a line, one more than the changes of the pass that left it, and the points of a whole one: parts of

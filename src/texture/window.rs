@@ -2,12 +2,13 @@
 //!
 //! Without a `[[texture]]` in the scene, the whole active flanks (the evaluated profile over the whole face) of some
 //! teeth are taken: those between which the marks differ most (on a cylindrical gear the ones with the largest and the
-//! smallest radius of the pitch curve), and tooth 3, which Gao et al. (2017, Fig. 13) measured. They show the finished
-//! surface alone: what roughing leaves there is its fillet and its feed, not a texture that anybody measures. Windows
-//! that a scene asks for show every operation.
+//! smallest radius of the pitch curve), and tooth 3, which Gao et al. (2017, Fig. 13) measured. Windows show the
+//! finished surface: what roughing leaves there is its fillet and its feed, not a texture that anybody measures. A
+//! window of a scene that names another operation shows that one.
 
 use crate::job::GearJob;
 use crate::measure::topography::Form;
+use crate::output::surface_files::MOST_POINTS;
 use crate::scene::model::{TextureWindow, WindowSides};
 use gearcut_core::error::{Refusal, Result};
 use gearcut_core::terms::Side;
@@ -16,8 +17,6 @@ use gearcut_core::terms::Side;
 const PAPER_TOOTH: u32 = 3;
 /// Points along the tooth of a window that does not say otherwise.
 const LEAD_POINTS: f64 = 50.0;
-/// Points that a window may have: some 100 bytes each while it is evaluated.
-const MOST_POINTS: f64 = 4e7;
 
 /// A window on one flank, resolved.
 #[derive(Debug, Clone, PartialEq)]
@@ -38,8 +37,8 @@ pub struct Window {
     pub(super) open_step: [bool; 2],
     /// F-operator.
     pub form: Form,
-    /// Whether it shows what every operation left, as windows of a scene do, or the finished surface alone.
-    pub every_operation: bool,
+    /// Index of the operation that left what it shows.
+    pub operation: usize,
 }
 
 impl Window {
@@ -121,6 +120,7 @@ fn default_windows(job: &dyn GearJob) -> Vec<TextureWindow> {
     let window = |tooth| TextureWindow {
         tooth,
         sides: WindowSides::Both,
+        operation: None,
         center_profile_mm: None,
         center_lead_mm: 0.0,
         length_profile_mm: None,
@@ -140,6 +140,21 @@ fn resolve(job: &dyn GearJob, index: usize, spec: &TextureWindow, side: Side) ->
     if spec.tooth > teeth {
         return refuse("tooth", format!("the gear has {teeth} teeth"), "name a tooth that the gear has");
     }
+    let operations = job.operations();
+    let operation = match &spec.operation {
+        None => operations.len() - 1,
+        Some(asked) => match operations.iter().position(|(name, _)| name == asked) {
+            Some(operation) => operation,
+            None => {
+                let names = operations.iter().map(|(name, _)| format!("\"{name}\"")).collect::<Vec<_>>().join(", ");
+                return refuse(
+                    "operation",
+                    format!("no operation is named \"{asked}\"; there are {names}"),
+                    "name one of them, or leave the key out for the last one",
+                );
+            }
+        },
+    };
     let flank_mm = job.profile_length_mm(spec.tooth, side)?;
     let [form_mm, tip_mm] = job.evaluated_profile_mm(spec.tooth, side)?;
     let face_mm = job.scene().gear.face_width_mm;
@@ -189,7 +204,7 @@ fn resolve(job: &dyn GearJob, index: usize, spec: &TextureWindow, side: Side) ->
         span_mm: [along_tooth, profile],
         open_step: [spec.lead_spacing_mm.is_none(), spec.profile_spacing_mm.is_none()],
         form: spec.form,
-        every_operation: !job.scene().textures.is_empty(),
+        operation,
     };
     window.lay();
     let count = window.count;
@@ -201,10 +216,11 @@ fn resolve(job: &dyn GearJob, index: usize, spec: &TextureWindow, side: Side) ->
                 "use a smaller spacing or a longer window",
             );
         }
-        if (count[0] as f64) * (count[1] as f64) > MOST_POINTS {
+        // Its files can be read again.
+        if (count[0] as f64) * (count[1] as f64) > MOST_POINTS as f64 {
             return refuse(
                 name,
-                format!("the window on {where_} has {} x {} points, more than 40 million", count[0], count[1]),
+                format!("the window on {where_} has {} x {} points, more than {MOST_POINTS}", count[0], count[1]),
                 "use a wider spacing or a smaller window",
             );
         }

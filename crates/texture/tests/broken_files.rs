@@ -5,7 +5,7 @@ use gearcut_texture::{Error, Surface};
 use std::path::{Path, PathBuf};
 
 const BEYOND: &str = "beyond +-1e6 um (1 m)";
-const TOO_MANY: &str = "more than 100000000";
+const TOO_MANY: &str = "more than 8000000, which take 1 GB";
 const NO_NUMBER: &str = "must be a number other than 0";
 
 /// Every file of the folder, and words that its reason must hold.
@@ -57,7 +57,7 @@ const REASONS: [(&str, &str); 55] = [
     ("spacing_zero.csv", "not 0 x 1 um"),
     ("step_infinite.sur", NO_NUMBER),
     ("step_makes_kilometres.sur", BEYOND),
-    ("too_many_points.exr", TOO_MANY),
+    ("too_many_points.exr", "more than 100000000 values"),
     ("too_many_points.sdf", TOO_MANY),
     ("too_many_points.sur", TOO_MANY),
     ("too_many_points_ascii.sdf", TOO_MANY),
@@ -105,6 +105,22 @@ fn a_small_file_cannot_declare_a_large_surface() {
     bytes[42..46].copy_from_slice(&[0xff; 4]); // 65535 x 65535
     std::fs::write(&path, bytes).expect("written");
     assert!(refused(&path).contains(TOO_MANY));
+}
+
+/// Zeros deflated to a thousandth of their size: what a surface takes in memory is no matter of the file's bytes. One
+/// row less than the most is read.
+#[test]
+fn a_compressed_file_is_bounded_by_its_points() {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    let (fits, bomb) = (folder.path().join("fits.x3p"), folder.path().join("bomb.x3p"));
+    let surface = Surface::new(2000, 4000, 1.0, 1.0, vec![0.0; 8_000_000]).expect("a grid");
+    write_surface(&fits, Format::X3p, &SurfaceFile { surface, notes: Vec::new() }).expect("written");
+    assert!(std::fs::metadata(&fits).expect("there").len() < 100_000);
+    assert_eq!(read_surface(&fits, None).expect("the most points").surface.ny(), 4000);
+    let surface = Surface::new(2000, 4001, 1.0, 1.0, vec![0.0; 8_002_000]).expect("a grid");
+    write_surface(&bomb, Format::X3p, &SurfaceFile { surface, notes: Vec::new() }).expect("written");
+    let message = refused(&bomb);
+    assert!(message.contains("2000 x 4001 points") && message.contains(TOO_MANY), "{message}");
 }
 
 /// A file that claims 4 TB costs no memory and no time: a hole of the disk, whose length alone is looked at.

@@ -143,6 +143,10 @@ mod tests {
             side = \"left\"
             length_profile_mm = 4.0
             length_lead_mm = 1.0
+            [[texture]]
+            tooth = 3
+            side = \"left\"
+            operation = \"rough\"
         ";
         let evaluated = |settings: &[&str], name: String, percent: Option<f64>| {
             let settings: Vec<String> = settings.iter().map(|&setting| setting.to_owned()).collect();
@@ -177,7 +181,7 @@ mod tests {
         assert!(note.is_some_and(|note| note.contains("4.00 mm") && note.contains("2.00 mm")));
         // Two operations: the file does not say which.
         let unsaid = evaluated(&[], name, Some(5.0)).expect_err("two windows");
-        assert!(unsaid.contains("rough.tooth_03_left, finish.tooth_03_left"), "{unsaid}");
+        assert!(unsaid.contains("finish.tooth_03_left, rough.tooth_03_left"), "{unsaid}");
         assert!(evaluated(&[], asked, None).expect_err("no uncertainty").contains("--surface-percent"));
     }
 }

@@ -3,7 +3,7 @@
 use super::ShapingJob;
 use crate::measure::target_outline::TargetOutline;
 use crate::process::shaping::linkage::CutterPose;
-use crate::process::shaping::target::{FlankEnd, TargetFlank, target_root};
+use crate::process::shaping::target::{FlankEnd, TargetFlank};
 use crate::process::shaping::tip_relief::TipRelief;
 use gearcut_core::cut::{Backend, CutBlank};
 use gearcut_core::dexel::BlankField;
@@ -115,7 +115,7 @@ impl ShapingJob {
         }
         points.extend(left_tip.into_iter().rev());
         points.extend(along(left).into_iter().rev());
-        points.extend(target_root(self.target_generation(), i64::from(tooth), spacing_mm).iter().map(|p| p.point_mm));
+        points.extend(self.target_root(tooth, spacing_mm).iter().map(|p| p.point_mm));
         Ok(points)
     }
 }

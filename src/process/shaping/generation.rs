@@ -60,6 +60,14 @@ pub struct FlankContact {
     pub speed_mm_per_rad: f64,
 }
 
+impl FlankContact {
+    /// Whether the contact runs on along the flank: towards the root, where exp(i eta) points, as the roll grows.
+    /// Behind the place where the envelope turns back it runs the other way.
+    pub fn is_sound(&self) -> bool {
+        self.speed_mm_per_rad * self.roll_rate > 0.0
+    }
+}
+
 /// Pose with two derivatives with respect to phi.
 struct CutterMotion {
     center: DVec2,

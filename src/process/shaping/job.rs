@@ -9,6 +9,7 @@ use crate::machine_errors::Deflection;
 use crate::material::EdgeForce;
 use crate::process::shaping::ShaperCutter;
 use crate::process::shaping::actual::{ActualStrokes, Commanded, scattered};
+use crate::process::shaping::fillet::Fillet;
 use crate::process::shaping::gcode;
 use crate::process::shaping::gcode::AxisProgram;
 use crate::process::shaping::generation::Generation;
@@ -18,7 +19,7 @@ use crate::process::shaping::returns::facts::ReturnFacts;
 use crate::process::shaping::returns::motion::RamTimes;
 use crate::process::shaping::returns::survey::Survey;
 use crate::process::shaping::scene::model::{self, GcodeDialect, Machine, Operation, Shaping};
-use crate::process::shaping::target::{TargetFlank, target_root};
+use crate::process::shaping::target::TargetFlank;
 use crate::process::shaping::tooth_target::ToothTarget;
 use crate::scene::Scene;
 use crate::scene::model::Gear;
@@ -331,10 +332,21 @@ impl ShapingJob {
         self.planar().flank_field(arcs_mm.map(point), rows_z_mm)
     }
 
+    /// Target root of the space after tooth `space`, as points about `spacing_mm` apart: from its left flank to its
+    /// right one. Under a flank that is undercut it begins where both cross.
+    pub fn target_root(&self, space: u32, spacing_mm: f64) -> Vec<ProfilePoint> {
+        let teeth = self.scene.gear.teeth;
+        let fillet = Fillet::new(self.target_generation(), i64::from(space));
+        let before = if space == 0 { teeth } else { space };
+        let [left, right] = [(before, Side::Left), (space % teeth + 1, Side::Right)]
+            .map(|(tooth, side)| self.target_flank(tooth, side).undercut.map(|undercut| undercut.fillet_at));
+        fillet.points([left.unwrap_or(0.0), right.unwrap_or(fillet.end())], spacing_mm)
+    }
+
     /// Dexel field on the root of a space (space j lies after tooth j).
     pub fn root_field(&self, space: u32) -> Field {
         let planar = self.planar();
-        planar.root_field(&target_root(self.target_generation(), i64::from(space), planar.root_spacing_mm()))
+        planar.root_field(&self.target_root(space, planar.root_spacing_mm()))
     }
 }
 

@@ -12,6 +12,7 @@ pub mod cutter;
 pub mod edge_polygon;
 pub mod edge_roughness;
 mod edge_rounding;
+pub mod fillet;
 pub mod findings;
 pub mod foreseen;
 pub mod gcode;
@@ -35,6 +36,7 @@ mod tearing;
 pub mod tip_relief;
 pub mod tooth_facts;
 pub mod tooth_target;
+pub mod undercut;
 pub mod warnings;
 
 use super::Process;

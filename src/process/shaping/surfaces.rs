@@ -10,7 +10,6 @@ use crate::measure::thickness::Thickness;
 use crate::process::shaping::job::ShapingJob;
 use crate::process::shaping::measure::flank_report;
 use crate::process::shaping::stroke_noise;
-use crate::process::shaping::target::target_root;
 use crate::scene::Scene;
 use crate::surface::SurfaceGrid;
 use crate::surface::flanks::points_of_sections;
@@ -133,7 +132,7 @@ impl CylindricalGear for ShapingJob {
     }
 
     fn target_roots(&self, space: u32, spacing_mm: f64, rows_z_mm: &[f64]) -> Result<Vec<SectionProfile>> {
-        let points = target_root(self.target_generation(), i64::from(space), spacing_mm);
+        let points = self.target_root(space, spacing_mm);
         let profile: SectionProfile = points.iter().map(|point| (point.point_mm, point.normal.extend(0.0))).collect();
         Ok(vec![profile; rows_z_mm.len()])
     }
@@ -145,7 +144,7 @@ impl CylindricalGear for ShapingJob {
         spacing_mm: f64,
         rows_z_mm: &[f64],
     ) -> Result<Vec<Vec<DVec2>>> {
-        let mut field = self.planar().root_field(&target_root(self.target_generation(), i64::from(space), spacing_mm));
+        let mut field = self.planar().root_field(&self.target_root(space, spacing_mm));
         field.rows_z_mm = rows_z_mm.to_vec();
         let cut = self.cut(backend, field)?;
         Ok(points_of_sections(&cut.field, &cut.layers))

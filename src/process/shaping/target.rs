@@ -1,20 +1,19 @@
-//! Target flanks and roots: the curves that dexels stand on.
+//! Target flanks: the curves that dexels stand on.
 //!
 //! The target is the envelope of the finishing operation ([`Generation`]) as a curve in the transverse plane with arc
 //! length, normal and polar angle. A flank runs from its **form point** (where the cutter's involute ends at its tip
-//! corner, or where the envelope turns back: undercut) to its **tip** (the blank's outline, the end of the cutter's
-//! involute near its base, or the point where both flanks meet). A root runs from the left flank of its space over the
-//! tip corners' fillets to the right one.
+//! corner, or, undercut, where the path of that corner crosses it: [`super::undercut`]) to its **tip** (the blank's
+//! outline, the end of the cutter's involute near its base, or the point where both flanks meet). Roots are the
+//! [`super::fillet`]'s.
 
+use super::fillet::boundary;
 use super::generation::{FlankContact, Generation};
 use crate::measure::crossing::Crossing;
-use crate::steps::planar::ProfilePoint;
 use gearcut_core::error::Refusal;
 use gearcut_core::gear::blank::Blank;
 use gearcut_core::math::newton::{LastStep, newton_within};
-use gearcut_core::math::roots::{halve, regula_falsi};
+use gearcut_core::math::roots::regula_falsi;
 use gearcut_core::terms::Side;
-use glam::DVec2;
 use std::f64::consts::PI;
 use std::sync::Arc;
 
@@ -39,7 +38,7 @@ const GAUSS: [(f64, f64); 5] = [
 pub enum FlankEnd {
     /// At the tip corner of the cutter: the ordinary start of the involute.
     CutterCorner,
-    /// The envelope turns back: undercut.
+    /// The cutter's tip corner has cut into it: undercut. At a tip: the envelope turns back.
     Undercut,
     /// At the blank's outline: the ordinary tip.
     BlankOutline,
@@ -47,6 +46,15 @@ pub enum FlankEnd {
     CutterBase,
     /// Where both flanks of the tooth meet: a pointed tooth.
     PointedTip,
+}
+
+/// What the path of the cutter's tip corner takes away of a generated flank.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Undercut {
+    /// Place on the fillet, counted in pieces from the left flank of the space, at which it crosses the flank.
+    pub fillet_at: f64,
+    /// How far the fillet lies under the flank that is cut away, along its normal, at most, mm.
+    pub depth_mm: f64,
 }
 
 /// Flank of one gear tooth as finishing leaves it in the limit of many strokes.
@@ -60,6 +68,8 @@ pub struct TargetFlank {
     pub form_end: FlankEnd,
     /// Why it ends at its tip.
     pub tip_end: FlankEnd,
+    /// What the tip corner has cut away of it, if it has.
+    pub undercut: Option<Undercut>,
     generation: Arc<Generation>,
     space: i64,
     /// Polar angle of the form point.
@@ -116,11 +126,12 @@ fn space_of(tooth: u32, side: Side) -> i64 {
 }
 
 impl TargetFlank {
-    /// Target flank of a tooth; `tip_height_mm` may lower the tip (pointed teeth).
+    /// Flank of a tooth as the cutter's flank alone generates it: an undercut one from where the envelope turns back.
+    /// `tip_height_mm` may lower the tip (pointed teeth).
     ///
     /// # Errors
-    /// No involute is generated at all (the cutter undercuts the whole flank).
-    pub fn new(
+    /// No involute is generated below the tip.
+    pub(super) fn as_generated(
         generation: &Arc<Generation>,
         blank: &Blank,
         tooth: u32,
@@ -134,39 +145,31 @@ impl TargetFlank {
         let module_mm = curve.perimeter_mm() / (PI * f64::from(curve_teeth(generation)));
         let pitch_arc_mm = PI * module_mm;
         let phi_space = curve.phi_at_arc(space as f64 * pitch_arc_mm);
-        let nothing = |what: &str| {
-            Refusal::new(
-                "tool.shaper_cutter",
-                format!("no flank is generated on tooth {tooth} {}: {what}", side.name()),
-                "use a cutter with fewer teeth or a smaller addendum_coefficient, or a pitch curve with a larger \
-                smallest radius",
-            )
-        };
+        let nothing = |what: &str| no_flank(tooth, side, what);
+        let top_mm = tip_height_mm.unwrap_or(blank.addendum_mm).min(blank.addendum_mm);
+        let height = |c: &FlankContact| blank.height(c.point_mm, c.phi_rad).0;
         // A place on the generated flank to start from: the pitch crossing lies a quarter pitch beside the space's
-        // middle, contact is near it.
+        // middle, contact is near it. Where the middle of the roll lies beyond the blank, as with cutters of deep root,
+        // the flank is what of it lies below the blank's outline.
         let step = pitch_arc_mm / curve.frame(phi_space).arc_rate_mm_per_rad / 64.0;
         let roll_pitch = 0.5 * (roll_start + roll_end);
         let start = (-128..=128)
             .filter_map(|i| contact(phi_space + step * f64::from(i)))
-            .filter(|c| c.roll > roll_start && c.roll < roll_end)
+            .filter(|c| c.roll > roll_start && c.roll < roll_end && c.is_sound() && height(c) < top_mm)
             .min_by(|a, b| (a.roll - roll_pitch).abs().total_cmp(&(b.roll - roll_pitch).abs()))
             .ok_or_else(|| nothing("the cutter's involute touches nothing there"))?;
-        let forward = start.speed_mm_per_rad.signum();
         let towards_form = start.roll_rate.signum();
-        let sound = |c: &FlankContact| c.speed_mm_per_rad * forward > 0.0;
 
         let (phi_form, form_end) = {
-            let inside = |phi: f64| contact(phi).is_some_and(|c| c.roll < roll_end && sound(&c));
+            let inside = |phi: f64| contact(phi).is_some_and(|c| c.roll < roll_end && c.is_sound());
             let phi =
                 boundary(start.phi_rad, towards_form * step, inside).ok_or_else(|| nothing("it has no root end"))?;
             let undercut = contact(phi).is_none_or(|c| c.roll < roll_end - 1e-9);
             (phi, if undercut { FlankEnd::Undercut } else { FlankEnd::CutterCorner })
         };
         let (phi_tip, tip_end) = {
-            let top_mm = tip_height_mm.unwrap_or(blank.addendum_mm).min(blank.addendum_mm);
-            let height = |c: &FlankContact| blank.height(c.point_mm, c.phi_rad).0;
             let inside =
-                |phi: f64| contact(phi).is_some_and(|c| c.roll > roll_start && sound(&c) && height(&c) < top_mm);
+                |phi: f64| contact(phi).is_some_and(|c| c.roll > roll_start && c.is_sound() && height(&c) < top_mm);
             let phi = boundary(start.phi_rad, -towards_form * step, inside).ok_or_else(|| nothing("it has no tip"))?;
             let end = contact(phi);
             let end = match end {
@@ -182,24 +185,37 @@ impl TargetFlank {
             };
             (phi, end)
         };
-        let mut flank = Self {
+        let flank = Self {
             tooth,
             side,
             form_end,
             tip_end,
+            undercut: None,
             generation: generation.clone(),
             space,
             phi_form,
             phi_tip,
-            arcs_mm: vec![0.0],
-            speeds: Vec::with_capacity(PANELS),
+            arcs_mm: Vec::new(),
+            speeds: Vec::new(),
         };
+        Ok(flank.with_arcs())
+    }
+
+    /// The same flank from another polar angle on: what lies below is cut away.
+    pub(super) fn undercut_up_to(self, phi_form: f64, undercut: Undercut) -> Self {
+        Self { phi_form, undercut: Some(undercut), ..self }.with_arcs()
+    }
+
+    /// With the table of its arc lengths between its ends.
+    fn with_arcs(mut self) -> Self {
+        self.arcs_mm = vec![0.0];
+        self.speeds = Vec::with_capacity(PANELS);
         for panel in 0..PANELS {
-            let speed = PanelSpeed::new(|x| flank.contact(flank.phi_in_panel(panel, x)).speed_mm_per_rad.abs());
-            flank.arcs_mm.push(flank.arcs_mm[panel] + flank.half_panel_rad().abs() * speed.at(1.0)[1]);
-            flank.speeds.push(speed);
+            let speed = PanelSpeed::new(|x| self.contact(self.phi_in_panel(panel, x)).speed_mm_per_rad.abs());
+            self.arcs_mm.push(self.arcs_mm[panel] + self.half_panel_rad().abs() * speed.at(1.0)[1]);
+            self.speeds.push(speed);
         }
-        Ok(flank)
+        self
     }
 
     /// What generates it.
@@ -268,79 +284,18 @@ impl TargetFlank {
     }
 }
 
+/// Why a tooth has no flank.
+pub(super) fn no_flank(tooth: u32, side: Side, what: &str) -> Refusal {
+    Refusal::new(
+        "tool.shaper_cutter",
+        format!("no flank is generated on tooth {tooth} {}: {what}", side.name()),
+        "use a cutter with fewer teeth or a smaller addendum_coefficient, or a pitch curve with a larger smallest \
+        radius",
+    )
+}
+
 /// Teeth of the gear: the perimeter in pitches of the cutter.
 fn curve_teeth(generation: &Generation) -> u32 {
     let pitch_mm = 2.0 * PI * generation.cutter.pitch_radius_mm / f64::from(generation.cutter.teeth);
     (generation.linkage.curve().perimeter_mm() / pitch_mm).round() as u32
-}
-
-/// Last place where `inside` holds, walking from `start` (inside) by `step` and halving at the end.
-fn boundary(start: f64, step: f64, inside: impl Fn(f64) -> bool) -> Option<f64> {
-    let mut last = start;
-    let outside = (1..=512).map(|i| start + step * f64::from(i)).find(|&phi| {
-        let holds = inside(phi);
-        if holds {
-            last = phi;
-        }
-        !holds
-    })?;
-    Some(halve(inside, last, outside, 60)[0])
-}
-
-/// Target root of the space after tooth `space` (space 0 is centred on phi = 0), as points about `spacing_mm` apart.
-///
-/// Each part of the cutter's tip touches over one range of phi; the parts follow each other from the left flank of the
-/// space to the right one. Parts that never touch (a tip circle in a sharp hollow) are left out.
-pub fn target_root(generation: &Generation, space: i64, spacing_mm: f64) -> Vec<ProfilePoint> {
-    let curve = generation.linkage.curve();
-    let pitch_arc_mm = 2.0 * PI * generation.cutter.pitch_radius_mm / f64::from(generation.cutter.teeth);
-    let phi_space = curve.phi_at_arc(space as f64 * pitch_arc_mm);
-    let step = pitch_arc_mm / curve.frame(phi_space).arc_rate_mm_per_rad / 128.0;
-    let mut points: Vec<ProfilePoint> = Vec::new();
-    for part in generation.tip_parts() {
-        let contact = |phi: f64| generation.tip_contact(phi, space, &part);
-        let inside = |phi: f64| contact(phi).is_some();
-        // Contact may start anywhere within a pitch of the space; a grid of an 1/128 pitch finds it, bisection its
-        // ends.
-        let Some(seed) =
-            (0..256).map(|i| phi_space + step * f64::from((i + 1) / 2 * (1 - 2 * (i % 2)))).find(|&phi| inside(phi))
-        else {
-            continue;
-        };
-        let (Some(from), Some(to)) = (boundary(seed, -step, inside), boundary(seed, step, inside)) else { continue };
-        let ends = [contact(from), contact(to)].map(|c| c.map_or(DVec2::ZERO, |(point, _)| point));
-        let previous = points.last().map(|p| p.point_mm);
-        let backwards = previous.map_or_else(
-            // The first part starts beside the left flank, at the smaller arc.
-            || ends[0].perp_dot(ends[1]) < 0.0,
-            |p| p.distance_squared(ends[1]) < p.distance_squared(ends[0]),
-        );
-        let (from, to) = if backwards { (to, from) } else { (from, to) };
-        let fine = 64;
-        let chord: Vec<(f64, DVec2, DVec2)> = (0..=fine)
-            .filter_map(|i| {
-                let phi = from + (to - from) * f64::from(i) / f64::from(fine);
-                contact(phi).map(|(point, normal)| (phi, point, normal))
-            })
-            .collect();
-        let length: f64 = chord.windows(2).map(|w| w[0].1.distance(w[1].1)).sum();
-        let count = (length / spacing_mm).ceil().max(1.0) as u32;
-        let mut arc = points.last().map_or(0.0, |p| p.arc_mm);
-        let mut travelled = 0.0;
-        let mut next = 0.5 * length / f64::from(count);
-        for pair in chord.windows(2) {
-            let piece = pair[0].1.distance(pair[1].1);
-            while next <= travelled + piece && piece > 0.0 {
-                let share = (next - travelled) / piece;
-                let phi = pair[0].0 + (pair[1].0 - pair[0].0) * share;
-                if let Some((point_mm, normal)) = contact(phi) {
-                    arc += points.last().map_or(0.0, |p| p.point_mm.distance(point_mm));
-                    points.push(ProfilePoint { arc_mm: arc, point_mm, normal, phi_rad: phi });
-                }
-                next += length / f64::from(count);
-            }
-            travelled += piece;
-        }
-    }
-    points
 }

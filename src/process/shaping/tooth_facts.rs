@@ -6,9 +6,11 @@
 //! Heights are measured over the pitch curve along its normal, so that they mean the same on every tooth of a
 //! non-circular gear.
 
+use crate::output::text::significant;
 use crate::process::shaping::ShapingJob;
 use crate::process::shaping::target::{FlankEnd, TargetFlank};
 use gearcut_core::terms::Side;
+use gearcut_core::units::UM_PER_MM;
 
 /// Tip lands below this (in modules) are called narrow: case-hardened tips break below about 0.2 to 0.3 modules.
 const NARROW_LAND_MODULES: f64 = 0.25;
@@ -25,6 +27,8 @@ pub struct FlankFacts {
     pub start_height_mm: f64,
     /// What is there.
     pub start: FlankEnd,
+    /// How deep the cutter's tip cuts below the flank under its start, mm; 0 where it is not undercut.
+    pub undercut_mm: f64,
     /// End of the flank, height over the pitch curve, mm.
     pub tip_height_mm: f64,
     /// What is there.
@@ -77,6 +81,7 @@ impl FlankFacts {
         Self {
             start_height_mm: height_mm(0.0),
             start: flank.form_end,
+            undercut_mm: flank.undercut.map_or(0.0, |undercut| undercut.depth_mm),
             tip_height_mm: height_mm(flank.length_mm()),
             end: flank.tip_end,
             length_mm: flank.length_mm(),
@@ -94,9 +99,13 @@ pub fn warnings(job: &ShapingJob, facts: &[ToothFacts]) -> Vec<String> {
     let mut warnings = Vec::new();
     let undercut = flanks_with(facts, FlankFacts::is_undercut);
     if undercut != NONE {
+        let flanks = facts.iter().flat_map(|tooth| tooth.flanks().map(|(_, flank)| flank));
+        let deepest_mm = flanks.map(|flank| flank.undercut_mm).fold(0.0, f64::max);
         warnings.push(format!(
-            "the cutter undercuts {undercut}: use a smaller tool.shaper_cutter.addendum_coefficient, more teeth on the \
-            gear, or a pitch curve with a larger smallest radius of curvature"
+            "the cutter undercuts {undercut}, up to {} um deep: use a smaller \
+            tool.shaper_cutter.addendum_coefficient, more teeth on the gear, or a pitch curve with a larger smallest \
+            radius of curvature",
+            significant(UM_PER_MM * deepest_mm, 3)
         ));
     }
     let base = flanks_with(facts, |flank| flank.end == FlankEnd::CutterBase);

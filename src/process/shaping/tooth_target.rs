@@ -47,13 +47,12 @@ impl ToothTarget {
 
     fn new(generation: &Arc<Generation>, blank: &Blank, tooth: u32) -> Result<Self, Refusal> {
         let up_to = |height_mm: Option<f64>| -> Result<(TargetFlank, TargetFlank, f64), Refusal> {
-            let flank = |side| TargetFlank::new(generation, blank, tooth, side, height_mm);
+            let flank = |side| TargetFlank::as_generated(generation, blank, tooth, side, height_mm);
             let (left, right) = (flank(Side::Left)?, flank(Side::Right)?);
             let tip_land_mm = tip_land_mm(blank, &left, &right);
             Ok((left, right, tip_land_mm))
         };
         let whole = up_to(None)?;
-        let pitch_crossings = [&whole.0, &whole.1].map(|flank| flank.pitch_crossing(blank));
         let (left, right, tip_land_mm) = if whole.2 > 0.0 {
             whole
         } else {
@@ -68,6 +67,9 @@ impl ToothTarget {
             }
             up_to(Some(pointed_mm))?
         };
+        // Undercut is found once the tips are: it ends flanks at their foot and leaves the tip land.
+        let (left, right) = (left.whole_part(blank)?, right.whole_part(blank)?);
+        let pitch_crossings = [&left, &right].map(|flank| flank.pitch_crossing(blank));
         Ok(Self { left, right, pitch_crossings, tip_land_mm })
     }
 

@@ -37,7 +37,11 @@ pub const USUAL_FORCE_N: f64 = 40e3;
 /// A back-off so large that the retraction leads to no pose.
 pub fn before(job: &ShapingJob, motion: &[OperationAxes], ring: Option<&Section>) -> Result<Vec<Warning>> {
     let mut warnings = check_curve::warnings(&job.curve, &job.scene.gear);
-    let mut sentences = tooth_facts::warnings(job, &ToothFacts::of_job(job));
+    // Facts of the teeth are those of the scene's own strokes.
+    let mut sentences = match program::not_of_the_gear(job, motion) {
+        None => tooth_facts::warnings(job, &ToothFacts::of_job(job)),
+        Some(_) => Vec::new(),
+    };
     sentences.extend(ring.and_then(ring::warning));
     for (index, operation) in job.operations.iter().enumerate() {
         match returns::section(job, index)? {
@@ -175,14 +179,14 @@ fn beyond_record(report: &GearReport) -> Option<Warning> {
 
 /// The flank that is cut deepest below the target, and where.
 fn deepest_below(report: &GearReport) -> Option<(&FlankReport, Extreme)> {
-    let cuts = report.flanks.iter().filter_map(|flank| Some((flank, flank.own.undercut?)));
+    let cuts = report.flanks.iter().filter_map(|flank| Some((flank, flank.own.below_target?)));
     cuts.min_by(|a, b| a.1.value_mm.total_cmp(&b.1.value_mm))
 }
 
-/// The same on evaluated profiles: below them an undercut belongs to the gear as it is generated.
+/// The same on evaluated profiles: beside them the ends of a tooth are broken.
 fn deepest_evaluated(report: &GearReport) -> Option<(&FlankReport, Extreme)> {
     let lowest = |flank: &FlankReport| {
-        if flank.own.is_lost { flank.own.undercut } else { flank.own.finished.map(|[lowest, _]| lowest) }
+        if flank.own.is_lost { flank.own.below_target } else { flank.own.finished.map(|[lowest, _]| lowest) }
     };
     let cuts = report.flanks.iter().filter_map(|flank| Some((flank, lowest(flank)?)));
     cuts.min_by(|a, b| a.1.value_mm.total_cmp(&b.1.value_mm))
@@ -195,7 +199,7 @@ fn below_target(job: &ShapingJob, report: &GearReport) -> Option<Warning> {
     let is_gouge = gouge.is_some();
     let deepest = gouge.or_else(|| deepest_below(report));
     let (flank, deepest) = deepest.filter(|(_, deepest)| deepest.value_mm < -BELOW_TARGET_MM)?;
-    let cut = report.flanks.iter().filter_map(|flank| flank.own.undercut);
+    let cut = report.flanks.iter().filter_map(|flank| flank.own.below_target);
     let count = cut.filter(|deepest| deepest.value_mm < -BELOW_TARGET_MM).count();
     let at_least = if flank.own.below_range > 0 { "at least " } else { "" };
     let text = format!(

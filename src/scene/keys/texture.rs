@@ -24,6 +24,14 @@ pub(super) static SECTIONS: &[KeySection] = &[KeySection {
             teach: "Flank of the tooth; left is the one at the larger arc of the pitch curve.",
         },
         Key {
+            name: "operation",
+            kind: Kind::Name,
+            unit: "",
+            default: Default::LeftOut("the last one"),
+            example: "\"rough\"",
+            teach: "Operation after which the window is looked at; a window for each where several are asked for.",
+        },
+        Key {
             name: "center_profile_mm",
             kind: Kind::Number(Range::closed(0.0, 500.0)),
             unit: "mm",
@@ -74,7 +82,7 @@ pub(super) static SECTIONS: &[KeySection] = &[KeySection {
         },
     ],
     groups: &[],
-    teach: "A window on a flank whose surface texture is evaluated after every operation. Without any, the active \
+    teach: "A window on a flank whose surface texture is evaluated after an operation. Without any, the active \
         flanks of the teeth with the largest and the smallest pitch-curve radius and of tooth 3 are taken.",
 }];
 

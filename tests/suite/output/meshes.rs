@@ -98,8 +98,8 @@ fn the_body_is_as_large_as_clipping_says() {
 /// A few teeth of a gear whose other teeth no pass reaches, and a small pinion that the cutter undercuts.
 #[test]
 fn windows_and_undercut_leave_closed_bodies_in_the_blank() {
-    // Flanks and roots of the target may cross each other or never be reached there, so that no body can be made of
-    // them; rays through the blank know no target.
+    // Flanks and roots of the target may never be reached there, so that no body can be made of them; rays through the
+    // blank know no target.
     let window = ["operation.finish.window_deg=[0, 100]", "operation.rough.window_deg=[0, 100]"];
     for settings in [&window[..], &["gear.teeth=12"]] {
         let settings = [settings, &["fields.blank.spacing_mm=0.2"]].concat();

@@ -43,15 +43,25 @@ fn the_fillet_of_roughing_rules_no_stock() {
     }
 }
 
-/// Windows that nobody asked for show the finished surface alone.
+/// Windows show the finished surface, asked for or not, and roughing alone where they name it.
 #[test]
 fn texture_of_roughing_is_evaluated_where_it_is_asked_for() {
     let operations = |more: &[&str]| {
-        let job = job(more);
-        let window = windows(&job).expect("windows").remove(0);
-        let textures = gearcut::texture::cut_window(&job, &Cpu::default(), &window).expect("cut");
-        textures.iter().map(|texture| texture.operation).collect::<Vec<_>>()
+        let windows = windows(&job(more)).expect("windows");
+        windows.iter().map(|window| window.operation).collect::<Vec<_>>()
     };
-    assert_eq!(operations(&[]), [1]);
-    assert_eq!(operations(&["texture=[{tooth=3,side='left'}]"]), [0, 1]);
+    assert!(operations(&[]).iter().all(|&operation| operation == 1));
+    assert_eq!(operations(&["texture=[{tooth=3,side='left'}]"]), [1]);
+    assert_eq!(operations(&["texture=[{tooth=3,side='left',operation='rough'},{tooth=3,side='left'}]"]), [0, 1]);
+    let refused = windows(&job(&["texture=[{tooth=3,operation='grind'}]"])).expect_err("no such operation").to_string();
+    assert!(refused.contains("texture[0].operation") && refused.contains(r#""rough", "finish""#), "{refused}");
+    let job = job(&["texture=[{tooth=3,side='left',operation='rough'},{tooth=3,side='left'}]"]);
+    let height_um = |index: usize| {
+        let window = &windows(&job).expect("windows")[index];
+        let texture = gearcut::texture::cut_window(&job, &Cpu::default(), window).expect("cut");
+        let heights = texture.heights.expect("a surface");
+        heights.heights_um().iter().sum::<f64>() / heights.heights_um().len() as f64
+    };
+    let [rough, finish] = [0, 1].map(height_um);
+    assert!(rough > 100.0 && finish.abs() < 1.0, "roughing leaves stock: {rough} um, {finish} um");
 }

@@ -225,7 +225,7 @@ fn space_flanks(job: &ShapingJob, space: u32) -> [TargetFlank; 2] {
     let generation = Arc::new(generation);
     let before = if space == 0 { 102 } else { space };
     [(space + 1, Side::Right), (before, Side::Left)]
-        .map(|(tooth, side)| TargetFlank::new(&generation, &job.blank, tooth, side, None).expect("a flank"))
+        .map(|(tooth, side)| TargetFlank::new(&generation, &job.blank, tooth, side).expect("a flank"))
 }
 
 /// The oracle's polygons find neither gouge nor leftover over a range of heights, in steps of some hundredths of a

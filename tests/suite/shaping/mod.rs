@@ -32,3 +32,4 @@ mod round_gear;
 mod rubbing;
 mod stroke_noise;
 mod tearing;
+mod undercut;

@@ -65,7 +65,7 @@ pub(super) fn decode(bytes: &[u8], spacing_um: Option<SpacingUm>) -> Result<Surf
         let before = heights.len();
         for cell in cells(line) {
             if heights.len() == MOST_POINTS {
-                return Err(format!("line {number}: more than {MOST_POINTS} heights; crop or thin the surface"));
+                return Err(format!("line {number}: more than {MOST_POINTS} heights: crop or thin the surface"));
             }
             heights.push(match cell.trim() {
                 "" | "---" => f64::NAN,

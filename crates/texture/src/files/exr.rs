@@ -3,6 +3,7 @@
 //! Of several channels the one called `height_mm`, else `height_um`, else the first in mm or um is the surface.
 
 use super::SurfaceFile;
+use super::bounds::points;
 use super::exr_map::{self, MapChannel, Samples};
 use crate::surface::Surface;
 use crate::text::quoted;
@@ -12,6 +13,7 @@ const UM_PER_MM: f64 = 1e3;
 
 pub(super) fn decode(bytes: &[u8]) -> Result<SurfaceFile, String> {
     let map = exr_map::decode(bytes)?;
+    points(map.grid.v.count, map.grid.u.count)?;
     let is_length = |c: &&MapChannel| ["mm", "um"].contains(&c.unit.as_str());
     let channel = ["height_mm", "height_um"]
         .iter()

@@ -20,7 +20,7 @@ use exr::prelude::{
     LineOrder, ReadChannels, ReadLayers, SmallVec, Text, WritableImage,
 };
 
-use super::bounds::{self, MOST_BYTES_OF_NUMBERS, points, unreadable};
+use super::bounds::{self, MOST_BYTES_OF_MAPS, unreadable, values};
 use super::exr_header::sort_attributes;
 use super::grid::{MapAxis, MapGrid};
 use crate::atomic::write_bytes_atomically;
@@ -84,7 +84,7 @@ pub fn write_exr_map(path: &Path, map: &ExrMap) -> Result<()> {
 /// # Errors
 /// Files that cannot be read, are damaged, or were written by another program.
 pub fn read_exr_map(path: &Path) -> Result<ExrMap> {
-    let ((), bytes) = bounds::read(path, |_| Ok(((), MOST_BYTES_OF_NUMBERS)))?;
+    let ((), bytes) = bounds::read(path, |_| Ok(((), MOST_BYTES_OF_MAPS)))?;
     decode(&bytes).map_err(unreadable(path))
 }
 
@@ -155,7 +155,7 @@ pub(super) fn decode(bytes: &[u8]) -> std::result::Result<ExrMap, String> {
     // The crate takes the memory that the header asks for before it looks at the pixels.
     let headers = exr::meta::MetaData::read_from_buffered(bytes, false).map_err(|error| error.to_string())?.headers;
     for header in &headers {
-        points(header.layer_size.x(), header.layer_size.y().saturating_mul(header.channels.list.len().max(1)))?;
+        values(header.layer_size.x(), header.layer_size.y(), header.channels.list.len().max(1))?;
     }
     let image = exr::prelude::ReadImage::from_buffered(
         exr::image::read::read()

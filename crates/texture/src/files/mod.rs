@@ -35,7 +35,8 @@ use std::path::Path;
 use crate::atomic::write_bytes_atomically;
 use crate::surface::Surface;
 use crate::{Error, Result};
-use bounds::{MOST_BYTES_OF_NUMBERS, MOST_BYTES_OF_TEXT, unreadable};
+pub use bounds::MOST_POINTS;
+use bounds::{MOST_BYTES_OF_MAPS, MOST_BYTES_OF_NUMBERS, MOST_BYTES_OF_TEXT, unreadable};
 
 /// A surface as it stands in a file.
 #[derive(Debug, Clone, PartialEq)]
@@ -151,7 +152,8 @@ impl FileKind {
 
     fn most_bytes(self) -> u64 {
         match self {
-            Self::X3p | Self::SdfBinary | Self::Sur | Self::Npy | Self::Exr => MOST_BYTES_OF_NUMBERS,
+            Self::X3p | Self::SdfBinary | Self::Sur | Self::Npy => MOST_BYTES_OF_NUMBERS,
+            Self::Exr => MOST_BYTES_OF_MAPS,
             Self::SdfAscii | Self::Csv => MOST_BYTES_OF_TEXT,
         }
     }

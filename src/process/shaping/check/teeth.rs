@@ -37,6 +37,9 @@ pub fn print(sheet: &mut Sheet, job: &ShapingJob, facts: &[ToothFacts]) {
         sheet.line("tip land", text);
     }
     sheet.line("undercut", flanks_with(facts, FlankFacts::is_undercut));
+    if facts.iter().flat_map(ToothFacts::flanks).any(|(_, flank)| flank.is_undercut()) {
+        sheet.line("depth of undercut", range(facts, " below the flank", |flank| flank.undercut_mm));
+    }
     sheet.line(
         "pointed teeth",
         list(facts.iter().filter(|tooth| tooth.is_pointed()).map(|tooth| tooth.tooth.to_string())),

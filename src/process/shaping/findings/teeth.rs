@@ -7,6 +7,7 @@ use crate::process::shaping::measure::gear_report::OperationAllowance;
 use crate::process::shaping::measure::{FlankReport, GearReport};
 use crate::process::shaping::target::FlankEnd;
 use gearcut_core::terms::Side;
+use gearcut_core::units::UM_PER_MM;
 
 /// Why a lowest height is not known.
 const BELOW_RANGE: &str = "the flank is cut deeper than its rays record, half a module under the target";
@@ -247,6 +248,15 @@ fn finished_flank(report: &GearReport, tooth: u32, side: Side) -> Section {
         )
         .with("start", word(flank.map(|f| f.own.form.end), "what begins the flank"))
         .with(
+            "undercut",
+            number(
+                flank.and_then(|f| f.own.undercut_mm).map(|mm| mm * UM_PER_MM),
+                "um",
+                "how deep the path of the cutter's tip corner cuts below the flank under its start",
+                "the flank is not undercut",
+            ),
+        )
+        .with(
             "tip",
             number(flank.map(|f| f.own.tip.height_mm), "mm", "end of the flank as height over the pitch curve", ""),
         )
@@ -289,7 +299,7 @@ fn finished_flank(report: &GearReport, tooth: u32, side: Side) -> Section {
         .with(
             "deepest_cut",
             lowest(at(
-                flank.and_then(|f| f.own.undercut),
+                flank.and_then(|f| f.own.below_target),
                 "deepest cut below the target anywhere on the flank",
                 "nothing is cut more than a nanometre below the target",
             )),

@@ -54,7 +54,7 @@ fn of_operation(job: &ShapingJob, operation: usize) -> Option<BelowFinished> {
 /// Largest depth on a flank and its height over the pitch curve, mm; none where the operation generates no flank there.
 fn deepest_mm(job: &ShapingJob, operation: usize, tooth: u32, side: Side) -> Option<[f64; 2]> {
     let finished = job.target_flank(tooth, side);
-    let earlier = TargetFlank::new(job.generation(operation), &job.blank, tooth, side, None).ok()?;
+    let earlier = TargetFlank::new(job.generation(operation), &job.blank, tooth, side).ok()?;
     let height_mm = |arc_mm: f64| {
         let contact = finished.at_arc(arc_mm);
         job.blank.height(contact.point_mm, contact.phi_rad).0

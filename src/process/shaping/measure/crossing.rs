@@ -26,7 +26,7 @@ pub fn envelope_crossing(job: &ShapingJob, operation: usize, tooth: u32, side: S
     if operation + 1 == job.operations.len() {
         return job.target(tooth).pitch_crossing(side);
     }
-    TargetFlank::new(job.generation(operation), &job.blank, tooth, side, None).ok()?.pitch_crossing(&job.blank)
+    TargetFlank::new(job.generation(operation), &job.blank, tooth, side).ok()?.pitch_crossing(&job.blank)
 }
 
 /// Crossing of what the strokes of some operations leave in the middle of the face, on one flank; `start` is a crossing

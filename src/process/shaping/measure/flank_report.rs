@@ -1,8 +1,8 @@
 //! Everything measured on one flank after all operations.
 //!
 //! In: the job, the target flank, the cut field. Out: [`FlankReport`]: where the flank begins and ends, stock between
-//! each operation and the finished surface, heights, scallops, profile deviations, undercut, the witness mark. Heights
-//! come from the dexels; begin and end from the closed form.
+//! each operation and the finished surface, heights, scallops, profile deviations, cuts below it, the witness mark.
+//! Heights come from the dexels; begin and end from the closed form.
 
 use crate::measure::deviation::Trace;
 use crate::measure::inspection::{InspectedFlank, TracedLines};
@@ -50,6 +50,8 @@ pub struct ShapedFlank {
     pub form: FlankLimit,
     /// Tip.
     pub tip: FlankLimit,
+    /// How deep the cutter's tip cuts below the flank under its start, mm; none where it is not undercut.
+    pub undercut_mm: Option<f64>,
     /// Stock of every operation but the last over the finished surface, on the active flank: the evaluated profile
     /// above the operation's own fillet. `None` where the operation reached nothing.
     pub stock: Vec<Option<Stock>>,
@@ -59,8 +61,8 @@ pub struct ShapedFlank {
     pub finished: Option<[Extreme; 2]>,
     /// Arcs between which the surface of each earlier operation is its flank and no fillet, mm; stock is judged there.
     pub active_mm: Vec<[f64; 2]>,
-    /// Deepest cut below the target anywhere on the flank (undercut, gouge), if deeper than the dexels' resolution.
-    pub undercut: Option<Extreme>,
+    /// Deepest cut below the target anywhere on the flank, if deeper than the dexels' resolution.
+    pub below_target: Option<Extreme>,
     /// Scallops in the middle of the face.
     pub scallops: Option<Scallops>,
     /// What the first and last finishing strokes stand above the rest of this flank (0 if nothing), where they touched
@@ -88,7 +90,7 @@ fn begins_mm(job: &ShapingJob, operation: usize, flank: &TargetFlank) -> f64 {
         let contact = of.at_arc(arc_mm);
         job.blank.height(contact.point_mm, contact.phi_rad).0
     };
-    let own = TargetFlank::new(job.generation(operation), &job.blank, flank.tooth, flank.side, None);
+    let own = TargetFlank::new(job.generation(operation), &job.blank, flank.tooth, flank.side);
     let Ok(own) = own else { return 0.0 };
     let begin_mm = height_mm(&own, 0.0);
     match flank.at_height(&job.blank, begin_mm) {
@@ -190,11 +192,12 @@ pub fn measure(job: &ShapingJob, flank: &TargetFlank, cut: &CutField, rows_z_mm:
     let own = ShapedFlank {
         form: limit(0.0, flank.form_end),
         tip: limit(length_mm, flank.tip_end),
+        undercut_mm: flank.undercut.map(|undercut| undercut.depth_mm),
         stock: earlier().map(|(operation, layer)| stock_in(layer, &active(operation))).collect(),
         fillet_stock: earlier().map(|(operation, layer)| stock_in(layer, &fillet(operation))).collect(),
         finished: evaluated.filter(|_| !is_lost),
         active_mm,
-        undercut: deepest.filter(|low| low.value_mm < -RESOLUTION_MM),
+        below_target: deepest.filter(|low| low.value_mm < -RESOLUTION_MM),
         scallops: scallops.filter(|_| !is_lost),
         witness: witness.filter(|_| !is_lost),
         below_range,

@@ -9,7 +9,7 @@ pub(super) static ADDED: Addition = Addition {
         Key::number(
             "head_speed_per_minute",
             "1/min",
-            Range::above(0.0, 5000.0),
+            Range::closed(0.1, 5000.0),
             150.0,
             "150.0",
             "Speed of the head against the cradle.",
@@ -17,7 +17,7 @@ pub(super) static ADDED: Addition = Addition {
         Key::number(
             "roll_speed_deg_per_s",
             "deg/s",
-            Range::above(0.0, 90.0),
+            Range::closed(0.001, 90.0),
             2.0,
             "2.0",
             "Speed of the cradle while it rolls; with the head's speed it spaces the marks of the blades.",
@@ -41,7 +41,7 @@ pub(super) static ADDED: Addition = Addition {
         Key::number(
             "idle_s",
             "s",
-            Range::above(0.0, 3600.0),
+            Range::closed(0.001, 3600.0),
             4.0,
             "4.0",
             "Time between two slots: the head withdraws, the cradle rolls back, the work is indexed.",

@@ -19,7 +19,7 @@ pub(super) static ADDED: Addition = Addition {
         Key::number(
             "hob_speed_per_minute",
             "1/min",
-            Range::above(0.0, 20000.0),
+            Range::closed(0.1, 20000.0),
             120.0,
             "140.0",
             "Speed of the hob spindle, in the mean of a cycle along the pitch curve.",
@@ -27,7 +27,7 @@ pub(super) static ADDED: Addition = Addition {
         Key::number(
             "axial_feed_mm_per_revolution",
             "mm per revolution",
-            Range::above(0.0, 50.0),
+            Range::closed(0.001, 50.0),
             2.0,
             "2.5",
             "Resulting feed along the gear's axis in the time of one revolution of the work.",
@@ -50,7 +50,7 @@ pub(super) static ADDED: Addition = Addition {
         Key::number(
             "radial_feed_mm_per_revolution",
             "mm per revolution",
-            Range::above(0.0, 20.0),
+            Range::closed(0.001, 20.0),
             0.5,
             "0.5",
             "Radial feed in the time of one revolution of the work, with a radial approach.",

@@ -14,7 +14,7 @@ pub(super) static ADDED: Addition = Addition {
     keys: &[
         Key {
             name: "double_strokes_per_minute",
-            kind: Kind::Number(Range::above(0.0, 5000.0)),
+            kind: Kind::Number(Range::closed(0.1, 5000.0)),
             unit: "1/min",
             default: Default::Number(400.0),
             example: "400.0",

@@ -46,7 +46,7 @@ pub(super) static ADDED: Addition = Addition {
         },
         Key {
             name: "circular_feed_mm_per_stroke",
-            kind: Kind::Number(Range::above(0.0, 20.0)),
+            kind: Kind::Number(Range::closed(1e-4, 20.0)),
             unit: "mm per stroke",
             default: Default::LeftOut("strokes_per_revolution holds"),
             example: "0.3",
