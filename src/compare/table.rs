@@ -74,7 +74,7 @@ impl Comparison {
         }
     }
 
-    /// Each name with its unit above its numbers; the results are columns a, b, ..., and as many stand in a line as fit.
+    /// Each name with its unit above its numbers; the results are columns a, b, ..., as many in a line as fit.
     fn print_stacked(&self, sheet: &mut Sheet, width: usize, rows: &[Vec<String>]) {
         let Some((titles, rows)) = rows.split_first() else { return };
         let numbers = titles.len() - 2;
