@@ -77,13 +77,13 @@ mod tests {
 
     #[test]
     fn values_and_messages_go_on_below_their_beginning() {
-        let text = "warning: one two three\n  label     four five six seven\n  a  b  ddddddddddddddddddddd\n  S  1  five six \
-                    seven\n  label     a/path/of/20/chars\nshort";
+        let text = "warning: one two three\n  label     four five six seven\n  a  b  ddddddddddddddddddddd\n  S  1  \
+                    five six seven\n  label     a/path/of/20/chars\nshort";
         let fitted = fitted(text, 20);
         assert_eq!(
             fitted,
-            "warning: one two\n  three\n  label     four\n    five six seven\n  a  b  ddddddddddddddddddddd\n  S  1  five six\n        \
-             seven\n  label\n    a/path/of/20/chars\nshort"
+            "warning: one two\n  three\n  label     four\n    five six seven\n  a  b  ddddddddddddddddddddd\n  S  1  \
+             five six\n        seven\n  label\n    a/path/of/20/chars\nshort"
         );
         let words = |text: &str| text.split_whitespace().map(str::to_owned).collect::<Vec<_>>();
         assert_eq!(words(&fitted), words(text));

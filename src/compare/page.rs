@@ -39,8 +39,8 @@ pub(super) fn page(
         PageSection::new(
             "changed",
             "What changed most",
-            "The largest differences from the first result, over the limit where a figure has one, else over the larger of \
-             both values.",
+            "The largest differences from the first result, over the limit where a figure has one, else over the \
+             larger of both values.",
             changed,
         ),
         PageSection::new(

@@ -74,7 +74,7 @@ impl Comparison {
         }
     }
 
-    /// Each name with its unit above its numbers; the results are columns a, b, ..., and as many stand in a line as fit.
+    /// Each name with its unit above its numbers; the results are columns a, b, ..., as many in a line as fit.
     fn print_stacked(&self, sheet: &mut Sheet, width: usize, rows: &[Vec<String>]) {
         let Some((titles, rows)) = rows.split_first() else { return };
         let numbers = titles.len() - 2;
@@ -91,11 +91,15 @@ impl Comparison {
         for (letter, one) in heads.iter().zip(&self.results) {
             sheet.words(&format!("{letter}: {}", one.name));
         }
-        lines(&heads[..numbers]).iter().for_each(|line| sheet.words(line));
+        for line in lines(&heads[..numbers]) {
+            sheet.words(&line);
+        }
         for row in rows {
             let unit = &row[1 + numbers];
             sheet.words(&if unit.is_empty() { row[0].clone() } else { format!("{}, {unit}", row[0]) });
-            lines(&row[1..=numbers]).iter().for_each(|line| sheet.words(line));
+            for line in lines(&row[1..=numbers]) {
+                sheet.words(&line);
+            }
         }
     }
 }

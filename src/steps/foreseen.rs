@@ -1,9 +1,9 @@
 //! What is known of a gear before anything is cut, the same for `check`, `axes` and `cut`.
 //!
-//! In: a job, its texture windows, what its process warns about. Out: [`Foreseen`]: the windows as they will be cut, and
-//! the list of warnings as far as it follows from the scene. A process makes it in one function of its own, which also
-//! refuses what a run cannot begin with (windows that lie on no flank, too large a blank field), so that a scene that
-//! `check` accepts is one that `cut` starts on.
+//! In: a job, its texture windows, what its process warns about. Out: [`Foreseen`]: the windows as they will be cut,
+//! and the list of warnings as far as it follows from the scene. A process makes it in one function of its own, which
+//! also refuses what a run cannot begin with (windows that lie on no flank, too large a blank field), so that a scene
+//! that `check` accepts is one that `cut` starts on.
 
 use super::inspection;
 use crate::findings::Warning;

@@ -1,7 +1,7 @@
 //! What is known of a shaped gear before anything is cut; what a run cannot begin with is refused.
 //!
-//! In: the job with the motion of its axes. Out: [`Foreseen`]. A machine that yields displaces its strokes by forces that
-//! only the cut finds: `check` and `axes`, which know its rigid twin, leave to the cut what follows from them.
+//! In: the job with the motion of its axes. Out: [`Foreseen`]. A machine that yields displaces its strokes by forces
+//! that only the cut finds: `check` and `axes`, which know its rigid twin, leave to the cut what follows from them.
 
 use super::axes_report::OperationAxes;
 use super::{ShapingJob, findings, warnings};

@@ -164,8 +164,8 @@ fn the_largest_changes_come_first_and_places_are_not_subtracted() {
     assert!(csv.contains("\ntexture.tooth,1,3.0,7.0,,,made by hand\n"), "{csv}");
 }
 
-/// A figure with a limit is judged by that: half of a limit of 4 um is more than a third of a force. What rounding leaves
-/// beside 0 is no change in any unit.
+/// A figure with a limit is judged by that: half of a limit of 4 um is more than a third of a force. What rounding
+/// leaves beside 0 is no change in any unit.
 #[test]
 fn limits_are_the_scale_where_there_are_some() {
     let folder = tempfile::tempdir().expect("a folder for the test");

@@ -1,7 +1,7 @@
 //! What commands print on a terminal of 80 columns: every line fits, and the words that weigh are in colour.
 //!
-//! `script` (util-linux) gives the program a terminal of its own, as the code asks for one; standard output and standard
-//! error come out of it together.
+//! `script` (util-linux) gives the program a terminal of its own, as the code asks for one; standard output and
+//! standard error come out of it together.
 
 use std::path::Path;
 use std::process::Command;

@@ -17,7 +17,6 @@ use crate::steps::axes::{self, AxesOfOperation as _};
 use crate::steps::inspection::Inspected;
 use crate::steps::machine_errors::{self, tool_words};
 use crate::texture::{self, WindowTexture};
-use gearcut_core::error::Result;
 use gearcut_core::units::UM_PER_MM;
 
 /// Why a pitch is not known.
@@ -46,10 +45,7 @@ pub struct Measured<'a> {
 }
 
 /// Everything that was found.
-///
-/// # Errors
-/// A flank that the hob does not generate.
-pub fn findings(cutter: &HobCutter, gear: &HobbedGear, measured: &Measured) -> Result<Findings> {
+pub fn findings(cutter: &HobCutter, gear: &HobbedGear, measured: &Measured) -> Findings {
     let job = cutter.job;
     let work = &gear.work;
     let operations = job.operations.iter().zip(measured.motion).zip(&gear.passes);
@@ -95,7 +91,7 @@ pub fn findings(cutter: &HobCutter, gear: &HobbedGear, measured: &Measured) -> R
     list.extend(warnings::after(cutter, gear, of_blank));
     list.extend(measured.inspected.warnings());
     list.extend(texture::warnings(cutter, measured.textures));
-    Ok(Findings {
+    Findings {
         program_version: env!("CARGO_PKG_VERSION").to_owned(),
         process: "hobbing".to_owned(),
         scene: job.scene.name.clone(),
@@ -103,7 +99,7 @@ pub fn findings(cutter: &HobCutter, gear: &HobbedGear, measured: &Measured) -> R
         headline: headline(job, gear, measured.motion),
         warnings: ranked(list),
         sections,
-    })
+    }
 }
 
 /// Where the scene has profiles evaluated, if it names it.

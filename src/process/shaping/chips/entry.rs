@@ -54,7 +54,9 @@ fn entry(job: &ShapingJob, operation: usize, polygon: &EdgePolygon, forces: &[El
     chips.sort_unstable_by_key(|chip| chip.blade);
     let center_mm = middle_pose(job, operation, 0).translation_mm + job.eccentricity_mm();
     let mut stroke = StrokeChips::default();
-    chips.iter().for_each(|chip| stroke.add(chip, job.scene.gear.module_mm, center_mm));
+    for chip in &chips {
+        stroke.add(chip, job.scene.gear.module_mm, center_mm);
+    }
     (!stroke.is_idle()).then_some(stroke)
 }
 
