@@ -143,7 +143,7 @@ fn what_cut_refuses_is_refused_before() {
         (bevel, &[gone], "teeth"),
         (round, &[far], "does not lie on tooth 1 left"),
         (hobbed, &[far], "does not lie on tooth 1 left"),
-        (round, &[many], "more than 40 million"),
+        (round, &[many], "more than 8 million"),
         (hobbed, &fine, "fields.blank"),
     ] {
         let settings: Vec<&str> = settings.iter().flat_map(|setting| ["--set", setting]).collect();

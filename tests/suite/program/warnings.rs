@@ -108,7 +108,7 @@ fn a_cut_adds_only_what_no_scene_says() {
     for words in [
         "warning: operation rough: the first stroke comes at full depth and takes",
         "warning: class 5 is not judged: ",
-        "warning: texture of tooth 2 left, 2 right after rough: a mark along the profile has only",
+        "warning: texture of tooth 2 left, 2 right after finish: a mark along the profile has only",
     ] {
         assert!(known.iter().any(|line| line.starts_with(words)), "no {words:?} in {known:?}");
     }
