@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use gearcut::backend::{BackendWish, OnFailure, choose};
-use gearcut::influence::diagnose::{self, Diagnosis, ErrorModel};
+use gearcut::influence::diagnose::{self, MeasuredCuts};
 use gearcut::influence::measured;
 use gearcut::output::progress::{Progress, ProgressMode};
 use gearcut::output::text::{Sheet, plain};
@@ -29,9 +29,9 @@ pub fn run(arguments: &DiagnoseArguments) -> Result<(), Failure> {
     let backend = choose(BackendWish::Cpu, OnFailure::default())?.backend;
     let names = &arguments.parameters;
     let filled = folder::fill_partly(&out, "diagnose", |folder, interrupt, known| {
-        let model = ErrorModel::new(&loaded, &points, names, backend.as_ref(), &progress, interrupt, known)?;
+        let cuts = MeasuredCuts::new(&loaded, &points, backend.as_ref(), known)?;
         let measured_um: Vec<f64> = points.iter().map(|point| point.deviation_um).collect();
-        let found = Diagnosis::new(&model, &measured_um, noise_um)?;
+        let (model, found) = diagnose::diagnose(&cuts, &measured_um, noise_um, names, &progress, interrupt)?;
         let tree = diagnose::findings(&loaded.scene, &model, &points, noise_um, &found);
         diagnose::write(&loaded.scene, &model, &found, &tree, folder)?;
         let record = vec![

@@ -31,8 +31,9 @@ pub struct Influence {
     pub upwards_only: bool,
     /// Largest difference from what half the step gives, um per unit; 0 until it is asked for.
     pub half_step_um: f64,
-    /// Largest bend |h(p + s) - 2 h(p) + h(p - s)| / 2 s, um per unit; 0 where it is shifted upwards only.
-    pub bend_um: f64,
+    /// Bend (h(p + s) - 2 h(p) + h(p - s)) / 2 s at every place, um per unit: how far both sides of the step are off a
+    /// straight line; 0 where it is shifted upwards only.
+    pub bends_um: Vec<f64>,
 }
 
 impl Influence {
@@ -66,11 +67,12 @@ impl Influence {
         let parameter = parameter.clone();
         let Some(below) = shifted_um(loaded, &parameter, -step, heights_um)? else {
             let um_per_unit = above.iter().zip(before_um).map(|(a, b)| (a - b) / step).collect();
-            return Ok(Self { parameter, um_per_unit, upwards_only: true, half_step_um, bend_um: 0.0 });
+            let bends_um = vec![0.0; above.len()];
+            return Ok(Self { parameter, um_per_unit, upwards_only: true, half_step_um, bends_um });
         };
         let um_per_unit = above.iter().zip(&below).map(|(a, b)| 0.5 * (a - b) / step).collect();
         let bends = above.iter().zip(before_um).zip(&below).map(|((a, now), b)| 0.5 * (a - 2.0 * now + b) / step);
-        Ok(Self { parameter, um_per_unit, upwards_only: false, half_step_um, bend_um: largest(bends) })
+        Ok(Self { parameter, um_per_unit, upwards_only: false, half_step_um, bends_um: bends.collect() })
     }
 
     /// The same, compared with what half the step gives.
@@ -89,10 +91,15 @@ impl Influence {
         largest(self.um_per_unit.iter().copied())
     }
 
+    /// Largest bend, um per unit.
+    pub fn bend_um(&self) -> f64 {
+        largest(self.bends_um.iter().copied())
+    }
+
     /// Whether twice the error does twice as much: neither half the step nor the other side says otherwise.
     pub fn is_linear(&self) -> bool {
         let allowed_um = (LINEAR_SHARE * self.largest_um()).max(LINEAR_UM / self.parameter.step);
-        self.half_step_um <= allowed_um && self.bend_um <= allowed_um
+        self.half_step_um <= allowed_um && self.bend_um() <= allowed_um
     }
 }
 

@@ -128,7 +128,7 @@ fn row(line: &BudgetLine) -> Vec<Datum> {
     ];
     row.extend(line.per_unit.named().map(|(_, _, um)| Datum::from(um)));
     row.push(percent(influence.half_step_um));
-    row.push(if influence.upwards_only { Datum::Undefined } else { percent(influence.bend_um) });
+    row.push(if influence.upwards_only { Datum::Undefined } else { percent(influence.bend_um()) });
     row.push(course.into());
     row
 }

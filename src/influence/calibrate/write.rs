@@ -120,7 +120,7 @@ fn numbers(measured: &MeasuredGear, found: &Calibration) -> Table {
         TableColumn::words("quantity", "path in results.json, which says its unit"),
         TableColumn::by_row("value", "measured: value"),
         TableColumn::by_row("uncertainty", "measured: its standard uncertainty"),
-        TableColumn::by_row("scene", "predicted: by the scene as it is"),
+        TableColumn::by_row("predicted", "predicted: by the scene as it is"),
         TableColumn::by_row("fitted", "fitted: by the scene with the fitted parameters"),
     ];
     let rows = measured.numbers.iter().zip(&found.values).map(|(number, of)| {
@@ -149,7 +149,7 @@ fn lines(measured: &MeasuredGear, found: &Calibration) -> Table {
         TableColumn::words("line", "line of a chart"),
         TableColumn::new("places", "1", "measured: places on it"),
         TableColumn::new("measured", "um", "measured: root mean square about the mean of the line, or a turn"),
-        TableColumn::new("off_scene", "um", "predicted: root mean square of what the scene as it is leaves of it"),
+        TableColumn::new("off_predicted", "um", "predicted: root mean square of what the scene as it is leaves of it"),
         TableColumn::new("off_fitted", "um", "fitted: the same of the scene with the fitted parameters"),
     ];
     let rows = by_line(measured, found).map(|(line, own)| {
@@ -177,7 +177,7 @@ fn places(measured: &MeasuredGear, found: &Calibration) -> Table {
             .or("pitch is taken on the pitch curve"),
         TableColumn::new("v", "mm", "place along the tooth from the middle of the face").or("pitch is taken there"),
         TableColumn::new("measured", "um", "measured: deviation from the mean of its line, or but for a turn"),
-        TableColumn::new("scene", "um", "predicted: the same by the scene as it is"),
+        TableColumn::new("predicted", "um", "predicted: the same by the scene as it is"),
         TableColumn::new("fitted", "um", "fitted: the same by the scene with the fitted parameters"),
     ];
     let rows = by_line(measured, found).flat_map(|(line, own)| {

@@ -67,6 +67,15 @@ pub fn findings(
             let what = "chance that noise alone leaves as much: chi-square of the residuals over the stated noise";
             Quantity::number(found.chance, "1", what)
         })
+        .with("rounds", {
+            let what = "fitted: how often the gear was cut with the sizes found so far, until they moved no more";
+            Quantity::count(found.rounds as u64, "1", what)
+        })
+        .with("bent", {
+            let what = "measured places that the first fit went without, where the heights bend by more than the noise \
+                        within a natural step of an error; all others have them";
+            Quantity::count(found.bent as u64, "places", what)
+        })
         .table(sources(model, found))
         .table(residuals(points, model, found));
     Findings {
@@ -89,9 +98,15 @@ fn warnings(model: &ErrorModel, found: &Diagnosis) -> Vec<Warning> {
     let mut warnings = Vec::new();
     if !model.complete {
         warnings.push(Warning::warn(format!(
-            "stopped by Ctrl-C: only {} errors were tried; one of the others may explain these deviations better",
-            model.sources.len()
+            "stopped by Ctrl-C: {} errors were tried and {} rounds of the fit done; another error or another round may \
+             explain these deviations better",
+            model.sources.len(),
+            found.rounds
         )));
+    } else if !found.settled {
+        warnings.push(Warning::warn(
+            "the fit has not settled: gears that are cut with the named sizes lead to others; intervals do not hold",
+        ));
     }
     if found.unexplained_um > 0.0 {
         warnings.push(Warning::warn(format!(
@@ -118,6 +133,13 @@ fn warnings(model: &ErrorModel, found: &Diagnosis) -> Vec<Warning> {
         warnings.push(Warning::note(format!(
             "noise hides a natural step of these at the measured places, beside a turn of the gear: {}",
             names(&found.hidden)
+        )));
+    }
+    if !found.unsayable.is_empty() {
+        warnings.push(Warning::note(format!(
+            "these would explain something by a size that the scene has no word for, such as a play below 0, and are \
+             not named: {}",
+            names(&found.unsayable)
         )));
     }
     for (parameter, why) in &model.refused {
@@ -166,8 +188,8 @@ fn residuals(points: &[MeasuredPoint], model: &ErrorModel, found: &Diagnosis) ->
         TableColumn::new("u", "mm", "arc along the profile from the form point"),
         TableColumn::new("v", "mm", "place along the tooth from the middle of the face"),
         TableColumn::new("measured", "um", "measured normal deviation"),
-        TableColumn::new("scene", "um", "predicted: that of the scene's own gear"),
-        TableColumn::new("residual", "um", "measured less scene, turn and fitted errors"),
+        TableColumn::new("predicted", "um", "predicted: that of the scene's own gear"),
+        TableColumn::new("residual", "um", "fitted: measured less that of the gear with the fitted errors, turned"),
     ];
     let rows = points.iter().zip(&model.before_um).zip(&found.residuals_um).map(|((point, before), residual)| {
         vec![

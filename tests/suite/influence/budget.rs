@@ -148,7 +148,7 @@ fn half_a_step_tells_what_is_not_linear() {
     assert!(checked(&eccentric).is_linear());
     // Planted: the square of an eccentricity of 0.9 mm over the curvature of flanks is not small.
     let large = checked(&eccentric.with_step(900.0));
-    assert!(!large.is_linear(), "half a step differs by {}, bend {}", large.half_step_um, large.bend_um);
+    assert!(!large.is_linear(), "half a step differs by {}, bend {}", large.half_step_um, large.bend_um());
     let backlash = checked(&parameter(&round.loaded, "machine.errors.work.backlash_arcsec"));
     assert!(backlash.upwards_only && backlash.is_linear(), "{} arcsec", backlash.half_step_um);
 }

@@ -73,7 +73,7 @@ fn an_inspection_gives_back_the_errors_of_its_gear() {
         assert!(half < 0.1 * expected, "{id}: +- {half}");
     }
     let lines = std::fs::read_to_string(shop.0.path().join("by_charts/tables/lines.csv")).expect("a table");
-    assert!(lines.starts_with("line,places,measured_um,off_scene_um,off_fitted_um"), "{lines}");
+    assert!(lines.starts_with("line,places,measured_um,off_predicted_um,off_fitted_um"), "{lines}");
     for words in ["profile of tooth 1 left", "helix of tooth 13 right", "pitch of left flanks"] {
         assert!(lines.contains(words), "no {words}: {lines}");
     }

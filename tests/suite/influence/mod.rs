@@ -2,7 +2,9 @@
 
 mod budget;
 mod calibrate;
+mod calibrated_gears;
 mod command;
+mod cut_gears;
 mod diagnose;
 mod drives;
 mod measured_files;
