@@ -220,7 +220,12 @@ fn resolve(job: &dyn GearJob, index: usize, spec: &TextureWindow, side: Side) ->
         if (count[0] as f64) * (count[1] as f64) > MOST_POINTS as f64 {
             return refuse(
                 name,
-                format!("the window on {where_} has {} x {} points, more than {} million", count[0], count[1], MOST_POINTS / 1_000_000),
+                format!(
+                    "the window on {where_} has {} x {} points, more than {} million",
+                    count[0],
+                    count[1],
+                    MOST_POINTS / 1_000_000
+                ),
                 "use a wider spacing or a smaller window",
             );
         }
