@@ -5,8 +5,8 @@
 //!
 //! **Law.** Measured deviations are those of a gear that is cut with the errors, plus a turn of the gear on the
 //! measuring machine, plus noise of one known standard deviation. About a gear with known errors they are linear:
-//! influences times sizes. Sources are chosen and their sizes fitted by least squares ([`selection`]); then the gear is
-//! cut with them, and the fit begins again from there, until it moves no more ([`refit`]).
+//! influences times sizes. Sources are chosen and their sizes fitted by least squares (`selection`); then the gear is
+//! cut with them, and the fit begins again from there, until it moves no more (`refit`).
 //!
 //! A source B that would explain as much in place of a named A, within what noise can hide, cannot be told apart from
 //! A. What no source explains is compared with the noise: chi-square of the residuals.
