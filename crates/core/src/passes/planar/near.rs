@@ -39,9 +39,9 @@ pub struct NearPass {
 
 /// Poses at the phases where bounds look at a pass, in their order: one or [`MAX_PHASES`].
 ///
-/// The memory of those that a frozen stroke lacks holds its one pose as well. Compilers read ahead and place rays in
-/// all of them before they ask how many there are; what happened to lie there were numbers next to zero, with which
-/// processors take a hundred times as long (a quarter of a whole run).
+/// The memory of those that a frozen stroke lacks holds its one pose as well. Compiled code places rays in all of them
+/// before it asks how many there are; what happened to lie in memory that was never written took a quarter of a whole
+/// run, probably numbers next to zero, with which processors take a hundred times as long.
 #[derive(Debug, Clone, Copy)]
 pub struct PhasePoses {
     poses: [Rigid2; MAX_PHASES],
