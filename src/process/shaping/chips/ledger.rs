@@ -185,3 +185,64 @@ pub(super) fn chips_of(space: &Space, forces: &[ElementForce]) -> SpaceChips {
     }
     SpaceChips { chips, rows }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::process::load;
+    use std::path::Path;
+
+    /// Chips of some spaces of a shipped scene: with the passes that they depend on, with all passes, and with those of
+    /// their own teeth alone; with the number of passes of each.
+    fn chips(scene: &str, settings: &[&str], spaces: [u32; 3]) -> [(Vec<ToothChip>, usize); 3] {
+        let settings: Vec<String> = settings.iter().map(|&key| key.to_owned()).collect();
+        let scene = load(Path::new(scene), &settings).expect("a shipped scene");
+        let job = ShapingJob::new(scene.scene).expect("a shipped gear");
+        let polygon = EdgePolygon::new(job.cutter.edge(), job.chip_spacing_mm);
+        let forces = ElementForce::along_edge(&job.material, job.cutter_spec.rake_angle_rad, &polygon.stations);
+        let contours_mm = contours(&job);
+        let mut found = [(); 3].map(|()| (Vec::new(), 0));
+        for number in spaces {
+            let all = || Space::with_all_passes(&job, &polygon, &contours_mm, number, 0.0).0;
+            let mut own = all();
+            own.passes.retain(|pass| pass.own);
+            let kept = Space::new(&job, &polygon, &contours_mm, number, 0.0);
+            for ((chips, passes), space) in found.iter_mut().zip([kept, all(), own]) {
+                chips.extend(chips_of(&space, &forces).chips);
+                *passes += space.passes.len();
+            }
+        }
+        found
+    }
+
+    /// Gears of all kinds, pitch curves that bend inwards, a cutter of few teeth whose tips meet pointed teeth.
+    const GEARS: [(&str, &[&str]); 6] = [
+        ("scenes/shaping/elliptical_normal.toml", &[]),
+        ("scenes/shaping/elliptical_traditional.toml", &[]),
+        ("scenes/shaping/fourier_concave.toml", &[]),
+        ("scenes/shaping/internal_ellipse.toml", &[]),
+        ("scenes/shaping/circular_m3_z24.toml", &["gear.addendum_coefficient=1.3"]),
+        ("scenes/shaping/machine_errors.toml", &[]),
+    ];
+
+    #[test]
+    fn passes_that_are_left_out_change_no_chip() {
+        for (scene, settings) in GEARS {
+            let [(kept, some), (all, every), _] = chips(scene, settings, [1, 4, 9]);
+            println!("{scene}: {some} of {every} passes, {} chips", kept.len());
+            assert!(kept.len() > 100, "{scene}: {} chips", kept.len());
+            assert!(kept == all, "{scene}");
+            assert!(some < every, "{scene}: {some} of {every} passes");
+        }
+    }
+
+    /// Planted: a space whose own teeth alone cut has other chips where those of the next spaces have come before.
+    #[test]
+    fn passes_of_other_teeth_are_missed() {
+        let other = GEARS.iter().filter(|(scene, settings)| {
+            let [_, (all, _), (own, _)] = chips(scene, settings, [1, 4, 9]);
+            own != all
+        });
+        assert!(other.count() > 0, "passes of other teeth never matter on these gears");
+    }
+}

@@ -4,8 +4,8 @@
 //! uncut chip thickness over stroke and edge, and over tooth space and edge.
 //!
 //! Every tooth space is a [`section::SpaceSection`] of its own, in the transverse plane in the middle of the face, and
-//! sees **all** passes that touch it in strict order of time: nothing is left out because it does not shape the final
-//! surface. Each cutter tooth in each stroke belongs to the space that its tip stands in; so every chip is counted
+//! sees **all** passes that come where its own teeth come in strict order of time: nothing is left out because it does
+//! not shape the final surface. Each cutter tooth in each stroke belongs to the space that its tip stands in; so every chip is counted
 //! once. Where the axes rest during the stroke all sections are equal and the ledger is exact for the whole face; where
 //! the feed goes on, the middle section stands for the face, the others being the same a fraction of a stroke earlier
 //! or later.
@@ -21,6 +21,7 @@ mod entry;
 pub mod flank;
 pub mod ledger;
 pub mod oblique;
+mod own_region;
 mod ploughing;
 mod rays;
 pub mod section;

@@ -3,6 +3,7 @@
 //! In: the job and the number of a space. Out: the blank's contours and a window in the frame of the space, the passes
 //! that reach into the window, and the section that they cut.
 
+use super::own_region::{CoarseTooth, SweptRegion};
 use super::section::SpaceSection;
 use crate::process::shaping::ShapingJob;
 use crate::process::shaping::edge_polygon::EdgePolygon;
@@ -53,7 +54,7 @@ pub(super) fn contours(job: &ShapingJob) -> Vec<Vec<DVec2>> {
     }
 }
 
-/// One tooth space with the passes that touch its neighbourhood.
+/// One tooth space with passes that touch its neighbourhood.
 pub(super) struct Space<'a> {
     pub(super) job: &'a ShapingJob,
     pub(super) polygon: &'a EdgePolygon,
@@ -65,7 +66,7 @@ pub(super) struct Space<'a> {
 }
 
 /// Up to where the material of a space's neighbourhood stands, and places that stand for a tooth's edge.
-struct StockHeight {
+pub(super) struct StockHeight {
     /// Every few corners of the edge, blade frame.
     coarse_mm: Vec<DVec2>,
     /// Between two of them the edge stays within their distance of both; and poses may be others by some room.
@@ -91,7 +92,8 @@ impl StockHeight {
 }
 
 impl<'a> Space<'a> {
-    /// Space `number` (1 to z): the one after tooth `number`. Passes may stand elsewhere by as much as `room_mm`.
+    /// Space `number` (1 to z): the one after tooth `number`, with the passes that its chips depend on. Passes may stand
+    /// elsewhere by as much as `room_mm`.
     pub(super) fn new(
         job: &'a ShapingJob,
         polygon: &'a EdgePolygon,
@@ -99,6 +101,19 @@ impl<'a> Space<'a> {
         number: u32,
         room_mm: f64,
     ) -> Self {
+        let (mut space, stock) = Self::with_all_passes(job, polygon, contours_mm, number, room_mm);
+        space.leave_out_idle_passes(&stock, room_mm);
+        space
+    }
+
+    /// The same with all passes that touch its neighbourhood, and how far its material reaches.
+    pub(super) fn with_all_passes(
+        job: &'a ShapingJob,
+        polygon: &'a EdgePolygon,
+        contours_mm: &[Vec<DVec2>],
+        number: u32,
+        room_mm: f64,
+    ) -> (Self, StockHeight) {
         let pitch_mm = std::f64::consts::PI * job.scene.gear.module_mm;
         let at = |pitches: f64| job.curve.phi_at_arc((f64::from(number) + pitches) * pitch_mm);
         let middle = job.curve.frame(at(0.0));
@@ -130,7 +145,17 @@ impl<'a> Space<'a> {
         let stock = StockHeight::new(polygon, out, top_mm, room_mm);
         space.lay_window(limits_rad, &stock);
         space.find_passes(limits_rad, &stock, room_mm);
-        space
+        (space, stock)
+    }
+
+    /// Leaves out the passes that change none of its chips: those that come nowhere where its own teeth come.
+    fn leave_out_idle_passes(&mut self, stock: &StockHeight, room_mm: f64) {
+        let tooth = CoarseTooth::new(self.polygon);
+        let own = self.passes.iter().filter(|pass| pass.own).map(|pass| &pass.section_from_blade);
+        // Both may stand elsewhere.
+        let region = SweptRegion::new(&tooth, stock.out, stock.top_mm, 2.0 * room_mm, own);
+        let mut scratch = Vec::new();
+        self.passes.retain(|pass| pass.own || region.is_entered_by(&pass.section_from_blade, &mut scratch));
     }
 
     /// All passes with the section pose of their blades, in order of time.
