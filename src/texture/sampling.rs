@@ -17,7 +17,7 @@ use super::ENOUGH_POINTS;
 use super::window::Window;
 use crate::job::GearJob;
 use gearcut_core::cut::cpu::Cpu;
-use gearcut_core::error::{Error, Result};
+use gearcut_core::error::Result;
 use rayon::prelude::*;
 
 /// Points of a window that was made finer: some 50 MB while it is evaluated, on every core.
@@ -62,14 +62,15 @@ pub fn sampled(job: &dyn GearJob, windows: &[Window]) -> Result<Vec<SampledWindo
 /// # Errors
 /// Geometry.
 pub(super) fn sampled_one(job: &dyn GearJob, window: &Window) -> Result<SampledWindow> {
-    let cut_both = |window: &Window| Ok::<_, Error>([facets_along(job, window, 0)?, facets_along(job, window, 1)?]);
     let mut found = window.clone();
-    let mut lines = cut_both(&found)?;
+    let mut lines = [facets_along(job, &found, 0)?, facets_along(job, &found, 1)?];
     for direction in [0, 1] {
         if window.open_step[direction]
-            && let Some(finer) = finer(job, &found, direction, lines[direction].1)?
+            && let Some((finer, facets)) = finer(job, &found, direction, lines[direction].1)?
         {
-            lines = cut_both(&finer)?;
+            let other = 1 - direction;
+            lines[direction] = facets;
+            lines[other] = facets_along(job, &finer, other)?;
             found = finer;
         }
     }
@@ -78,28 +79,36 @@ pub(super) fn sampled_one(job: &dyn GearJob, window: &Window) -> Result<SampledW
 }
 
 /// A window with points closer together in a direction, if its marks, which have so many points as it is, need that and
-/// may have it.
-fn finer(job: &dyn GearJob, window: &Window, direction: usize, mut points: Option<f64>) -> Result<Option<Window>> {
+/// may have it, with its facets along that direction.
+fn finer(
+    job: &dyn GearJob,
+    window: &Window,
+    direction: usize,
+    points: Option<f64>,
+) -> Result<Option<(Window, Facets)>> {
     let finest_mm = window.spacing_mm()[direction] / MOST_TIMES_FINER;
     let mut finer = window.clone();
+    let mut facets = (0, points);
     for attempt in 0..ATTEMPTS {
-        let Some(few) = points else { break };
+        let Some(few) = facets.1 else { break };
         if few >= ENOUGH_POINTS {
-            return Ok((attempt > 0).then_some(finer));
+            return Ok((attempt > 0).then_some((finer, facets)));
         }
         let step_mm = finer.spacing_mm()[direction] * few / (ROOM * ENOUGH_POINTS);
         finer = finer.with_step(direction, step_mm);
         if attempt + 1 == ATTEMPTS || step_mm < finest_mm || finer.count[0] * finer.count[1] > MOST_POINTS {
             break;
         }
-        points = facets_along(job, &finer, direction)?.1;
+        facets = facets_along(job, &finer, direction)?;
     }
     Ok(None)
 }
 
-/// Facets along the middle line of a window, the line along the tooth (0) or along the profile (1), and the points of a
-/// whole one: none along the tooth where marks run along it without end.
-fn facets_along(job: &dyn GearJob, window: &Window, direction: usize) -> Result<(usize, Option<f64>)> {
+/// Facets along a line, and the points of a whole one: none where marks run along it without end.
+type Facets = (usize, Option<f64>);
+
+/// Facets along the middle line of a window, the line along the tooth (0) or along the profile (1).
+fn facets_along(job: &dyn GearJob, window: &Window, direction: usize) -> Result<Facets> {
     let (mut arcs_mm, mut rows_z_mm): (Vec<f64>, Vec<f64>) = (window.arcs_mm().collect(), window.rows_z_mm());
     if direction == 0 {
         if !job.marks_follow_along_tooth(window.operation) {
@@ -115,7 +124,7 @@ fn facets_along(job: &dyn GearJob, window: &Window, direction: usize) -> Result<
 
 /// Facets along a line, one more than the changes of the pass that left it, and the points of a whole one: parts of
 /// marks at both ends are not counted.
-fn facets(passes: &[u32]) -> (usize, Option<f64>) {
+fn facets(passes: &[u32]) -> Facets {
     let edges: Vec<usize> = (1..passes.len()).filter(|&i| passes[i] != passes[i - 1]).collect();
     let points = match edges.as_slice() {
         [first, .., last] => Some((last - first) as f64 / (edges.len() - 1) as f64),

@@ -28,13 +28,14 @@ const UPPER_SHARE: f64 = 0.1;
 struct BladeRegion {
     /// Its corners, mm.
     outline: Vec<DVec2>,
-    center_mm: DVec2,
-    radius_mm: f64,
+    /// The box that holds them: most places lie outside of it.
+    box_mm: [DVec2; 2],
 }
 
 impl BladeRegion {
     fn holds(&self, p: DVec2) -> bool {
-        if p.distance(self.center_mm) > self.radius_mm {
+        let [low, high] = self.box_mm;
+        if p.cmplt(low).any() || p.cmpgt(high).any() {
             return false;
         }
         let before = self.outline.iter().cycle().skip(self.outline.len() - 1);
@@ -59,11 +60,11 @@ pub fn lower(field: &Field, strokes: &StrokeSet, tool: &dyn PlanarTool, layer: &
         .iter()
         .map(|edge| {
             let tooth = ClosedTooth::new(edge, 0.0);
-            let nodes_mm =
+            let outline =
                 tooth.placed(&Rigid2::new(0.0, DVec2::ZERO), &mut PlacedScratch::default()).nodes_mm().to_vec();
-            let center_mm = 0.5 * edge.center_mm;
-            let radius_mm = nodes_mm.iter().map(|node| node.distance(center_mm)).fold(0.0, f64::max);
-            BladeRegion { outline: nodes_mm, center_mm, radius_mm }
+            let nowhere = [DVec2::INFINITY, DVec2::NEG_INFINITY];
+            let box_mm = outline.iter().fold(nowhere, |[low, high], node| [low.min(*node), high.max(*node)]);
+            BladeRegion { outline, box_mm }
         })
         .collect();
     // Inside of all edges: the body alone.
