@@ -176,12 +176,43 @@ pub struct PartCubic {
     pub across_end_mm: f64,
 }
 
+/// Parts that a ray crosses, in their order. Nearly all rays cross two or none: what is known of a tile's rays then lies
+/// side by side in memory.
+#[derive(Debug, Default, Clone)]
+struct MetParts {
+    count: u32,
+    first: [u32; 3],
+    others: Vec<u32>,
+}
+
+impl MetParts {
+    fn push(&mut self, part: u32) {
+        match self.first.get_mut(self.count as usize) {
+            Some(place) => *place = part,
+            None => self.others.push(part),
+        }
+        self.count += 1;
+    }
+
+    fn clear(&mut self) {
+        if self.count as usize > self.first.len() {
+            self.others.clear();
+        }
+        self.count = 0;
+    }
+
+    fn ids(&self) -> impl Iterator<Item = usize> {
+        let beside = self.first.len().min(self.count as usize);
+        self.first[..beside].iter().chain(&self.others[..self.count as usize - beside]).map(|&id| id as usize)
+    }
+}
+
 /// Crossings of one curve with some rays: scratch memory that is used over and over.
 #[derive(Debug, Default)]
 pub struct RayCrossings {
     parts: Vec<MonotonePart>,
     /// Per ray of the window: parts that it crosses.
-    met: Vec<Vec<u32>>,
+    met: Vec<MetParts>,
     /// Parts are kept that come this near to a ray.
     margin_mm: f64,
     /// Rays per mm.
@@ -209,10 +240,10 @@ impl RayCrossings {
         (self.margin_mm, self.per_mm) = (margin_mm, 1.0 / row.spacing_mm);
         if self.touched.start < self.touched.end {
             let touched = self.touched.start - self.rays.start..self.touched.end - self.rays.start;
-            self.met[touched].iter_mut().for_each(Vec::clear);
+            self.met[touched].iter_mut().for_each(MetParts::clear);
         }
         self.parts.clear();
-        self.met.resize_with(window.len().max(self.met.len()), Vec::new);
+        self.met.resize(window.len().max(self.met.len()), MetParts::default());
         self.rays = window.clone();
         self.touched = window.end..window.start;
         if window.is_empty() {
@@ -312,14 +343,14 @@ impl RayCrossings {
 
     /// Whether a ray crosses the curve.
     pub fn crosses(&self, ray: usize) -> bool {
-        !self.met[ray - self.rays.start].is_empty()
+        self.met[ray - self.rays.start].count > 0
     }
 
     /// Bounds of all crossings of a ray without solving for any.
     pub fn bounds_mm(&self, ray: usize, at_mm: f64) -> [f64; 2] {
         let mut bounds = [f64::INFINITY, f64::NEG_INFINITY];
-        for &id in &self.met[ray - self.rays.start] {
-            let part = &self.parts[id as usize];
+        for id in self.met[ray - self.rays.start].ids() {
+            let part = &self.parts[id];
             let near = part.along[0] + (at_mm - part.across[0]) * part.slope;
             bounds[0] = bounds[0].min(near - part.tolerance_mm);
             bounds[1] = bounds[1].max(near + part.tolerance_mm);
@@ -337,8 +368,8 @@ impl RayCrossings {
         found: &mut Vec<CurveCrossing>,
     ) {
         found.clear();
-        for &id in &self.met[ray - self.rays.start] {
-            found.push(cross(curve, family, &self.parts[id as usize], at_mm));
+        for id in self.met[ray - self.rays.start].ids() {
+            found.push(cross(curve, family, &self.parts[id], at_mm));
         }
         found.sort_by(|a, b| a.at_mm.total_cmp(&b.at_mm));
     }

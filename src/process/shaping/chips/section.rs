@@ -151,8 +151,9 @@ impl<'a> SpaceSection<'a> {
         thickness_mm.clear();
         let mut at = [0; 2];
         for station in &self.polygon.stations {
+            // Both stand in the order of the edge: from station to station there are few steps or none.
             for (side, at) in self.sides.iter().zip(&mut at) {
-                *at += side.crossings[*at..].partition_point(|c| c.parameter <= station.parameter);
+                *at += side.crossings[*at..].iter().take_while(|c| c.parameter <= station.parameter).count();
             }
             thickness_mm.push(self.thickness_at_mm(station, section_from_blade, at));
         }
