@@ -1,11 +1,13 @@
-//! The lines of a comparison: every quantity under its path, with one value per result.
+//! The lines of a comparison: every quantity under its path, with one value per result, and the figures of the
+//! inspection, which stand in a table.
 //!
 //! Lines of the headline are there even where no result has a value; others only where one has.
 
 use std::collections::HashMap;
 
 use super::Compared;
-use crate::findings::{Entry, Findings, Level, Quantity};
+use crate::findings::{Datum, Entry, Findings, Level, Quantity};
+use crate::steps::inspection::INSPECTION;
 
 /// Keys of quantities that say where something was looked at: they are shown, but not subtracted.
 const PLACES: [&str; 3] = ["tooth", "center_profile", "center_lead"];
@@ -35,7 +37,7 @@ pub(super) fn lines(results: &[Compared]) -> Vec<Line> {
                     lines.push(Line { name, title, level: entry.level, quantities });
                     lines.len() - 1
                 });
-                lines[line].quantities[index] = Some(entry.quantity.clone());
+                lines[line].quantities[index] = Some(entry.quantity);
             }
         }
     }
@@ -44,15 +46,49 @@ pub(super) fn lines(results: &[Compared]) -> Vec<Line> {
 }
 
 /// Entries of the headline by key, or all others by path.
-fn named(findings: &Findings, headline: bool) -> Vec<(String, &Entry)> {
+fn named(findings: &Findings, headline: bool) -> Vec<(String, Entry)> {
     if headline {
-        return findings.headline.iter().map(|entry| (entry.key.clone(), entry)).collect();
+        return findings.headline.iter().map(|entry| (entry.key.clone(), entry.clone())).collect();
     }
     let mut named = Vec::new();
     findings.walk(&mut |path, section| {
-        named.extend(section.entries.iter().map(|entry| (format!("{path}.{}", entry.key), entry)));
+        named.extend(section.entries.iter().map(|entry| (format!("{path}.{}", entry.key), entry.clone())));
     });
+    named.extend(figures(findings).into_iter().map(|entry| (format!("{INSPECTION}.figures.{}", entry.key), entry)));
     named
+}
+
+/// Figures of the inspection: of the worst left and right flank, or of both sides together.
+fn figures(findings: &Findings) -> Vec<Entry> {
+    let Some(table) = findings.find(INSPECTION).and_then(|section| section.table_of("figures")) else {
+        return Vec::new();
+    };
+    let [symbols, names] = ["figure", "name"].map(|key| table.column(key));
+    let mut found = Vec::new();
+    for (row, sides) in table.rows.iter().zip(table.numbers("left").zip(table.numbers("right"))) {
+        let word = |column: Option<usize>| match column.and_then(|column| row.get(column)) {
+            Some(Datum::Word(word)) => Some(word),
+            _ => None,
+        };
+        let (Some(symbol), Some(name)) = (word(symbols), word(names)) else { continue };
+        let mut add = |side: &str, title: &str, value_um: f64| {
+            let definition = format!("{name} of ISO 1328-1{title}, of the worst flank with its sign");
+            found.push(Entry {
+                title: format!("{name}{title} {symbol}"),
+                level: Level::Summary,
+                ..Entry::new(&format!("{}{side}", name.replace(' ', "_")), Quantity::number(value_um, "um", definition))
+            });
+        };
+        match sides {
+            (Some(left_um), Some(right_um)) => {
+                add("_left", ", left", left_um);
+                add("_right", ", right", right_um);
+            }
+            (Some(both_um), None) | (None, Some(both_um)) => add("", "", both_um),
+            (None, None) => {}
+        }
+    }
+    found
 }
 
 impl Line {

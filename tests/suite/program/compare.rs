@@ -216,6 +216,32 @@ fn limits_are_the_scale_where_there_are_some() {
     }
 }
 
+/// Figures of the inspection stand in a table; what a guide out of line does to helices is among the first lines.
+#[test]
+fn figures_of_the_inspection_are_compared() {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    let of = |left_um: f64, right_um: f64, runout_um: f64| {
+        let column = |key: &str| json!({ "key": key, "unit": null, "definition": "made by hand" });
+        let number =
+            |key: &str| json!({ "key": key, "unit": "um", "definition": "made by hand", "why": "made by hand" });
+        let figures = json!({
+            "title": "Figures", "columns": [column("figure"), column("name"), number("left"), number("right")],
+            "rows": [["f_H_beta", "helix slope deviation", left_um, right_um], ["F_r", "runout", runout_um, null]],
+        });
+        document("shaping", &json!({}), &json!({ "inspection": { "$title": "Inspection", "figures": figures } }))
+    };
+    put(&folder, "a", &of(0.004, -0.004, 0.5));
+    put(&folder, "b", &of(9.0, -9.4, 0.5));
+    let out = gearcut_in(folder.path(), &["compare", "out/a", "out/b"]).done().out;
+    let (first, all) = out.split_once("\nAll\n").expect("first lines, then all");
+    for (line, value) in [("helix slope deviation left", "9.000"), ("helix slope deviation right", "-9.400")] {
+        let found =
+            first.lines().find(|printed| printed.contains(line)).unwrap_or_else(|| panic!("no {line} in {out}"));
+        assert!(found.contains(value) && found.contains("um"), "{found}");
+    }
+    assert!(all.contains("inspection.figures.runout ") && !first.contains("runout"), "{out}");
+}
+
 /// Maps that both runs have are subtracted cell by cell.
 #[test]
 fn maps_of_deviations_are_subtracted() {
