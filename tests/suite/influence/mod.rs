@@ -13,4 +13,5 @@ mod resumed;
 mod round;
 mod spatial;
 mod stopped_fit;
+mod taken_over;
 mod turning_tools;
