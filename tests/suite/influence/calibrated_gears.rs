@@ -57,7 +57,13 @@ impl Bench {
         let loaded = coarse();
         let (lines, laid) = lines(&loaded);
         let ready = process::prepare(&loaded.scene).expect("a gear");
-        Self { loaded, ready, lines, laid, choice: choose(BackendWish::Cpu, OnFailure::default()).expect("the processor") }
+        Self {
+            loaded,
+            ready,
+            lines,
+            laid,
+            choice: choose(BackendWish::Cpu, OnFailure::default()).expect("the processor"),
+        }
     }
 
     /// The gear that is cut with these errors, as it is measured.
