@@ -230,7 +230,7 @@ mod tests {
 
     /// Values that either of two equal columns explains, and waves of standard deviation 1 beside.
     fn twins(count: usize) -> ([Vec<Vec<f64>>; 2], Vec<f64>, Vec<f64>) {
-        let wave = |order: usize| (0..count).map(|i| (order * i) as f64 * std::f64::consts::TAU / count as f64);
+        let wave = |order: usize| (0..count).map(move |i| (order * i) as f64 * std::f64::consts::TAU / count as f64);
         let one: Vec<f64> = wave(1).map(f64::cos).collect();
         let noise = wave(7).map(|angle| 2.0_f64.sqrt() * angle.sin());
         let off = one.iter().zip(noise).map(|(one, noise)| 3.0 * one + noise).collect();
