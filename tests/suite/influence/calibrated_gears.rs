@@ -98,6 +98,7 @@ mod slow {
         for gear in 0..GEARS {
             let errors = KnownErrors::draw(&bench.loaded, &mut random);
             let found = bench.fit(&errors, &bench.measured(&errors, &mut random));
+            assert!(found.settled, "gear {gear}: {:?}", errors.sources);
             tally.blamed += usize::from(found.chance.is_some_and(|chance| chance < 1e-3));
             for (parameter, fitted) in &found.fitted {
                 let fitted = fitted.unwrap_or_else(|| panic!("gear {gear}: {} is not identified", parameter.id));
