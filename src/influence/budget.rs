@@ -7,6 +7,7 @@
 //! What Ctrl-C interrupts keeps the parameters that are finished, and all cuts ([`super::known_cuts`]).
 
 mod findings;
+mod maps;
 mod page;
 mod reported;
 
