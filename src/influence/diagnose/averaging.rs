@@ -34,6 +34,9 @@ const MOST_SETS: usize = 1000;
 /// Quantiles are looked for a little beyond those of single sets, for rounding.
 const BEYOND: f64 = 1.001;
 
+/// A source and the place of one of its parameters; `None`: the turn.
+pub(super) type Column = Option<(usize, usize)>;
+
 /// Sets of sources that explain a gear about as well as each other.
 #[derive(Debug, Clone)]
 pub(super) struct Averaging {
@@ -47,8 +50,8 @@ struct WeightedSet {
     /// Likelihood against the others; all together are 1.
     weight: f64,
     freedom: usize,
-    /// Size and standard deviation of each column that it has; that of the turn first, as column `None`.
-    sizes: BTreeMap<Option<(usize, usize)>, [f64; 2]>,
+    /// Size and standard deviation of each column that it has.
+    sizes: BTreeMap<Column, [f64; 2]>,
 }
 
 /// Columns without what all of them have in common: coordinates along an orthonormal basis of all, which lengths and
@@ -90,7 +93,7 @@ struct Comparison<'a> {
 impl Comparison<'_> {
     /// A set's basis, and the columns that it takes up; `None` where a source adds nothing to the others, for it is the
     /// set without that source.
-    fn basis(&self, set: &[usize]) -> Option<(ColumnBasis, Vec<Option<(usize, usize)>>)> {
+    fn basis(&self, set: &[usize]) -> Option<(ColumnBasis, Vec<Column>)> {
         let is_chosen = |source: &&usize| self.chosen.contains(source);
         let first = self.chosen.iter().filter(|source| set.contains(source));
         let mut basis = ColumnBasis::default();
@@ -189,7 +192,9 @@ impl Averaging {
             sets.push(WeightedSet { sources, weight: (0.5 * (best - criterion)).exp(), freedom, sizes });
         }
         let all: f64 = sets.iter().map(|set| set.weight).sum();
-        sets.iter_mut().for_each(|set| set.weight /= all);
+        for set in &mut sets {
+            set.weight /= all;
+        }
         Self { sets }
     }
 
@@ -199,12 +204,12 @@ impl Averaging {
     }
 
     /// The 95 % interval of the size of a source's column, or of the turn.
-    pub fn interval(&self, column: Option<(usize, usize)>) -> [f64; 2] {
+    pub fn interval(&self, column: Column) -> [f64; 2] {
         [TAIL, 1.0 - TAIL].map(|share| self.quantile(column, share))
     }
 
     /// The least size that at least this share of the distribution does not exceed.
-    fn quantile(&self, column: Option<(usize, usize)>, share: f64) -> f64 {
+    fn quantile(&self, column: Column, share: f64) -> f64 {
         let fitted = || self.sets.iter().filter_map(|set| set.sizes.get(&column).map(|of| (set, of)));
         let continuous = |size: f64| -> f64 {
             fitted().map(|(set, [mean, sd])| set.weight * share_below((size - mean) / sd, set.freedom)).sum()

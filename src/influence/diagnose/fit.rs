@@ -2,7 +2,7 @@
 //!
 //! In: a model, measured deviations and their noise. Out: [`Diagnosis`].
 
-use super::averaging::Averaging;
+use super::averaging::{Averaging, Column};
 use super::selection::{Selection, chi_square_quantile};
 use super::{Diagnosis, ErrorModel, FittedSize, NamedSource, Without};
 use crate::influence::interval::interval;
@@ -86,7 +86,7 @@ impl<'a> Fit<'a> {
         let variance = (solution.chi_square / solution.freedom as f64).max(1.0);
         let width = variance.sqrt() * interval(solution.freedom);
         let averaging = Averaging::new(&fit, &candidates, &chosen, variance);
-        let sized = |i: usize, column: Option<(usize, usize)>| {
+        let sized = |i: usize, column: Column| {
             let (size, [low, high]) = (solution.values[i], averaging.interval(column));
             // Sources are named for more than it takes to weigh: the named set may be one of little weight.
             let interval = [low.min(size), high.max(size)];

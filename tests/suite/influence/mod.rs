@@ -14,4 +14,5 @@ mod round;
 mod spatial;
 mod stopped_fit;
 mod taken_over;
+mod torn_marks;
 mod turning_tools;
