@@ -9,6 +9,7 @@ mod diagnose;
 mod drives;
 mod measured_files;
 mod parameters;
+mod pressed_down;
 mod resumed;
 mod round;
 mod spatial;
