@@ -29,7 +29,7 @@ mod page;
 mod refit;
 mod selection;
 
-use fit::Fit;
+use fit::LinearFit;
 use gearcut_core::error::Result;
 
 pub use cuts::MeasuredCuts;
@@ -119,6 +119,6 @@ impl Diagnosis {
     /// # Errors
     /// Fewer places than parameters.
     pub fn new(model: &ErrorModel, measured_um: &[f64], noise_um: f64) -> Result<Self> {
-        Fit::new(model, measured_um, noise_um, &Without::default()).diagnosis()
+        LinearFit::new(model, measured_um, noise_um, &Without::default()).diagnosis()
     }
 }

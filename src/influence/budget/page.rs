@@ -84,9 +84,8 @@ fn page(scene: &Scene, budget: &Budget, found: &Findings, maps: Vec<InfluenceShe
         },
     ];
     if !maps.is_empty() {
-        let lead = "Predicted by simulation: what one unit of each of the dearest errors adds to whole flanks, from one \
-                    end of the face to the other. Blue takes away, red adds. Place by place they stand in \
-                    tables/influence_maps.csv.";
+        let lead = "Predicted by simulation: what one unit of each of the dearest errors adds to whole flanks. Blue \
+                    takes away, red adds. Place by place it stands in tables/influence_maps.csv.";
         let pictures = maps.into_iter().map(|map| Block::Picture(map.title, map.png)).collect();
         sections.push(PageSection::new("maps", "Influence maps", lead, pictures));
     }

@@ -80,7 +80,7 @@ impl Coordinates {
 }
 
 /// What sets are compared by.
-struct Comparison<'a> {
+struct SetComparison<'a> {
     fit: Selection<'a>,
     /// Sources that were chosen: they take columns up before others do.
     chosen: &'a [usize],
@@ -90,7 +90,7 @@ struct Comparison<'a> {
     variance: f64,
 }
 
-impl Comparison<'_> {
+impl SetComparison<'_> {
     /// A set's basis, and the columns that it takes up; `None` where a source adds nothing to the others, for it is the
     /// set without that source.
     fn basis(&self, set: &[usize]) -> Option<(ColumnBasis, Vec<Column>)> {
@@ -178,7 +178,7 @@ impl Averaging {
     pub fn new(fit: &Selection, candidates: &[usize], chosen: &[usize], variance: f64) -> Self {
         let Coordinates { columns, turn, off } = Coordinates::new(fit, candidates);
         let short = Selection { columns: &columns, turn: &turn, off: &off };
-        let of = Comparison { fit: short, chosen, count: fit.off.len(), variance };
+        let of = SetComparison { fit: short, chosen, count: fit.off.len(), variance };
         let window = of.window(candidates);
         let best = window.iter().map(|(_, criterion)| *criterion).fold(f64::INFINITY, f64::min);
         let mut sets = Vec::new();

@@ -16,7 +16,7 @@ const TOLD_APART_BY_CHANCE: f64 = 0.01;
 const UNEXPLAINED_BY_CHANCE: f64 = 1e-3;
 
 /// Measured deviations and the columns of a model, over the noise.
-pub(super) struct Fit<'a> {
+pub(super) struct LinearFit<'a> {
     model: &'a ErrorModel,
     without: &'a Without,
     noise_um: f64,
@@ -30,7 +30,7 @@ pub(super) struct Fit<'a> {
     whole: f64,
 }
 
-impl<'a> Fit<'a> {
+impl<'a> LinearFit<'a> {
     /// Takes values over their standard deviation.
     pub fn new(model: &'a ErrorModel, measured_um: &[f64], noise_um: f64, without: &'a Without) -> Self {
         let mut taken = vec![true; measured_um.len()];

@@ -56,8 +56,8 @@ fn page(scene: &Scene, model: &ErrorModel, found: &Diagnosis, tree: &Findings) -
             PageSection::new(
                 "sources",
                 "Errors that explain the flanks",
-                "Fitted to the measured deviations, with 95 % intervals over all sets of errors that explain them about as \
-                 well; sure: weight of those sets with this error. Sizes count from those of the scene.",
+                "Fitted to the measured deviations, with 95 % intervals over all sets of errors that explain them \
+                 about as well; sure: weight of those sets with this error. Sizes count from those of the scene.",
                 named,
             ),
             PageSection::new(

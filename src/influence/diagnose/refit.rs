@@ -16,7 +16,7 @@
 //! Road not taken: a damped step as calibrations have it. The choice of sources is no smooth function of the sizes, and
 //! rounds that do not settle are said to the reader.
 
-use super::{Diagnosis, ErrorModel, Fit, MeasuredCuts, Without};
+use super::{Diagnosis, ErrorModel, LinearFit, MeasuredCuts, Without};
 use crate::interrupt::Interrupt;
 use crate::output::progress::Progress;
 use gearcut_core::error::{Error, Result};
@@ -67,7 +67,7 @@ impl ErrorModel {
         let first = bent.len();
         let mut without = Without { sources: Vec::new(), places: bent };
         let mut model = self.clone();
-        let mut found = Fit::new(&model, measured_um, noise_um, &without).diagnosis()?;
+        let mut found = LinearFit::new(&model, measured_um, noise_um, &without).diagnosis()?;
         for round in 1..=MOST_ROUNDS {
             let sizes = found.sizes(&model);
             match self.moved_to(cuts, &sizes, interrupt) {
@@ -92,7 +92,7 @@ impl ErrorModel {
                 Err(other) => return Err(other),
             }
             let last = found;
-            found = Fit::new(&model, measured_um, noise_um, &without).diagnosis()?;
+            found = LinearFit::new(&model, measured_um, noise_um, &without).diagnosis()?;
             found.rounds = round;
             found.bent = first;
             found.settled = without.places.is_empty() && found.is_as(&last, &model);
