@@ -2,8 +2,8 @@
 //!
 //! Strokes leave parabolas e = x^2 k / 2 on a flank, a feed f apart, k being the sum of both curvatures: scallops of
 //! the height delta = f^2 k / 8. Where the next stroke would take less than h_min it ploughs, and the share m of what
-//! it would have taken stays pressed down. Its depth below the stroke before grows evenly from 0 at the scallop's peak to
-//! h_min over the length h_min / (k f), beyond which it cuts. So the mean height falls by m h_min^2 / (2 k f^2) = m
+//! it would have taken stays pressed down. Its depth below the stroke before grows evenly from 0 at the scallop's peak
+//! to h_min over the length h_min / (k f), beyond which it cuts. So the mean height falls by m h_min^2 / (2 k f^2) = m
 //! h_min^2 / (16 delta), as long as h_min is below 8 delta: no stroke after the next one comes there.
 
 use super::round::{CUTTER_MM, PITCH_MM, backend, loaded};
