@@ -7,6 +7,7 @@
 //! What Ctrl-C interrupts keeps the parameters that are finished, and all cuts ([`super::known_cuts`]).
 
 mod findings;
+mod maps;
 mod page;
 mod reported;
 
@@ -91,13 +92,15 @@ pub fn budget(
     let parameters = chosen(loaded, &options.parameters)?;
     let whole = whole_flanks(&loaded.scene, &options.flanks)?;
     let mut grid = None;
-    process::prepare(&loaded.scene)?.with_gear(&mut |gear| {
+    let ready = process::prepare(&loaded.scene)?;
+    ready.with_gear(&mut |gear| {
         grid = Some(GearGrid::inspected(gear, &whole, options.flanks.is_empty())?);
         Ok(())
     })?;
     let grid = grid.expect("a job shows its gear");
     let asked = digest(&("heights", &grid, choice.backend.name()));
-    let heights_um = |scene: &Scene| known.all_of(scene, &asked, || grid.heights_um(scene, backend));
+    let cut = |scene: &Scene| grid.heights_of_um(ready.with_errors_of(scene)?.as_ref(), backend);
+    let heights_um = |scene: &Scene| known.all_of(scene, &asked, || cut(scene));
     let before_um = heights_um(&loaded.scene)?;
     let numbers = if options.numbers { Some(numbers(loaded, choice, interrupt)?) } else { None };
     let step = progress.step("influence", parameters.len() as u64, "parameters");

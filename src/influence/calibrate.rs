@@ -43,6 +43,10 @@ const MOST_ROUNDS: usize = 12;
 /// Fitting ends where the linear fit would take less than this off the squared residuals: a thirtieth of an
 /// uncertainty.
 const SETTLED: f64 = 1e-3;
+/// Where no step makes the fit better, it has settled if the linear fit would take less than this off: a tenth of half
+/// an interval, 0.1 x 1.96 standard deviations, squared. On a knee, where the deeper of two strokes remains, a
+/// difference over both sides is the mean of two slopes, and the linear fit sees a gain that is none.
+const SETTLED_ON_KNEE: f64 = 0.038;
 /// Damping of the first round, against squares of derivatives per natural step over the uncertainty: a little.
 const FIRST_DAMPING: f64 = 1e-3;
 /// How damping changes after a good and after a bad step (Marquardt 1963).
@@ -105,7 +109,8 @@ impl FitState {
             self.columns = (0..count).map(column).collect::<Result<Vec<_>>>()?;
             let residuals = trial.residuals(&self.here);
             // The derivatives of the intervals are those at the end.
-            self.settled = self.left - alive(&self.columns).left_of(&residuals) < SETTLED;
+            let gain = self.left - alive(&self.columns).left_of(&residuals);
+            self.settled = gain < SETTLED;
             let before_round = self.left;
             while !self.settled && self.left >= before_round && damping < MOST_DAMPING {
                 let by = damped(&self.columns, &residuals, damping);
@@ -120,6 +125,7 @@ impl FitState {
                 }
             }
             if self.left >= before_round {
+                self.settled = gain < SETTLED_ON_KNEE;
                 break;
             }
         }

@@ -14,7 +14,7 @@ use super::gear_grid::{FlankGrid, GearGrid, turn_um_per_arcsec};
 use super::measured::{COLUMNS, MeasuredPlaces, MeasuredPoint, PITCH, SAME_MM, refuse_off_flank, refuse_tooth};
 use super::measured_table::MeasuredTable;
 use crate::job::GearJob;
-use crate::scene::Scene;
+use crate::process::ProcessJob;
 use gearcut_core::cut::Backend;
 use gearcut_core::error::{Refusal, Result};
 use gearcut_core::terms::Side;
@@ -192,12 +192,12 @@ impl LaidCharts {
         Ok(Self { grid, lines: laid })
     }
 
-    /// Deviations that the gear of a scene has on every line, um, less what the measuring machine adds.
+    /// Deviations that the gear of a scene made ready has on every line, um, less what the measuring machine adds.
     ///
     /// # Errors
     /// Geometry that cannot be cut; the backend's; places where no pass comes.
-    pub fn predicted_um(&self, scene: &Scene, backend: &dyn Backend) -> Result<Vec<Vec<f64>>> {
-        let heights_um = self.grid.heights_um(scene, backend)?;
+    pub fn predicted_um(&self, job: &dyn ProcessJob, backend: &dyn Backend) -> Result<Vec<Vec<f64>>> {
+        let heights_um = self.grid.heights_of_um(job, backend)?;
         let of_line = |(index, line): (usize, &LaidLine)| {
             let own = &heights_um[line.heights.clone()];
             let um = match &line.places {

@@ -48,7 +48,9 @@ impl Influence {
         parameter: &ErrorParameter,
         backend: &dyn Backend,
     ) -> Result<Self> {
-        Self::by(loaded, before_um, parameter, &|scene| grid.heights_um(scene, backend))
+        let ready = process::prepare(&loaded.scene)?;
+        let heights_um = |scene: &Scene| grid.heights_of_um(ready.with_errors_of(scene)?.as_ref(), backend);
+        Self::by(loaded, before_um, parameter, &heights_um)
     }
 
     /// The same where `heights_um` gives the heights of a scene's gear.

@@ -3,7 +3,7 @@
 //! In: a gear and how its flanks are looked at. Out: [`GearGrid`], and heights at all its places in their order.
 
 use crate::job::GearJob;
-use crate::process;
+use crate::process::{self, ProcessJob};
 use crate::scene::Scene;
 use crate::steps::flanks_of;
 use gearcut_core::cut::Backend;
@@ -137,8 +137,16 @@ impl GearGrid {
     /// # Errors
     /// Geometry that cannot be cut; the backend's.
     pub fn heights_um(&self, scene: &Scene, backend: &dyn Backend) -> Result<Vec<f64>> {
+        self.heights_of_um(process::prepare(scene)?.as_ref(), backend)
+    }
+
+    /// The same of a scene that is ready.
+    ///
+    /// # Errors
+    /// Geometry that cannot be cut; the backend's.
+    pub fn heights_of_um(&self, job: &dyn ProcessJob, backend: &dyn Backend) -> Result<Vec<f64>> {
         let mut heights = Vec::new();
-        process::prepare(scene)?.with_gear(&mut |gear| {
+        job.with_gear(&mut |gear| {
             let flanks: Result<Vec<Vec<f64>>> = self.flanks.par_iter().map(|flank| cut(gear, backend, flank)).collect();
             heights = flanks?.concat();
             Ok(())

@@ -1,11 +1,11 @@
-//! Width of 95 % intervals of numbers that were fitted.
+//! Width of 95 % intervals of numbers that were fitted, and the distribution behind them.
 //!
-//! In: degrees of freedom. Out: half the width over the standard deviation.
+//! In: degrees of freedom. Out: half the width over the standard deviation; the share below so many of them.
 
 use statrs::distribution::{ContinuousCDF, Normal, StudentsT};
 
-/// Chance below the upper end of a 95 % interval.
-const UPPER_END: f64 = 0.975;
+/// Chance beyond either end of a 95 % interval.
+pub const TAIL: f64 = 0.025;
 /// Degrees from which Student's t is taken as normal; its quantiles are not found any more in the millions.
 const MANY_DEGREES: usize = 1000;
 
@@ -14,9 +14,17 @@ const MANY_DEGREES: usize = 1000;
 /// found.
 pub fn interval(freedom: usize) -> f64 {
     if freedom == 0 || freedom >= MANY_DEGREES {
-        return Normal::standard().inverse_cdf(UPPER_END);
+        return Normal::standard().inverse_cdf(1.0 - TAIL);
     }
-    StudentsT::new(0.0, 1.0, freedom as f64).expect("freedom is above 0").inverse_cdf(UPPER_END)
+    StudentsT::new(0.0, 1.0, freedom as f64).expect("freedom is above 0").inverse_cdf(1.0 - TAIL)
+}
+
+/// Chance below so many standard deviations from the fitted number, by the same distributions.
+pub fn share_below(deviations: f64, freedom: usize) -> f64 {
+    if freedom == 0 || freedom >= MANY_DEGREES {
+        return Normal::standard().cdf(deviations);
+    }
+    StudentsT::new(0.0, 1.0, freedom as f64).expect("freedom is above 0").cdf(deviations)
 }
 
 #[cfg(test)]
@@ -29,6 +37,8 @@ mod tests {
         for (freedom, expected) in [(1, 12.706), (5, 2.571), (30, 2.042), (120, 1.980), (1_000_000, 1.960), (0, 1.960)]
         {
             assert!((interval(freedom) - expected).abs() < 6e-4, "{freedom}: {}", interval(freedom));
+            let below = share_below(expected, freedom);
+            assert!((below - 0.975).abs() < 3e-5, "{freedom}: {below}");
         }
     }
 }

@@ -65,6 +65,15 @@ pub trait ProcessJob: Sync {
     /// Those of `visit`; more passes than can be numbered.
     fn with_gear(&self, visit: &mut dyn FnMut(&dyn GearJob) -> Result<()>) -> Result<()>;
 
+    /// Makes another scene ready, one with other errors; what both have in common may be taken over, such as targets.
+    /// The job is the same as that of [`prepare`].
+    ///
+    /// # Errors
+    /// Geometry that cannot be cut.
+    fn with_errors_of(&self, scene: &Scene) -> Result<Box<dyn ProcessJob>> {
+        prepare(scene)
+    }
+
     /// Writes axis tables, charts and programs, and says what the axes do; gives what must be known before they are
     /// used.
     ///

@@ -6,8 +6,10 @@ use crate::influence::gear_grid::WHOLE_FLANK;
 use crate::output::text::{plain, significant};
 use crate::scene::Scene;
 
-/// Parameters of the headline.
-const FIRST: usize = 4;
+/// Parameters of the headline, and with maps as pictures.
+pub(super) const FIRST: usize = 4;
+/// What is smaller is nothing, um.
+pub(super) const LEAST_UM: f64 = 0.005;
 
 /// The tree.
 pub fn findings(scene: &Scene, budget: &Budget) -> Findings {
@@ -163,7 +165,7 @@ fn maps(budget: &Budget) -> Table {
 }
 
 /// Micrometres per unit.
-fn per(unit: &str) -> String {
+pub(super) fn per(unit: &str) -> String {
     if unit.contains('/') { format!("um/({unit})") } else { format!("um/{unit}") }
 }
 
@@ -206,7 +208,7 @@ pub fn printed(budget: &Budget) -> Vec<Vec<String>> {
 
 /// Two decimals and no more than three digits that matter; below 5 nm, or where it is not known, it is nothing.
 pub(super) fn shown_um(um: f64) -> String {
-    if um.abs() < 0.005 || um.is_nan() {
+    if um.abs() < LEAST_UM || um.is_nan() {
         "-".to_owned()
     } else if um < 10.0 {
         format!("{um:.2}")

@@ -13,7 +13,7 @@ use crate::influence::known_cuts::{KnownCuts, digest};
 use crate::influence::numbers::{Numbers, TEXTURE, numbers, texture_numbers};
 use crate::interrupt::Interrupt;
 use crate::output::progress::ProgressStep;
-use crate::process;
+use crate::process::{self, ProcessJob};
 use crate::scene::LoadedScene;
 use crate::scene::error_parameters::{ErrorParameter, Shifted};
 use gearcut_core::error::{Refusal, Result};
@@ -24,7 +24,8 @@ pub(super) struct Trial<'a> {
     loaded: &'a LoadedScene,
     parameters: &'a [ErrorParameter],
     measured: &'a MeasuredGear,
-    charts: Option<LaidCharts>,
+    /// Lines of charts, and the scene made ready for them.
+    charts: Option<(LaidCharts, Box<dyn ProcessJob>)>,
     /// Flanks of the texture windows, where numbers of them are all that is asked for.
     windows: Option<Vec<(u32, Side)>>,
     /// Measured values, as predicted ones come.
@@ -53,16 +54,19 @@ impl<'a> Trial<'a> {
     ) -> Result<Self> {
         let mut charts = None;
         if !measured.lines.is_empty() {
-            process::prepare(&loaded.scene)?.with_gear(&mut |gear| {
-                charts = Some(LaidCharts::new(gear, &measured.lines)?);
+            let ready = process::prepare(&loaded.scene)?;
+            let mut laid = None;
+            ready.with_gear(&mut |gear| {
+                laid = Some(LaidCharts::new(gear, &measured.lines)?);
                 Ok(())
             })?;
+            charts = laid.zip(Some(ready));
         }
         let mut values: Vec<f64> = measured.numbers.iter().map(|number| number.value).collect();
         let mut uncertainties: Vec<f64> = measured.numbers.iter().map(|number| number.uncertainty).collect();
         for (index, line) in measured.lines.iter().enumerate() {
             let um: Vec<f64> = line.points.iter().map(|point| point.deviation_um).collect();
-            values.extend(charts.iter().flat_map(|charts: &LaidCharts| charts.known(index, &um)));
+            values.extend(charts.iter().flat_map(|(charts, _): &(LaidCharts, _)| charts.known(index, &um)));
         }
         uncertainties.resize(values.len(), measured.noise_um);
         let windows = measured.numbers.iter().map(|number| flank_of(&number.quantity)).collect();
@@ -112,8 +116,9 @@ impl<'a> Trial<'a> {
                 values.push(value_of(&found, measured)?);
             }
         }
-        if let Some(charts) = &self.charts {
-            values.extend(charts.predicted_um(&scene.scene, self.choice.backend.as_ref())?.concat());
+        if let Some((charts, ready)) = &self.charts {
+            let job = ready.with_errors_of(&scene.scene)?;
+            values.extend(charts.predicted_um(job.as_ref(), self.choice.backend.as_ref())?.concat());
         }
         Ok(values)
     }

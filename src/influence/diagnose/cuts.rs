@@ -6,7 +6,7 @@
 use crate::influence::gear_grid::turn_um_per_arcsec;
 use crate::influence::known_cuts::{KnownCuts, digest};
 use crate::influence::measured::{MeasuredPlaces, MeasuredPoint};
-use crate::process;
+use crate::process::{self, ProcessJob};
 use crate::scene::{LoadedScene, Scene};
 use gearcut_core::cut::Backend;
 use gearcut_core::error::{Refusal, Result};
@@ -15,6 +15,8 @@ use gearcut_core::error::{Refusal, Result};
 pub struct MeasuredCuts<'a> {
     /// The scene as it is.
     pub loaded: &'a LoadedScene,
+    /// The same, ready to be cut.
+    ready: Box<dyn ProcessJob>,
     points: &'a [MeasuredPoint],
     places: MeasuredPlaces,
     backend: &'a dyn Backend,
@@ -35,13 +37,14 @@ impl<'a> MeasuredCuts<'a> {
         known: &'a KnownCuts,
     ) -> Result<Self> {
         let mut places = None;
-        process::prepare(&loaded.scene)?.with_gear(&mut |gear| {
+        let ready = process::prepare(&loaded.scene)?;
+        ready.with_gear(&mut |gear| {
             places = Some(MeasuredPlaces::new(gear, points)?);
             Ok(())
         })?;
         let places = places.expect("a job shows its gear");
         let asked = digest(&("heights", &places.grid, backend.name()));
-        Ok(Self { loaded, points, places, backend, known, asked })
+        Ok(Self { loaded, ready, points, places, backend, known, asked })
     }
 
     /// Deviations that a scene's gear has at the measured places, um.
@@ -49,7 +52,7 @@ impl<'a> MeasuredCuts<'a> {
     /// # Errors
     /// Geometry that cannot be cut; the backend's; places where no pass comes.
     pub fn deviations_um(&self, scene: &Scene) -> Result<Vec<f64>> {
-        let cut = || self.places.grid.heights_um(scene, self.backend);
+        let cut = || self.places.grid.heights_of_um(self.ready.with_errors_of(scene)?.as_ref(), self.backend);
         let um = self.places.at_points(&self.known.all_of(scene, &self.asked, cut)?);
         if let Some(untouched) = um.iter().position(|um| um.is_nan()) {
             let point = self.points[untouched];

@@ -1,6 +1,6 @@
 //! A diagnosis as findings, and for the terminal.
 
-use super::{Diagnosis, ErrorModel, NamedSource};
+use super::{Diagnosis, ErrorModel, FittedSize, NamedSource};
 use crate::findings::{Datum, Entry, Findings, Quantity, Section, Table, TableColumn, Warning};
 use crate::influence::measured::MeasuredPoint;
 use crate::output::summary;
@@ -52,16 +52,18 @@ pub fn findings(
             ),
         ),
     ];
+    let turn = |of: fn(FittedSize) -> f64, what| {
+        Quantity::number_or(found.turn_arcsec.map(of), "arcsec", what, "no measured place shows a turn")
+    };
     let section = Section::new("diagnosis", "Diagnosis")
         .with("points", Quantity::count(points.len() as u64, "places", "measured places"))
         .with("noise", Quantity::number(noise_um, "um", "stated standard deviation of every measured value"))
         .with("turn", {
             let what = "fitted: how far the gear stood turned on the measuring machine, counter-clockwise";
-            Quantity::number(found.turn_arcsec[0], "arcsec", what)
+            turn(|turn| turn.size, what)
         })
-        .with("turn_half_width", {
-            Quantity::number(found.turn_arcsec[1], "arcsec", "fitted: half the width of its 95 % interval")
-        })
+        .with("turn_low", turn(|turn| turn.interval[0], "fitted: lower end of its 95 % interval"))
+        .with("turn_high", turn(|turn| turn.interval[1], "fitted: upper end of its 95 % interval"))
         .with("freedom", Quantity::count(found.freedom as u64, "1", "measured values less fitted numbers"))
         .with("chance", {
             let what = "chance that noise alone leaves as much: chi-square of the residuals over the stated noise";
@@ -150,13 +152,19 @@ fn warnings(model: &ErrorModel, found: &Diagnosis) -> Vec<Warning> {
 
 /// A row for each fitted parameter.
 fn sources(model: &ErrorModel, found: &Diagnosis) -> Table {
+    let low = "lower end of its 95 % interval, over all sets of sources that explain the deviations about as well";
+    let alone = "half the width of the 95 % interval if exactly the named sources are there";
+    let sure = "weight of the sets of sources with this one, of all that explain the deviations about as well";
     let columns = vec![
         TableColumn::words("parameter", "key of the error, and behind @ which part of it"),
         TableColumn::words("error", "what it is"),
         TableColumn::words("kind", "fitted: a number that was chosen so that it explains the measured values"),
         TableColumn::by_row("size", "size, beyond that of the scene").or("other errors say all of it"),
-        TableColumn::by_row("half_width", "half the width of its 95 % interval").or("other errors say all of it"),
-        TableColumn::words("unit", "unit of size and interval"),
+        TableColumn::by_row("low", low).or("other errors say all of it"),
+        TableColumn::by_row("high", "upper end of that interval").or("other errors say all of it"),
+        TableColumn::by_row("half_if_right", alone).or("other errors say all of it"),
+        TableColumn::words("unit", "unit of sizes and intervals"),
+        TableColumn::new("sure", "%", sure),
         TableColumn::new("alone", "%", "share of the squared deviations that no other named source explains"),
         TableColumn::words("same_as", "sources that would explain as much in its place"),
     ];
@@ -169,9 +177,12 @@ fn sources(model: &ErrorModel, found: &Diagnosis) -> Table {
                 parameter.id.as_str().into(),
                 parameter.title.as_str().into(),
                 FITTED.into(),
-                Datum::from(fitted.map(|[size, _]| size)),
-                Datum::from(fitted.map(|[_, half]| half)),
+                Datum::from(fitted.map(|fitted| fitted.size)),
+                Datum::from(fitted.map(|fitted| fitted.interval[0])),
+                Datum::from(fitted.map(|fitted| fitted.interval[1])),
+                Datum::from(fitted.map(|fitted| fitted.half_if_right)),
                 parameter.unit.into(),
+                (100.0 * named.weight).into(),
                 (100.0 * named.alone).into(),
                 same.join(" ").as_str().into(),
             ]);
@@ -206,8 +217,9 @@ fn residuals(points: &[MeasuredPoint], model: &ErrorModel, found: &Diagnosis) ->
 }
 
 /// Size and interval in words.
-pub(super) fn sized(fitted: Option<[f64; 2]>, unit: &str) -> String {
-    fitted.map_or_else(|| "no size of its own".to_owned(), |[size, half]| format!("{size:.2} +- {half:.2} {unit}"))
+pub(super) fn sized(fitted: Option<FittedSize>, unit: &str) -> String {
+    let words = |FittedSize { size, interval: [low, high], .. }| format!("{size:.2} ({low:.2} to {high:.2}) {unit}");
+    fitted.map_or_else(|| "no size of its own".to_owned(), words)
 }
 
 /// For the terminal: what is named, and the headline.
@@ -221,7 +233,7 @@ pub fn sheet(model: &ErrorModel, found: &Diagnosis, tree: &Findings, sheet: &mut
     sheet.heading("Fitted, with 95 % intervals");
     let rows = |named: &NamedSource| {
         let source = &model.sources[named.source];
-        let cells = |(parameter, fitted): (&crate::scene::error_parameters::ErrorParameter, &Option<[f64; 2]>)| {
+        let cells = |(parameter, fitted): (&crate::scene::error_parameters::ErrorParameter, &Option<FittedSize>)| {
             let apart = if named.same_as.is_empty() { String::new() } else { "not told apart".to_owned() };
             vec![parameter.title.clone(), sized(*fitted, parameter.unit), apart]
         };

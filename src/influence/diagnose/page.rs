@@ -56,7 +56,8 @@ fn page(scene: &Scene, model: &ErrorModel, found: &Diagnosis, tree: &Findings) -
             PageSection::new(
                 "sources",
                 "Errors that explain the flanks",
-                "Fitted to the measured deviations, with 95 % intervals. Sizes count from those of the scene.",
+                "Fitted to the measured deviations, with 95 % intervals over all sets of errors that explain them \
+                 about as well; sure: weight of those sets with this error. Sizes count from those of the scene.",
                 named,
             ),
             PageSection::new(
@@ -78,15 +79,16 @@ fn sources(model: &ErrorModel, found: &Diagnosis) -> PageTable {
             rows.push(vec![
                 parameter.title.clone(),
                 "fitted".to_owned(),
-                sized(*fitted, &unit::signs(parameter.unit)).replace("+-", "±").replace('-', "−"),
+                sized(*fitted, &unit::signs(parameter.unit)).replace('-', "−"),
                 format!("{} %", significant(100.0 * named.alone, 3)),
+                format!("{} %", significant(100.0 * named.weight, 3)),
                 if same.is_empty() { "–".to_owned() } else { same.join("; ") },
             ]);
         }
     }
     PageTable {
         caption: "Named errors".to_owned(),
-        columns: ["Error", "", "Size", "Alone", "Not told apart from"].map(str::to_owned).into(),
+        columns: ["Error", "", "Size", "Alone", "Sure", "Not told apart from"].map(str::to_owned).into(),
         rows,
     }
 }

@@ -16,14 +16,14 @@
 //! Road not taken: a damped step as calibrations have it. The choice of sources is no smooth function of the sizes, and
 //! rounds that do not settle are said to the reader.
 
-use super::{Diagnosis, ErrorModel, MeasuredCuts, Without};
+use super::{Diagnosis, ErrorModel, LinearFit, MeasuredCuts, Without};
 use crate::interrupt::Interrupt;
 use crate::output::progress::Progress;
 use gearcut_core::error::{Error, Result};
 
 /// Most rounds of cuts; two or three are usual. A choice that goes round in a circle ends here.
 const MOST_ROUNDS: usize = 12;
-/// Sizes have settled where a round moves them by less than this share of half their interval.
+/// Sizes have settled where a round moves them by less than this share of half the interval of the named set.
 const SETTLED: f64 = 0.1;
 
 /// Explains measured deviations, um, at the places of `cuts`, by the errors with these names (all, if none is given);
@@ -67,7 +67,7 @@ impl ErrorModel {
         let first = bent.len();
         let mut without = Without { sources: Vec::new(), places: bent };
         let mut model = self.clone();
-        let mut found = Diagnosis::without(&model, measured_um, noise_um, &without)?;
+        let mut found = LinearFit::new(&model, measured_um, noise_um, &without).diagnosis()?;
         for round in 1..=MOST_ROUNDS {
             let sizes = found.sizes(&model);
             match self.moved_to(cuts, &sizes, interrupt) {
@@ -92,7 +92,7 @@ impl ErrorModel {
                 Err(other) => return Err(other),
             }
             let last = found;
-            found = Diagnosis::without(&model, measured_um, noise_um, &without)?;
+            found = LinearFit::new(&model, measured_um, noise_um, &without).diagnosis()?;
             found.rounds = round;
             found.bent = first;
             found.settled = without.places.is_empty() && found.is_as(&last, &model);
@@ -122,7 +122,7 @@ impl Diagnosis {
         let mut sizes: Vec<Vec<f64>> = model.sources.iter().map(|source| vec![0.0; source.parameters.len()]).collect();
         for named in &self.named {
             for (size, fitted) in sizes[named.source].iter_mut().zip(&named.fitted) {
-                *size = fitted.map_or(0.0, |[size, _]| size);
+                *size = fitted.map_or(0.0, |fitted| fitted.size);
             }
         }
         sizes
@@ -138,7 +138,7 @@ impl Diagnosis {
         let still = self.named.iter().all(|named| {
             let moved = named.fitted.iter().zip(&model.sources[named.source].sizes);
             moved
-                .filter_map(|(fitted, before)| fitted.map(|[size, half]| (size - before).abs() <= SETTLED * half))
+                .filter_map(|(fitted, before)| fitted.map(|of| (of.size - before).abs() <= SETTLED * of.half_if_right))
                 .all(|still| still)
         });
         names(self) == names(other) && still

@@ -6,7 +6,6 @@
 use super::HobbingJob;
 use crate::job::{RAY_DEPTH_MODULES, RAY_HEIGHT_MODULES, rows_z_mm};
 use crate::process::hobbing::flank_patch::FlankPatch;
-use crate::process::hobbing::kept::Kept;
 use gearcut_core::cut::{Backend, CutStats};
 use gearcut_core::dexel::PlacedRays;
 use gearcut_core::dexel::{Layer, SpatialField};
@@ -25,7 +24,6 @@ pub struct HobCutter<'a> {
     pub job: &'a HobbingJob,
     /// Passes of every operation, numbered on from one to the next.
     pub operations: Cow<'a, [TurningPasses]>,
-    kept: &'a Kept,
 }
 
 /// One flank after all operations.
@@ -50,7 +48,7 @@ impl<'a> HobCutter<'a> {
     /// More passes than can be numbered.
     pub fn new(job: &'a HobbingJob) -> Result<Self> {
         let kept = job.kept()?;
-        Ok(Self { job, operations: Cow::Borrowed(&kept.operations), kept })
+        Ok(Self { job, operations: Cow::Borrowed(&kept.operations) })
     }
 
     /// Target flank of a tooth.
@@ -60,7 +58,7 @@ impl<'a> HobCutter<'a> {
     pub fn target(&self, tooth: u32, side: Side) -> Result<&FlankPatch, Refusal> {
         let job = self.job;
         let find = || FlankPatch::new(&job.target, &job.blank, tooth, side, job.scene.gear.face_width_mm);
-        self.kept.target(tooth, side, find)
+        job.targets.of(tooth, side, find)
     }
 
     /// Arcs of a target's profile, in the middle of the face, at the heights between which the scene evaluates it, mm;

@@ -8,7 +8,7 @@ use crate::machine_errors::MachineErrors;
 use crate::material::CuttingForce;
 use crate::process::hobbing::Hob;
 use crate::process::hobbing::actual::ActualHobbing;
-use crate::process::hobbing::kept::{self, Kept};
+use crate::process::hobbing::kept::{self, Kept, KeptTargets};
 use crate::process::hobbing::linkage::{FeedPlan, HobbingGeometry, HobbingLaw, HobbingLinkage};
 use crate::process::hobbing::rack_generation::{Rack, RackGeneration};
 use crate::process::hobbing::scene::model::{
@@ -69,6 +69,7 @@ pub struct HobbingJob {
     /// What the finishing operation leaves in the limit of many gashes and a fine feed.
     pub target: RackGeneration,
     kept: OnceLock<Result<Kept, Refusal>>,
+    pub(super) targets: KeptTargets,
 }
 
 impl HobbingJob {
@@ -127,7 +128,21 @@ impl HobbingJob {
             operations,
             target,
             kept: OnceLock::new(),
+            targets: KeptTargets::new(gear.teeth),
         })
+    }
+
+    /// Makes another scene ready, one with other errors. No error moves a target: where both scenes have the same gear
+    /// and rack, they share the targets that anybody asks for.
+    ///
+    /// # Errors
+    /// As for [`Self::new`].
+    pub fn sharing_targets(&self, scene: &Scene) -> Result<Self> {
+        let mut job = Self::new(scene)?;
+        if self.scene.gear == job.scene.gear && self.target.rack == job.target.rack {
+            job.targets = self.targets.clone();
+        }
+        Ok(job)
     }
 
     /// The finishing operation.
@@ -140,13 +155,13 @@ impl HobbingJob {
         kept::passes(&self.hob, &operation.linkage)
     }
 
-    /// Passes and targets, made when somebody asks first and the same ever after.
+    /// Passes, made when somebody asks first and the same ever after.
     ///
     /// # Errors
     /// More passes than can be numbered.
     pub(super) fn kept(&self) -> Result<&Kept, Refusal> {
         let operations = || self.operations.iter().map(|of| (of.spec.name.as_str(), &of.linkage, &of.actual));
-        let make = || Kept::new(&self.hob, operations(), self.scene.gear.teeth);
+        let make = || Kept::new(&self.hob, operations());
         self.kept.get_or_init(make).as_ref().map_err(Clone::clone)
     }
 

@@ -1,7 +1,8 @@
 //! What a hobbing job computes once and keeps: passes of its operations, and target flanks that were asked for.
 //!
 //! Passes hold the motion as tables; a target flank is some ten kilobytes of polynomials, found by nested searches that
-//! take longer than a thousand dexels. Whoever cuts flanks one by one gets the same passes and targets each time.
+//! take longer than a thousand dexels. Whoever cuts flanks one by one gets the same passes and targets each time; jobs
+//! of one gear with other errors share the targets.
 
 use crate::process::hobbing::Hob;
 use crate::process::hobbing::actual::ActualHobbing;
@@ -12,26 +13,27 @@ use gearcut_core::passes::{MotionTable, TurningPasses};
 use gearcut_core::terms::Side;
 use gearcut_core::tool::SpatialTool;
 use gearcut_core::units::TURN_RAD;
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 
 /// Passes and targets of a job.
 #[derive(Debug)]
 pub struct Kept {
     /// Passes of every operation, numbered on from one to the next.
     pub operations: Vec<TurningPasses>,
-    /// Targets that were asked for: left and right flank of tooth 1, then of tooth 2 and so on.
-    targets: Vec<OnceLock<Result<FlankPatch, Refusal>>>,
 }
 
+/// Targets that were asked for: left and right flank of tooth 1, then of tooth 2 and so on.
+#[derive(Debug, Clone)]
+pub struct KeptTargets(Arc<[OnceLock<Result<FlankPatch, Refusal>>]>);
+
 impl Kept {
-    /// Passes of operations with these names, linkages and errors, on a gear of so many teeth.
+    /// Passes of operations with these names, linkages and errors.
     ///
     /// # Errors
     /// More passes than can be numbered.
     pub fn new<'a>(
         hob: &Hob,
         of: impl IntoIterator<Item = (&'a str, &'a HobbingLinkage, &'a ActualHobbing)>,
-        teeth: u32,
     ) -> Result<Self, Refusal> {
         let mut operations = Vec::new();
         let mut first_pass = 0;
@@ -53,21 +55,28 @@ impl Kept {
             first_pass = passes.end_pass();
             operations.push(passes);
         }
-        Ok(Self { operations, targets: (0..2 * teeth).map(|_| OnceLock::new()).collect() })
+        Ok(Self { operations })
+    }
+}
+
+impl KeptTargets {
+    /// Those of a gear of so many teeth, before anybody has asked.
+    pub fn new(teeth: u32) -> Self {
+        Self((0..2 * teeth).map(|_| OnceLock::new()).collect())
     }
 
     /// Target flank of a tooth, found by `find` if nobody has asked for it yet.
     ///
     /// # Errors
     /// Those of `find`.
-    pub fn target(
+    pub fn of(
         &self,
         tooth: u32,
         side: Side,
         find: impl FnOnce() -> Result<FlankPatch, Refusal>,
     ) -> Result<&FlankPatch, Refusal> {
         let place = 2 * (tooth as usize - 1) + usize::from(side == Side::Right);
-        self.targets[place].get_or_init(find).as_ref().map_err(Clone::clone)
+        self.0[place].get_or_init(find).as_ref().map_err(Clone::clone)
     }
 }
 

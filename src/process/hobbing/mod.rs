@@ -22,12 +22,13 @@ pub mod scene;
 mod surfaces;
 pub mod warnings;
 
-use super::{CutDone, Process};
+use super::{CutDone, Process, ProcessJob};
 use crate::findings::Warning;
 use crate::interrupt::Interrupt;
 use crate::job::GearJob;
 use crate::output::folder::OutputFolder;
 use crate::output::text::Sheet;
+use crate::scene::Scene;
 use crate::steps::{Tools, axes};
 use axes_report::HobbingAxesReport;
 use gearcut_core::error::Result;
@@ -41,7 +42,7 @@ pub use job::HobbingJob;
 /// The process.
 pub static PROCESS: Process = Process { scene: &scene::SCENE, prepare: |scene| Ok(Box::new(HobbingJob::new(scene)?)) };
 
-impl super::ProcessJob for HobbingJob {
+impl ProcessJob for HobbingJob {
     fn cut(&self, tools: &Tools, frames: Option<u32>) -> Result<CutDone> {
         if frames.is_some() {
             tools.progress.note("no frames are drawn: pictures of the cut as it happens exist for shaping only");
@@ -55,6 +56,10 @@ impl super::ProcessJob for HobbingJob {
 
     fn with_gear(&self, visit: &mut dyn FnMut(&dyn GearJob) -> Result<()>) -> Result<()> {
         visit(&HobCutter::new(self)?)
+    }
+
+    fn with_errors_of(&self, scene: &Scene) -> Result<Box<dyn ProcessJob>> {
+        Ok(Box::new(self.sharing_targets(scene)?))
     }
 
     fn axes(&self, folder: &OutputFolder, interrupt: &Interrupt, sheet: &mut Sheet) -> Result<Vec<Warning>> {

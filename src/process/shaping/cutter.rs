@@ -254,6 +254,15 @@ impl ShaperCutter {
         &self.edge
     }
 
+    /// Whether another one generates the same gear: all but its errors, and the edges that cut.
+    pub fn generates_as(&self, other: &Self) -> bool {
+        let numbers = |of: &Self| {
+            let radii_mm = [of.pitch_radius_mm, of.base_radius_mm, of.tip_radius_mm];
+            (of.teeth, radii_mm, of.half_angle_rad, of.roll_range, of.base_length_mm)
+        };
+        numbers(self) == numbers(other) && self.corner == other.corner
+    }
+
     /// One flank of a tooth; `side` +1: left (counter-clockwise), -1: right.
     pub fn flank(&self, side: f64) -> Involute {
         Involute { base_radius_mm: self.base_radius_mm, half_angle_rad: self.half_angle_rad, side }

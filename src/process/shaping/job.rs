@@ -127,6 +127,19 @@ impl ShapingJob {
     /// # Errors
     /// Geometry that cannot be cut: see the parts.
     pub fn new(scene: Scene) -> Result<Self> {
+        Self::like(scene, None)
+    }
+
+    /// Makes another scene ready, one with other errors. Targets of teeth take most of that time, and no error moves
+    /// them: where both scenes generate the same gear they are taken over.
+    ///
+    /// # Errors
+    /// As for [`Self::new`].
+    pub fn with_errors_of(&self, scene: Scene) -> Result<Self> {
+        Self::like(scene, Some(self))
+    }
+
+    fn like(scene: Scene, other: Option<&Self>) -> Result<Self> {
         let gear = &scene.gear;
         let Some(shaping) = Shaping::of(&scene) else {
             let way_out = "write [tool.shaper_cutter] for shaping";
@@ -218,7 +231,10 @@ impl ShapingJob {
         }
         rim_holds(gear.rim_mm, &blank, &cutter, &operations)?;
         let finishing = operations.last().expect("a checked scene has at least one operation");
-        let targets = ToothTarget::of_all(&finishing.generation, &blank, gear.teeth)?;
+        let targets = match other.filter(|other| other.generates(gear, finishing, &cutter)) {
+            Some(other) => other.targets.clone(),
+            None => ToothTarget::of_all(&finishing.generation, &blank, gear.teeth)?,
+        };
         Ok(Self {
             machine,
             material,
@@ -232,6 +248,15 @@ impl ShapingJob {
             targets,
             scene,
         })
+    }
+
+    /// Whether the target is that of this gear, finishing operation and cutter: they have the same numbers in all that
+    /// a [`Generation`] and a blank are made of.
+    fn generates(&self, gear: &Gear, finishing: &PreparedOperation, cutter: &ShaperCutter) -> bool {
+        let PreparedOperation { spec, .. } = self.finishing();
+        self.scene.gear == *gear
+            && (spec.linkage, spec.offset_mm) == (finishing.spec.linkage, finishing.spec.offset_mm)
+            && self.cutter.generates_as(cutter)
     }
 
     /// The same gear with its strokes displaced, operation by operation and stroke by stroke; return strokes, which

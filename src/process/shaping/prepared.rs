@@ -14,6 +14,7 @@ use crate::job::GearJob;
 use crate::output::folder::OutputFolder;
 use crate::output::text::Sheet;
 use crate::process::{CutDone, ProcessJob};
+use crate::scene::Scene;
 use crate::steps::{Tools, axes};
 use gearcut_core::error::{Error, Result};
 use std::sync::OnceLock;
@@ -65,6 +66,10 @@ impl ProcessJob for PreparedShaping {
 
     fn with_gear(&self, visit: &mut dyn FnMut(&dyn GearJob) -> Result<()>) -> Result<()> {
         visit(self.cut_gear(&|| true)?)
+    }
+
+    fn with_errors_of(&self, scene: &Scene) -> Result<Box<dyn ProcessJob>> {
+        Ok(Box::new(Self::new(self.rigid.with_errors_of(scene.clone())?)))
     }
 
     fn axes(&self, folder: &OutputFolder, interrupt: &Interrupt, sheet: &mut Sheet) -> Result<Vec<Warning>> {

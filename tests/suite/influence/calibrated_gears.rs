@@ -9,7 +9,7 @@ use gearcut::influence::known_cuts::KnownCuts;
 use gearcut::influence::measured::MeasuredPoint;
 use gearcut::interrupt::Interrupt;
 use gearcut::output::progress::{Progress, ProgressMode};
-use gearcut::process;
+use gearcut::process::{self, ProcessJob};
 use gearcut::scene::LoadedScene;
 use gearcut::terms::Side;
 use std::f64::consts::PI;
@@ -46,6 +46,7 @@ fn lines(loaded: &LoadedScene) -> (Vec<MeasuredLine>, LaidCharts) {
 /// A round gear and its lines.
 struct Bench {
     loaded: LoadedScene,
+    ready: Box<dyn ProcessJob>,
     lines: Vec<MeasuredLine>,
     laid: LaidCharts,
     choice: Choice,
@@ -55,13 +56,20 @@ impl Bench {
     fn new() -> Self {
         let loaded = coarse();
         let (lines, laid) = lines(&loaded);
-        Self { loaded, lines, laid, choice: choose(BackendWish::Cpu, OnFailure::default()).expect("the processor") }
+        let ready = process::prepare(&loaded.scene).expect("a gear");
+        Self {
+            loaded,
+            ready,
+            lines,
+            laid,
+            choice: choose(BackendWish::Cpu, OnFailure::default()).expect("the processor"),
+        }
     }
 
     /// The gear that is cut with these errors, as it is measured.
     fn measured(&self, errors: &KnownErrors, random: &mut Random) -> MeasuredGear {
-        let scene = errors.scene(&self.loaded);
-        let cut_um = self.laid.predicted_um(&scene, self.choice.backend.as_ref()).expect("cut");
+        let ready = self.ready.with_errors_of(&errors.scene(&self.loaded)).expect("a gear");
+        let cut_um = self.laid.predicted_um(ready.as_ref(), self.choice.backend.as_ref()).expect("cut");
         let mut lines = self.lines.clone();
         for (line, cut_um) in lines.iter_mut().zip(cut_um) {
             for (point, um) in line.points.iter_mut().zip(cut_um) {
@@ -90,6 +98,7 @@ mod slow {
         for gear in 0..GEARS {
             let errors = KnownErrors::draw(&bench.loaded, &mut random);
             let found = bench.fit(&errors, &bench.measured(&errors, &mut random));
+            assert!(found.settled, "gear {gear}: {:?}", errors.sources);
             tally.blamed += usize::from(found.chance.is_some_and(|chance| chance < 1e-3));
             for (parameter, fitted) in &found.fitted {
                 let fitted = fitted.unwrap_or_else(|| panic!("gear {gear}: {} is not identified", parameter.id));

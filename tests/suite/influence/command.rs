@@ -30,10 +30,53 @@ fn a_budget_ranks_errors_and_writes_its_tables() {
     assert!(table.lines().last().is_some_and(|line| line.starts_with("mounting.axial_offset_um")), "{table}");
     assert!(heads(&out.join("tables/influence_maps.csv")).contains("mounting_eccentricity_um_0_um_per_um"));
     assert_eq!(read_json(&out.join("run.json"))["command"], "budget");
-    assert!(std::fs::read_to_string(out.join("report.html")).expect("a page").contains("What costs what"));
+    let page = std::fs::read_to_string(out.join("report.html")).expect("a page");
+    assert!(page.contains("What costs what"));
+    // The four dearest have a map, as large below 0 as above.
+    assert_eq!(std::fs::read_dir(out.join("pictures")).expect("pictures").count(), 1 + 4);
+    assert_eq!(page.matches("data:image/png").count(), 4);
     let results = read_json(&out.join("results.json"));
     assert_is_results(&results);
     assert_eq!(results["complete"], true);
+}
+
+/// Mean places of red and of blue pixels left of the bar of colours, px from the left; `None` where there are none.
+fn red_and_blue_px(picture: &Path) -> [Option<f64>; 2] {
+    let picture = image::open(picture).expect("a picture").to_rgb8();
+    let mut places = [Vec::new(), Vec::new()];
+    for (x, _, &image::Rgb([red, _, blue])) in picture.enumerate_pixels().filter(|(x, ..)| *x < LEFT_OF_BAR_PX) {
+        let apart = i32::from(red) - i32::from(blue);
+        if apart.abs() > COLOURED {
+            places[usize::from(apart < 0)].push(f64::from(x));
+        }
+    }
+    places.map(|of| (!of.is_empty()).then(|| of.iter().sum::<f64>() / of.len() as f64))
+}
+
+/// Red less blue of 255 from which a pixel is of either colour: lettering and no value have none.
+const COLOURED: i32 = 25;
+/// A map of a flank is 216 pixels wide and stands 28 from the left.
+const LEFT_OF_BAR_PX: u32 = 28 + 216;
+
+/// A slope of the guide sideways adds v cos(alpha) / 100 mm to left flanks and as much less to right ones: half a flank
+/// is red and half is blue, the right halves of left flanks red. A radial bow, sin(alpha) (1 - (2 v / b)^2), has one
+/// sign all over.
+#[test]
+fn maps_of_a_budget_show_where_an_error_adds_and_takes_away() {
+    let folder = folder();
+    for (flank, red_is_right) in [("2-left", true), ("2-right", false)] {
+        let slope = "machine.errors.guide.tangential_um_per_100mm,machine.errors.guide.radial_bow_um";
+        gearcut_in(folder.path(), &["budget", "round.toml", "--parameters", slope, "--flanks", flank]).done();
+        let pictures = folder.path().join("out/round_budget/pictures");
+        let [red_px, blue_px] = red_and_blue_px(&pictures.join("influence_1.png")).map(|px| px.expect("both colours"));
+        // Four of nine cells of 24 pixels stand on either side of a middle one without colour.
+        let apart_px = 5.0 * 24.0 * if red_is_right { 1.0 } else { -1.0 };
+        assert!((red_px - blue_px - apart_px).abs() < 2.0, "{flank}: red {red_px}, blue {blue_px}");
+        let [red_px, blue_px] = red_and_blue_px(&pictures.join("influence_2.png"));
+        assert!(red_px.is_some() != blue_px.is_some(), "{flank}: red {red_px:?}, blue {blue_px:?}");
+        let page = std::fs::read_to_string(folder.path().join("out/round_budget/report.html")).expect("a page");
+        assert!(page.contains("1: guide: tangential slope, µm/(µm/100 mm)"), "no title with its unit");
+    }
 }
 
 #[test]

@@ -147,8 +147,13 @@ pub struct Tally {
 impl Tally {
     /// Counts a fitted size with half its interval.
     pub fn count(&mut self, [size, half]: [f64; 2], known: f64) {
+        self.add((size - known).abs() <= half);
+    }
+
+    /// Counts a size that its interval holds or not.
+    pub fn add(&mut self, held: bool) {
         self.sizes += 1;
-        self.held += usize::from((size - known).abs() <= half);
+        self.held += usize::from(held);
     }
 
     /// Whether 90 to 99 % of the sizes are within their intervals.

@@ -3,7 +3,7 @@
 use super::cut_gears::{GEARS, KnownErrors, NAMED_AT_LEAST, NOISE_UM, Random, SEEN, TEETH, Tally, coarse, places};
 use super::round::{backend, grid, loaded};
 use gearcut::influence::budget::chosen;
-use gearcut::influence::diagnose::{Diagnosis, ErrorModel, MeasuredCuts, findings};
+use gearcut::influence::diagnose::{Diagnosis, ErrorModel, FittedSize, MeasuredCuts, findings};
 use gearcut::influence::known_cuts::KnownCuts;
 use gearcut::influence::measured::MeasuredPoint;
 use gearcut::interrupt::Interrupt;
@@ -45,13 +45,20 @@ fn measured_um(
     turned.map(|um| um + NOISE_UM * random.normal()).collect()
 }
 
-/// Counts the sizes of a diagnosis.
-fn count(tally: &mut Tally, model: &ErrorModel, found: &Diagnosis, errors: &KnownErrors) {
+/// Counts the sizes of a diagnosis that are held.
+fn count(
+    tally: &mut Tally,
+    model: &ErrorModel,
+    found: &Diagnosis,
+    errors: &KnownErrors,
+    holds: fn(&FittedSize, f64) -> bool,
+) {
     tally.named += usize::from(named(model, found) == errors.sources);
     tally.blamed += usize::from(found.unexplained_um > 0.0);
     for named in &found.named {
         for (parameter, fitted) in model.sources[named.source].parameters.iter().zip(&named.fitted) {
-            tally.count(fitted.expect("none of them is a combination of others"), errors.size_of(&parameter.id));
+            let fitted = fitted.expect("none of them is a combination of others");
+            tally.add(holds(&fitted, errors.size_of(&parameter.id)));
         }
     }
 }
@@ -80,8 +87,9 @@ fn a_cut_that_ends_over_its_beginning_is_not_blamed_on_other_errors() {
     assert!(found.settled && found.rounds < 6 && found.bent > 0, "{} rounds, {} bent", found.rounds, found.bent);
     assert_eq!((found.unexplained_um, found.residuals_um.len()), (0.0, points.len()), "chance {}", found.chance);
     for (fitted, (parameter, size)) in found.named[0].fitted.iter().zip(&errors.sizes) {
-        let [fitted, half] = fitted.expect("both flanks were measured");
-        assert!((fitted - size).abs() < 1.5 * half && half < 0.3, "{}: {fitted} +- {half} um", parameter.id);
+        let of = fitted.expect("both flanks were measured");
+        let half = of.half_if_right;
+        assert!((of.size - size).abs() < 1.5 * half && half < 0.3, "{}: {} +- {half} um", parameter.id, of.size);
     }
     // The linear fit cannot explain the gear.
     let linear = Diagnosis::new(&scene, &measured_um, NOISE_UM).expect("many places");
@@ -123,6 +131,11 @@ fn sources_that_look_alike_are_said_to_do_so() {
         expected.sort_unstable();
         assert_eq!(named, expected, "both flanks: {both}");
         assert_eq!(found.unexplained_um, 0.0, "chance {}", found.chance);
+        // A gear that is not eccentric at all is as likely on left flanks alone.
+        let [first, ..] = &found.named[..] else { panic!("nothing is named") };
+        let size = first.fitted[0].expect("left flanks were measured");
+        assert!(size.holds(0.0) != both && (size.holds(8.0) || !both), "both flanks: {both}, {size:?}");
+        assert_eq!(first.weight > 0.95, both, "{}", first.weight);
     }
 }
 
@@ -137,26 +150,33 @@ mod slow {
         let cuts = MeasuredCuts::new(&loaded, &points, &cpu, &known).expect("places");
         let scene = model(&cuts, &[]);
         let mut random = Random(20_261_124);
-        let (mut tally, mut linear) = (Tally::default(), Tally::default());
+        let [mut tally, mut halved, mut alone, mut linear] = [Tally::default(); 4];
         for gear in 0..GEARS {
             let errors = KnownErrors::draw(&loaded, &mut random);
             let turned_arcsec = 40.0 * (random.uniform() - 0.5);
             let measured_um = measured_um(&cuts, &scene, &errors, turned_arcsec, &mut random);
             let (there, found) = explain(&scene, &cuts, &measured_um);
-            count(&mut tally, &there, &found, &errors);
+            count(&mut tally, &there, &found, &errors, FittedSize::holds);
+            // Twice as far off the size.
+            count(&mut halved, &there, &found, &errors, |of, known| of.holds(2.0 * known - of.size));
+            count(&mut alone, &there, &found, &errors, |of, known| (of.size - known).abs() <= of.half_if_right);
             if named(&there, &found) != errors.sources {
                 println!("gear {gear}: {:?}, named {:?}", errors.sources, named(&there, &found));
                 continue;
             }
             assert!(found.settled, "gear {gear}: {} rounds", found.rounds);
-            let [turn, half] = found.turn_arcsec;
-            assert!((turn - turned_arcsec).abs() < 2.0 * half, "gear {gear}: {turn} for {turned_arcsec} arcsec");
+            let turn = found.turn_arcsec.expect("all flanks show it");
+            let off = (turn.size - turned_arcsec).abs();
+            assert!(off < 2.0 * turn.half_if_right, "gear {gear}: {turn:?} for {turned_arcsec} arcsec");
             assert!(found.explained.is_some_and(|share| share > 0.5), "gear {gear}: {:?}", found.explained);
-            count(&mut linear, &scene, &Diagnosis::new(&scene, &measured_um, NOISE_UM).expect("places"), &errors);
+            let of_scene = Diagnosis::new(&scene, &measured_um, NOISE_UM).expect("places");
+            count(&mut linear, &scene, &of_scene, &errors, FittedSize::holds);
         }
-        println!("{tally:?}; by influences about the scene alone {linear:?}");
-        assert!(tally.named >= NAMED_AT_LEAST, "{tally:?}");
+        println!("{tally:?}; half as wide {halved:?}; by the named sources alone {alone:?}; not cut again {linear:?}");
+        assert!(tally.named >= NAMED_AT_LEAST && tally.holds(), "{tally:?}");
         assert!(tally.blamed <= 1, "noise alone was called unexplained: {tally:?}");
+        // Planted: intervals half as wide; and as if the named sources were known to be the right ones.
+        assert!(!halved.holds() && alone.held < tally.held, "{halved:?}, {alone:?}");
         // Planted: the same gears by influences alone, without a cut of what was found.
         assert!(linear.named < NAMED_AT_LEAST && !linear.holds() && linear.blamed > 1, "{linear:?}");
     }

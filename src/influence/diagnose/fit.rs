@@ -1,0 +1,149 @@
+//! One linear fit: which sources are chosen about a model, their sizes, and what is left.
+//!
+//! In: a model, measured deviations and their noise. Out: [`Diagnosis`].
+
+use super::averaging::{Averaging, Column};
+use super::selection::{Selection, chi_square_quantile};
+use super::{Diagnosis, ErrorModel, FittedSize, NamedSource, Without};
+use crate::influence::interval::interval;
+use gearcut_core::error::{Refusal, Result};
+use gearcut_core::math::column_basis::{ColumnBasis, norm};
+use statrs::distribution::{ChiSquared, ContinuousCDF};
+
+/// Chance that noise alone tells two sources apart that are the same.
+const TOLD_APART_BY_CHANCE: f64 = 0.01;
+/// Chance that noise alone is called unexplained.
+const UNEXPLAINED_BY_CHANCE: f64 = 1e-3;
+
+/// Measured deviations and the columns of a model, over the noise.
+pub(super) struct LinearFit<'a> {
+    model: &'a ErrorModel,
+    without: &'a Without,
+    noise_um: f64,
+    /// Columns of each source at the places that the fit takes.
+    columns: Vec<Vec<Vec<f64>>>,
+    turn: Vec<f64>,
+    off: Vec<f64>,
+    /// Deviations from a gear without errors, um, at all places.
+    off_um: Vec<f64>,
+    /// Squares of the deviations from the scene's own gear that no turn explains.
+    whole: f64,
+}
+
+impl<'a> LinearFit<'a> {
+    /// Takes values over their standard deviation.
+    pub fn new(model: &'a ErrorModel, measured_um: &[f64], noise_um: f64, without: &'a Without) -> Self {
+        let mut taken = vec![true; measured_um.len()];
+        without.places.iter().for_each(|&place| taken[place] = false);
+        let whitened = |values: &[f64]| {
+            let kept = values.iter().zip(&taken).filter(|(_, taken)| **taken);
+            kept.map(|(value, _)| value / noise_um).collect::<Vec<f64>>()
+        };
+        let less = |other_um: &[f64]| measured_um.iter().zip(other_um).map(|(a, b)| a - b).collect::<Vec<f64>>();
+        let of_source = model.sources.iter().map(|source| source.um_per_unit.iter().map(|of| whitened(of)).collect());
+        let columns = of_source.collect();
+        let turn = whitened(&model.um_per_arcsec);
+        let off_um = less(&model.without_errors_um());
+        let off = whitened(&off_um);
+        let mut turned = ColumnBasis::default();
+        let _unseen = turned.take(&turn);
+        let whole = turned.left_of(&whitened(&less(&model.before_um)));
+        Self { model, without, noise_um, columns, turn, off, off_um, whole }
+    }
+
+    fn selection(&self) -> Selection<'_> {
+        Selection { columns: &self.columns, turn: &self.turn, off: &self.off }
+    }
+
+    /// Sources that are tried, and those whose natural step noise hides.
+    fn candidates_and_hidden(&self) -> (Vec<usize>, Vec<usize>) {
+        let turned = self.selection().basis(&[]);
+        let seen = |source: usize| {
+            let steps = self.model.sources[source].parameters.iter().map(|parameter| parameter.step);
+            self.columns[source].iter().zip(steps).any(|(column, step)| step * norm(&turned.beside(column).0) > 1.0)
+        };
+        let (mut candidates, hidden): (Vec<usize>, Vec<usize>) = (0..self.columns.len()).partition(|&i| seen(i));
+        candidates.retain(|source| !self.without.sources.contains(source));
+        (candidates, hidden)
+    }
+
+    /// Explains the deviations.
+    ///
+    /// # Errors
+    /// Fewer places than parameters.
+    pub fn diagnosis(&self) -> Result<Diagnosis> {
+        let Self { model, noise_um, columns, turn, off, whole, .. } = self;
+        let fit = self.selection();
+        let (candidates, hidden) = self.candidates_and_hidden();
+        let chosen = fit.select(&candidates);
+        let basis = fit.basis(&chosen);
+        let solution = basis.solve(off);
+        if solution.freedom == 0 {
+            let problem = format!("{} places are too few for {} parameters", off.len(), basis.columns());
+            return Err(Refusal::new("--measured", problem, "measure more places").into());
+        }
+        // Intervals widen where residuals say that the noise was stated too low.
+        let variance = (solution.chi_square / solution.freedom as f64).max(1.0);
+        let width = variance.sqrt() * interval(solution.freedom);
+        let averaging = Averaging::new(&fit, &candidates, &chosen, variance);
+        let sized = |i: usize, column: Column| {
+            let (size, [low, high]) = (solution.values[i], averaging.interval(column));
+            // Sources are named for more than it takes to weigh: the named set may be one of little weight.
+            let interval = [low.min(size), high.max(size)];
+            FittedSize { size, interval, half_if_right: width * solution.covariance[i][i].sqrt() }
+        };
+        let mut residuals_um = self.off_um.clone();
+        let mut take_off = |column: &[f64], size: f64| {
+            residuals_um.iter_mut().zip(column).for_each(|(um, per_unit)| *um -= size * per_unit);
+        };
+        let mut basis_so_far = ColumnBasis::default();
+        let turn_arcsec = basis_so_far.take(turn).then(|| sized(0, None));
+        take_off(&model.um_per_arcsec, turn_arcsec.map_or(0.0, |turn| turn.size));
+        let mut place = basis_so_far.columns();
+        let mut named = Vec::new();
+        for &source in &chosen {
+            let mut fitted = Vec::new();
+            for (index, column) in columns[source].iter().enumerate() {
+                let own = basis_so_far.take(column).then(|| sized(place, Some((source, index))));
+                if let Some(FittedSize { size, .. }) = own {
+                    take_off(&model.sources[source].um_per_unit[index], size);
+                    place += 1;
+                }
+                fitted.push(own);
+            }
+            let others: Vec<usize> = chosen.iter().copied().filter(|&other| other != source).collect();
+            let left_by_others = fit.left(&others);
+            let hides = chi_square_quantile(columns[source].len(), 1.0 - TOLD_APART_BY_CHANCE);
+            let same = |other: usize| {
+                let exchanged: Vec<usize> = others.iter().copied().chain([other]).collect();
+                !chosen.contains(&other) && fit.left(&exchanged) <= solution.chi_square + hides
+            };
+            named.push(NamedSource {
+                source,
+                fitted,
+                weight: averaging.weight(source),
+                alone: (left_by_others - solution.chi_square) / whole,
+                same_as: candidates.iter().copied().filter(|&other| same(other)).collect(),
+            });
+        }
+        named.sort_by(|a, b| b.alone.total_cmp(&a.alone));
+        let noise = ChiSquared::new(solution.freedom as f64).expect("freedom is above 0");
+        let chance = noise.sf(solution.chi_square);
+        let beyond = (solution.chi_square / solution.freedom as f64 - 1.0).max(0.0);
+        Ok(Diagnosis {
+            named,
+            turn_arcsec,
+            explained: (*whole > 0.0).then(|| 1.0 - solution.chi_square / whole),
+            residual_um: noise_um * (solution.chi_square / off.len() as f64).sqrt(),
+            unexplained_um: if chance < UNEXPLAINED_BY_CHANCE { noise_um * beyond.sqrt() } else { 0.0 },
+            chance,
+            freedom: solution.freedom,
+            residuals_um,
+            hidden,
+            unsayable: self.without.sources.clone(),
+            bent: self.without.places.len(),
+            rounds: 0,
+            settled: false,
+        })
+    }
+}
