@@ -80,7 +80,7 @@ pub fn findings(cutter: &HobCutter, gear: &HobbedGear, measured: &Measured) -> F
     let tool = (ErrorLayer::Tool, tool.join(", "));
     sections.extend(machine_errors::section(&job.errors, &AXES, &[tool]));
     sections.extend(evaluated(job));
-    sections.extend(measured.inspected.sections(&job.scene.measure));
+    sections.extend(measured.inspected.sections(&job.scene.measure, None));
     if let Some((whole, loads, forces)) = measured.whole {
         sections.push(load::findings(job, loads));
         sections.extend(force::findings(job, forces));
