@@ -19,6 +19,7 @@ pub mod rack_root;
 mod report;
 pub mod run;
 pub mod scene;
+mod stage_costs;
 mod surfaces;
 pub mod warnings;
 

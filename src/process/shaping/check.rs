@@ -38,7 +38,9 @@ pub fn print(sheet: &mut Sheet, job: &ShapingJob) -> Result<Vec<Warning>> {
         axes::print(operation, sheet);
     }
     returns::print(sheet, job, &operations)?;
+    // Before the cost: a cut does it as well.
+    let foreseen = foreseen::foresee(job, &operations)?;
     cost::print(sheet, job, &facts)?;
     foreseen::print(sheet, job);
-    Ok(foreseen::foresee(job, &operations)?.warnings)
+    Ok(foreseen.warnings)
 }
