@@ -7,6 +7,7 @@ pub mod check;
 pub mod cutter;
 pub mod flank_patch;
 pub mod foreseen;
+pub mod foreseen_chips;
 pub mod gcode;
 pub mod gear;
 pub mod hob;

@@ -56,7 +56,7 @@ pub(super) fn run(job: &HobbingJob, tools: &Tools) -> Result<CutDone> {
         lattices: &lattices,
         whole: whole.as_ref().map(|whole| (whole, loads.as_slice(), forces.as_slice())),
     };
-    let mut found = findings::findings(&cutter, &gear, &measured);
+    let mut found = findings::findings(&cutter, &gear, &measured)?;
     let mut load_charts = load::charts(job, &loads);
     load_charts.extend(force::bars(job, &forces));
     let force_charts = force::over_time(job, &forces);
