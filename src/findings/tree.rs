@@ -134,6 +134,20 @@ impl Section {
         sections.into_iter().fold(self, Self::part)
     }
 
+    /// The same where nothing of it holds, with the reason: entries but those of the keys in `keep` lose their values,
+    /// words and numbers alike, and tables their rows.
+    #[must_use]
+    pub fn without_values(mut self, why: &str, keep: &[&str]) -> Self {
+        for entry in self.entries.iter_mut().filter(|entry| !keep.contains(&entry.key.as_str())) {
+            entry.quantity = entry.quantity.clone().without_value(why);
+        }
+        for table in &mut self.tables {
+            table.rows.clear();
+        }
+        self.sections = self.sections.into_iter().map(|part| part.without_values(why, keep)).collect();
+        self
+    }
+
     /// Whether nothing of this key is in it.
     pub fn is_free(&self, key: &str) -> bool {
         self.entries.iter().all(|entry| entry.key != key)

@@ -2,10 +2,10 @@
 //!
 //! Dexels follow from the lengths of all profiles and the spacing. Records and evaluations are planned for a few flanks
 //! spread over the gear, exactly as the cut would plan them, and scaled to all flanks by their dexels. Time is that of
-//! the whole command: the sum of the parts at rates measured on one processor, times what some of this very work takes
-//! here ([`ComputerSpeed`]).
+//! the whole command: what `check` has done itself until then, work of which pieces were timed, and the other parts at
+//! rates measured on one processor, times what some of this very work takes here
+//! ([`super::computer_speed::ComputerSpeed`]).
 
-use super::computer_speed::ComputerSpeed;
 use crate::output::progress::duration_text;
 use crate::output::text::{Sheet, plain, significant};
 use crate::scene::model::Fields;
@@ -34,7 +34,7 @@ pub struct FlankCost {
     pub note: &'static str,
     /// At one time on all cores.
     pub bytes: f64,
-    /// On one core.
+    /// On one core of this machine.
     pub seconds: f64,
 }
 
@@ -46,7 +46,7 @@ pub struct BlankCost {
     pub crossings: String,
     /// Memory at one time.
     pub bytes: f64,
-    /// On one core.
+    /// On one core of this machine.
     pub seconds: f64,
 }
 
@@ -57,7 +57,7 @@ pub struct TimeCost {
     pub flanks_s: f64,
     /// The whole blank and the chips.
     pub blank_s: f64,
-    /// What is drawn and written, and texture.
+    /// What comes before the first cut, is drawn and written, and texture.
     pub beside_s: f64,
 }
 
@@ -71,7 +71,7 @@ impl TimeCost {
             "time",
             format!(
                 "some {} for all of it on {cores} threads of this machine: {} for flanks, {} for blank and chips, {} \
-                 to draw and write",
+                 to prepare, draw and write",
                 seconds(whole_s),
                 seconds(self.flanks_s),
                 seconds(self.blank_s),
@@ -81,15 +81,8 @@ impl TimeCost {
     }
 }
 
-/// Prints the cost of a cut, seconds by the rates; `beside_s` is what else the command takes, on one core.
-pub fn print(
-    sheet: &mut Sheet,
-    fields: &Fields,
-    flanks: &FlankCost,
-    blank: &BlankCost,
-    beside_s: f64,
-    machine: ComputerSpeed,
-) {
+/// Prints the cost of a cut; `beside_s` is what else the command takes, on one core of this machine.
+pub fn print(sheet: &mut Sheet, fields: &Fields, flanks: &FlankCost, blank: &BlankCost, beside_s: f64) {
     let cores = rayon::current_num_threads();
     sheet.heading("Cost of the cut (nothing has been cut)");
     sheet.line(
@@ -126,6 +119,5 @@ pub fn print(
         ),
     );
     sheet.line("memory", format!("{:.0} MB: one flank at a time on each of {cores} threads", 1e-6 * flanks.bytes));
-    let [flanks_s, blank_s, beside_s] = [flanks.seconds, blank.seconds, beside_s].map(|s| s * machine.factor());
-    TimeCost { flanks_s, blank_s, beside_s }.print(sheet);
+    TimeCost { flanks_s: flanks.seconds, blank_s: blank.seconds, beside_s }.print(sheet);
 }

@@ -58,12 +58,30 @@ impl AddAssign for ComputerSpeed {
     }
 }
 
+/// Processor time of this command so far, all threads, s: what it did before an estimate a cut does as well.
+pub fn so_far_s() -> f64 {
+    processor_time_of_command().as_secs_f64()
+}
+
 /// Processor time of this thread.
 #[cfg(any(target_os = "linux", target_os = "android", target_vendor = "apple"))]
 fn processor_time() -> Duration {
     let time = rustix::time::clock_gettime(rustix::time::ClockId::ThreadCPUTime);
     // Neither is negative.
     Duration::new(time.tv_sec.unsigned_abs(), u32::try_from(time.tv_nsec).unwrap_or(0))
+}
+
+/// Processor time of all threads.
+#[cfg(any(target_os = "linux", target_os = "android", target_vendor = "apple"))]
+fn processor_time_of_command() -> Duration {
+    let time = rustix::time::clock_gettime(rustix::time::ClockId::ProcessCPUTime);
+    Duration::new(time.tv_sec.unsigned_abs(), u32::try_from(time.tv_nsec).unwrap_or(0))
+}
+
+/// The same without a clock for it.
+#[cfg(not(any(target_os = "linux", target_os = "android", target_vendor = "apple")))]
+fn processor_time_of_command() -> Duration {
+    processor_time()
 }
 
 /// Where the system has no such clock, wall time stands in for it.
@@ -76,6 +94,17 @@ fn processor_time() -> Duration {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// What one thread takes is among what the command has taken.
+    #[test]
+    fn the_command_takes_what_its_threads_take() {
+        let before_s = so_far_s();
+        let mut speed = ComputerSpeed::default();
+        let spin = |rounds: u64| (0..rounds).fold(1.0_f64, |x, i| (x + i as f64).sqrt());
+        let x = speed.piece(|| spin(3_000_000), |_| 1e-3);
+        let after_s = so_far_s();
+        assert!(x > 0.0 && after_s - before_s >= 0.99 * speed.taken_s(), "{before_s} {after_s} {}", speed.taken_s());
+    }
 
     #[test]
     fn the_factor_is_time_taken_over_time_expected() {

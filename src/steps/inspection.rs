@@ -44,9 +44,15 @@ impl Inspected {
         Ok(Self { round, mean_thickness_mm, verdict })
     }
 
-    /// Sizes and figures.
-    pub fn sections(&self, measure: &Measure) -> impl Iterator<Item = Section> {
-        let cut = |round: &RoundGear| sizes(round, measure, self.mean_thickness_mm);
+    /// Sizes and figures. Where the passes that cut are not those that the target follows from, `other_gear` says so.
+    pub fn sections(&self, measure: &Measure, other_gear: Option<&str>) -> impl Iterator<Item = Section> {
+        let cut = |round: &RoundGear| {
+            let mut sizes = sizes(round, measure, self.mean_thickness_mm);
+            if let Some(why) = other_gear {
+                without_generated(&mut sizes, measure, why);
+            }
+            sizes
+        };
         self.round.as_ref().map(cut).into_iter().chain([figures(&self.verdict)])
     }
 
@@ -138,11 +144,11 @@ pub fn sizes(round: &RoundGear, measure: &Measure, cut_thickness_mm: Option<f64>
         );
     let ball_mm = measure.ball_diameter_mm.unwrap_or_else(|| round.usual_ball_mm());
     section = section.with("ball_diameter", mm(ball_mm, "D_M: balls or pins of the dimension over two of them"));
-    let of_span = if ring { "W_k: span across k spaces" } else { "W_k: span over k teeth" };
+    let of_span = if ring { "W_k: span across k spaces of the target" } else { "W_k: span over k teeth of the target" };
     let of_balls = if ring {
-        "M_d: dimension between two balls in opposite spaces, or those nearest to it"
+        "M_d: dimension between two balls in opposite spaces of the target, or those nearest to it"
     } else {
-        "M_d: dimension over two balls in opposite spaces, or those nearest to it"
+        "M_d: dimension over two balls in opposite spaces of the target, or those nearest to it"
     };
     section = match round.span() {
         Ok(span) => section
@@ -170,6 +176,17 @@ pub fn sizes(round: &RoundGear, measure: &Measure, cut_thickness_mm: Option<f64>
     section.with("over_balls_as_cut", over(&cut, "M_d that the mean thickness as cut makes; feed marks are not in it"))
 }
 
+/// Takes away what the tool leaves when it cuts as the target has it. Sizes of the drawing, of the blank and of the
+/// target's thickness stay: they are what the cut gear is held against.
+fn without_generated(sizes: &mut Section, measure: &Measure, why: &str) {
+    let mut keys = vec!["root_diameter", "form_diameter", "tip_form_diameter", "tip_clearance"];
+    keys.extend(measure.profile_start_height_mm.is_none().then_some("active_diameter"));
+    keys.extend(measure.profile_end_height_mm.is_none().then_some("active_tip_diameter"));
+    for entry in sizes.entries.iter_mut().filter(|entry| keys.contains(&entry.key.as_str())) {
+        entry.quantity = entry.quantity.clone().without_value(why);
+    }
+}
+
 /// Signs of the sizes, as drawings have them.
 const SIGNS: [(&str, &str); 20] = [
     ("reference_diameter", "d"),
@@ -194,6 +211,9 @@ const SIGNS: [(&str, &str); 20] = [
     ("over_balls_as_cut", "M_d"),
 ];
 
+/// What the value of a size begins with that is not known; its reason follows.
+pub const NO_SIZE: &str = "none: ";
+
 /// Title, sign and value with unit of each size, for people.
 pub fn size_rows(sizes: &Section) -> Vec<[String; 3]> {
     let row = |entry: &Entry| {
@@ -204,7 +224,7 @@ pub fn size_rows(sizes: &Section) -> Vec<[String; 3]> {
             (Some(value), _) if quantity.unit() == Some("mm") => format!("{value:.4} mm"),
             // A rounded zero has no sign.
             (Some(value), _) => format!("{:.4}", (1e4 * value).round() / 1e4 + 0.0),
-            (None, why) => format!("none: {}", why.unwrap_or_default()),
+            (None, why) => format!("{NO_SIZE}{}", why.unwrap_or_default()),
         };
         [entry.heading(), sign.to_owned(), value]
     };

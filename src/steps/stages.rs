@@ -1,9 +1,8 @@
 //! The stages of a run with what each is expected to take: for the time left of the whole command.
 //!
 //! In: the job, what is written, what the process knows of its own stages. Out: names of stages with seconds for each
-//! tooth, flank, window or picture: processor time of a whole run of the paper's gear and of a ring of 60 teeth, shared
-//! among its stages by their wall time. For the time left only the proportions count: the pace of what is done says how
-//! fast this machine and this scene are.
+//! tooth, flank, window or picture: processor time of whole runs of shipped scenes, stage by stage. For the time left
+//! only the proportions count: the pace of what is done says how fast this machine and this scene are.
 //!
 //! Road not taken: the cost that `check` estimates of cuts ([`super::check_cost`]). It takes a moment to plan, in which
 //! nothing would show; `check` takes from here what is not cutting.
@@ -20,14 +19,19 @@ pub struct Costs<'a> {
     pub before: &'a [(&'static str, f64)],
     /// For cutting and measuring a flank, s.
     pub flank_s: f64,
+    /// For the chips that are followed on the maps of a flank, s.
+    pub map_chips_s: f64,
+    /// For a texture window, s.
+    pub window_s: f64,
+    /// For a picture, s.
+    pub picture_s: f64,
     /// For cutting a root that only meshes show, s; 0 where roots are measured with the flanks.
     pub root_s: f64,
     /// For a tooth's share of the blank, s.
     pub blank_s: f64,
+    /// For a tooth's share of what is found between the stages: crossings, roots, findings, s.
+    pub between_s: f64,
 }
-
-/// For a texture window, s.
-const WINDOW_S: f64 = 0.15;
 
 /// How many texture windows there are: those of the scene, or both flanks of the teeth that every gear gets.
 fn windows(job: &dyn GearJob) -> f64 {
@@ -37,10 +41,12 @@ fn windows(job: &dyn GearJob) -> f64 {
     }
 }
 
-/// What a whole run takes beside its cuts: measuring texture, drawing, writing, s of one core.
-pub fn beside_cutting_s(job: &dyn GearJob) -> f64 {
-    let nothing = Costs { before: &[], flank_s: 0.0, root_s: 0.0, blank_s: 0.0 };
-    plan(job, Parts::all(), None, &nothing).iter().map(|(_, seconds)| seconds).sum()
+/// What a whole run takes beside its cuts, and what a process estimates with them: measuring texture, drawing,
+/// writing, s of one core.
+pub fn beside_cutting_s(job: &dyn GearJob, costs: &Costs) -> f64 {
+    let beside = Costs { before: &[], flank_s: 0.0, map_chips_s: 0.0, root_s: 0.0, blank_s: 0.0, ..*costs };
+    let stages: f64 = plan(job, Parts::all(), None, &beside).iter().map(|(_, seconds)| seconds).sum();
+    stages + costs.between_s * f64::from(job.scene().gear.teeth)
 }
 
 /// Stages of a run with expected seconds; `frames` is how many pictures of the cut as it happens are drawn.
@@ -50,21 +56,23 @@ pub fn plan(job: &dyn GearJob, parts: Parts, frames: Option<u32>, costs: &Costs)
     let share = |part: Part, seconds: f64| if parts.has(part) { seconds } else { 0.0 };
     let mut stages: Vec<(&'static str, f64)> =
         costs.before.iter().map(|(name, tooth_s)| (*name, tooth_s * teeth)).collect();
+    let drawn = parts.has_any(&[Part::Maps, Part::Pictures]);
+    let chips_s = if drawn { costs.map_chips_s } else { 0.0 };
     stages.extend([
-        ("cut", 2.0 * teeth * (costs.flank_s + share(Part::Maps, 0.11) + share(Part::Meshes, 0.01))),
-        ("texture", WINDOW_S * windows(job)),
+        ("cut", 2.0 * teeth * (costs.flank_s + chips_s + share(Part::Maps, 0.003) + share(Part::Meshes, 0.001))),
+        ("texture", costs.window_s * windows(job)),
         ("cut the whole blank", costs.blank_s * teeth),
-        ("tables and charts", 0.1 + share(Part::Chips, 0.3) + share(Part::Axes, 0.4)),
-        ("sheets", share(Part::Pictures, 0.015 * teeth)),
-        ("deviation maps", share(Part::Maps, 0.025 * teeth)),
+        ("tables and charts", 0.02 + share(Part::Chips, 0.2)),
+        ("sheets", share(Part::Pictures, 0.005 * teeth)),
+        ("deviation maps", share(Part::Maps, 0.007 * teeth)),
         ("roots", if needs_surfaces(job, parts) { costs.root_s * teeth } else { 0.0 }),
-        ("tips", if needs_surfaces(job, parts) { 0.005 * teeth } else { 0.0 }),
-        ("meshes", share(Part::Meshes, 0.02 * teeth)),
-        ("pictures", share(Part::Pictures, 1.9 * scene.pictures.len() as f64)),
+        ("tips", if needs_surfaces(job, parts) { 0.004 * teeth } else { 0.0 }),
+        ("meshes", share(Part::Meshes, 0.002 * teeth)),
+        ("pictures", share(Part::Pictures, costs.picture_s * scene.pictures.len() as f64)),
         ("frames", frames.map_or(0.0, |count| 0.5 * f64::from(count))),
-        ("axis programs", share(Part::Axes, 0.2)),
-        ("report", share(Part::Report, 0.006 * teeth)),
-        ("checksums", 0.1 + share(Part::Maps, 0.01 * teeth)),
+        ("axis programs", share(Part::Axes, 0.05)),
+        ("report", share(Part::Report, 0.003 * teeth)),
+        ("checksums", 0.02 + share(Part::Maps, 0.002 * teeth)),
     ]);
     stages
 }

@@ -4,11 +4,12 @@ use super::axes_report::BevelAxesReport;
 use super::blank::CellGrid;
 use super::findings;
 use super::job::BevelJob;
+use super::stage_costs::STAGE_COSTS;
 use crate::findings::Warning;
 use crate::output::text::{Sheet, plain, significant};
 use crate::steps::axes;
 use crate::steps::check_cost::{BYTES_PER_DEXEL, TimeCost};
-use crate::steps::computer_speed::ComputerSpeed;
+use crate::steps::computer_speed::{ComputerSpeed, so_far_s};
 use crate::steps::foreseen::{OF_WINDOWS, print_unknown};
 use crate::steps::stages;
 use gearcut_core::cut::Backend as _;
@@ -41,10 +42,12 @@ pub fn print(sheet: &mut Sheet, job: &BevelJob) -> Result<Vec<Warning>> {
     for operation in &operations {
         axes::print(operation, sheet);
     }
+    // Before the cost: a cut does it as well.
+    let foreseen = findings::foresee(job, &operations)?;
     print_cost(sheet, job)?;
     let kinds = ["parts of flanks that the roll does not cover", OF_WINDOWS];
     print_unknown(sheet, &kinds);
-    Ok(findings::foresee(job, &operations)?.warnings)
+    Ok(foreseen.warnings)
 }
 
 /// The gear in a line.
@@ -117,8 +120,9 @@ fn print_head(sheet: &mut Sheet, job: &BevelJob) {
 }
 
 fn print_cost(sheet: &mut Sheet, job: &BevelJob) -> Result<()> {
+    let before_s = so_far_s();
     let fields = job.scene.fields;
-    let PlannedSides { dexels, evaluations, largest, machine } = PlannedSides::of(job)?;
+    let PlannedSides { dexels, evaluations, largest, plan_s, machine } = PlannedSides::of(job)?;
     let surfaces = job.operations.len() as f64;
     let threads = rayon::current_num_threads();
     sheet.heading("Cost of the cut (nothing has been cut)");
@@ -156,9 +160,10 @@ fn print_cost(sheet: &mut Sheet, job: &BevelJob) -> Result<()> {
     // The rays of both sides are kept.
     let bytes = largest * (threads as f64 * (BYTES_PER_RAY + BYTES_PER_DEXEL as f64 * surfaces) + 2.0 * BYTES_PER_RAY);
     sheet.line("memory", format!("{:.0} MB: one flank at a time on each of {threads} threads", 1e-6 * bytes));
-    let flanks_s = dexels * (RAY_S_PER_DEXEL + surfaces * MEASURE_S_PER_DEXEL) + evaluations * CUT_S_PER_EVALUATION;
-    let [flanks_s, beside_s] = [flanks_s, stages::beside_cutting_s(job)].map(|s| s * machine.factor());
-    TimeCost { flanks_s, blank_s: blank_s(job, &grid)?, beside_s }.print(sheet);
+    let cut_s = dexels * (RAY_S_PER_DEXEL + surfaces * MEASURE_S_PER_DEXEL) + evaluations * CUT_S_PER_EVALUATION;
+    let [cut_s, beside_s] = [cut_s, stages::beside_cutting_s(job, &STAGE_COSTS)].map(|s| s * machine.factor());
+    let blank_s = blank_s(job, &grid)?;
+    TimeCost { flanks_s: plan_s + cut_s, blank_s, beside_s: before_s + beside_s }.print(sheet);
     Ok(())
 }
 
@@ -170,14 +175,17 @@ struct PlannedSides {
     evaluations: f64,
     /// Dexels of the largest flank.
     largest: f64,
-    /// What the bands took.
+    /// What planning takes, of all flanks, s of one core of this machine.
+    plan_s: f64,
+    /// What rays and cuts of the bands took.
     machine: ComputerSpeed,
 }
 
 impl PlannedSides {
     fn of(job: &BevelJob) -> Result<Self> {
         let teeth = f64::from(job.blank.teeth);
-        let mut all = Self { dexels: 0.0, evaluations: 0.0, largest: 0.0, machine: ComputerSpeed::default() };
+        let machine = ComputerSpeed::default();
+        let mut all = Self { dexels: 0.0, evaluations: 0.0, largest: 0.0, plan_s: 0.0, machine };
         for side in [Side::Left, Side::Right] {
             let [arcs_mm, rows_mm] = job.places_mm(side);
             let flank = (arcs_mm.len() * rows_mm.len()) as f64;
@@ -186,17 +194,19 @@ impl PlannedSides {
             let rays_s = |rays: &FreeRays| rays.field.len() as f64 * RAY_S_PER_DEXEL;
             let rays = || job.rays_over(1, side, arcs_mm, planned);
             let field = all.machine.piece(rays, |rays| rays.as_ref().map_or(0.0, rays_s))?.field;
-            let mut visits = 0.0;
+            let (mut visits, mut planning) = (0.0, ComputerSpeed::default());
             for operation in 0..job.operations.len() {
                 let mut layer = field.blank_layer();
-                let cut = || {
-                    let plan = SweepPlan::new(&field, job.slots.of(operation, job.space_of(1, side)));
-                    Cpu::default().cut_spatial(&field, &plan, &mut layer).map(|_| plan.dexel_passes() as f64)
-                };
-                let cut_s = |visits: &f64| visits * CUT_S_PER_EVALUATION;
-                visits += all.machine.piece(cut, |visits| visits.as_ref().map_or(0.0, cut_s))?;
+                let passes = job.slots.of(operation, job.space_of(1, side));
+                let plan = planning.piece(|| SweepPlan::new(&field, passes), |_| 0.0);
+                let own = plan.dexel_passes() as f64;
+                let cut_s = own * CUT_S_PER_EVALUATION;
+                all.machine.piece(|| Cpu::default().cut_spatial(&field, &plan, &mut layer), |_| cut_s)?;
+                visits += own;
             }
-            all.evaluations += teeth * flank / field.len() as f64 * visits;
+            let bands = teeth * flank / field.len() as f64;
+            all.evaluations += bands * visits;
+            all.plan_s += bands * planning.taken_s();
             all.dexels += teeth * flank;
             all.largest = all.largest.max(flank);
         }

@@ -25,6 +25,7 @@ mod rolled_axes;
 mod run;
 pub mod scene;
 pub mod slots;
+mod stage_costs;
 mod surfaces;
 
 use super::{CutDone, Process};

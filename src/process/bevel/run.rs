@@ -7,6 +7,7 @@ use super::findings::{self, BevelMeasured};
 use super::gear::cut_gear;
 use super::job::BevelJob;
 use super::report;
+use super::stage_costs::STAGE_COSTS;
 use super::{blank, body, chips};
 use crate::findings::Findings;
 use crate::output::atomic::write_bytes_atomically;
@@ -26,8 +27,7 @@ use gearcut_core::terms::Side;
 /// Geometry, the backend, files. Ctrl-C is no error once a flank is finished.
 pub(super) fn run(job: &BevelJob, tools: &Tools) -> Result<CutDone> {
     let Tools { resolved, backend, backend_why, progress, interrupt, folder, parts, notes } = *tools;
-    let costs = stages::Costs { before: &[], flank_s: 0.4, root_s: 0.0, blank_s: 0.05 };
-    progress.plan(stages::plan(job, parts, None, &costs));
+    progress.plan(stages::plan(job, parts, None, &STAGE_COSTS));
     let motion = BevelAxesReport::of_job(job);
     let foreseen = findings::foresee(job, &motion)?;
     let gear = cut_gear(job, backend, progress, interrupt, Some((folder, notes, parts)))?;

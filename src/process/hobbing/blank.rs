@@ -13,6 +13,7 @@ use gearcut_core::error::{Refusal, Result};
 use gearcut_core::gear::blank_outline::BlankOutline;
 use gearcut_core::math::roots::halve;
 use gearcut_core::passes::sections::swept_sections::SweptSections;
+use gearcut_core::passes::spatial::turning_passes::BladePass;
 use gearcut_core::terms::Side;
 use gearcut_core::units::TURN_RAD;
 use glam::DVec2;
@@ -135,6 +136,25 @@ impl HobCutter<'_> {
         let reach_mm = BlankOutline::new(&self.job.blank).reach_mm();
         let passes = &self.operations[operation];
         SweptSections::of_every(every, passes, reach_mm, self.job.scene.gear.face_width_mm, cull)
+    }
+
+    /// The same of the passes that go through tooth spaces of these numbers, counted as the teeth before them.
+    ///
+    /// # Errors
+    /// As [`Self::sections`].
+    pub fn sections_in_spaces(&self, operation: usize, spaces: &[i64]) -> Result<SweptSections, Refusal> {
+        let hob = &self.job.hob;
+        let passes = &self.operations[operation];
+        let [teeth, starts, gashes] = [self.job.scene.gear.teeth, hob.starts, hob.gashes].map(f64::from);
+        let goes_through = |pass: &BladePass| {
+            let tooth = &hob.teeth[passes.places[pass.rank as usize].blade as usize];
+            // Whole turns since the tooth's own passage: each carries its thread one start further.
+            let turns = (pass.tool_angle_rad / TURN_RAD - tooth.passage as f64 / gashes).round();
+            let space = f64::from(tooth.start) + starts * turns;
+            spaces.iter().any(|&of| (space - of as f64).rem_euclid(teeth) == 0.0)
+        };
+        let reach_mm = BlankOutline::new(&self.job.blank).reach_mm();
+        SweptSections::of_some(goes_through, passes, reach_mm, self.job.scene.gear.face_width_mm, true)
     }
 
     /// Runs all operations over the uncut blank; `advance` is called as often as there are slices, in every operation,

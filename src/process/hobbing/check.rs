@@ -31,9 +31,11 @@ pub fn print(sheet: &mut Sheet, job: &HobbingJob) -> Result<Vec<Warning>> {
     for operation in &operations {
         axes::print(operation, sheet);
     }
+    // Before the cost: a cut does it as well.
+    let foreseen = foreseen::foresee(&cutter, &operations)?;
     cost::print(sheet, &cutter)?;
     foreseen::print(sheet);
-    Ok(foreseen::foresee(&cutter, &operations)?.warnings)
+    Ok(foreseen.warnings)
 }
 
 fn print_hob(sheet: &mut Sheet, job: &HobbingJob) {

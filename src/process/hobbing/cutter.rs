@@ -6,6 +6,7 @@
 use super::HobbingJob;
 use crate::job::{RAY_DEPTH_MODULES, RAY_HEIGHT_MODULES, rows_z_mm};
 use crate::process::hobbing::flank_patch::FlankPatch;
+use crate::process::hobbing::kept::ForeseenChip;
 use gearcut_core::cut::{Backend, CutStats};
 use gearcut_core::dexel::PlacedRays;
 use gearcut_core::dexel::{Layer, SpatialField};
@@ -59,6 +60,17 @@ impl<'a> HobCutter<'a> {
         let job = self.job;
         let find = || FlankPatch::new(&job.target, &job.blank, tooth, side, job.scene.gear.face_width_mm);
         job.targets.of(tooth, side, find)
+    }
+
+    /// The thickest chips that are known before the cut, found by `find` if nobody has asked for them yet.
+    ///
+    /// # Errors
+    /// Those of `find`.
+    pub fn foreseen_chips(
+        &self,
+        find: impl FnOnce() -> Result<Vec<Option<ForeseenChip>>>,
+    ) -> Result<&'a [Option<ForeseenChip>]> {
+        self.job.kept()?.foreseen_chips(find)
     }
 
     /// Arcs of a target's profile, in the middle of the face, at the heights between which the scene evaluates it, mm;

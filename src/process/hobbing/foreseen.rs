@@ -22,7 +22,7 @@ pub fn foresee(cutter: &HobCutter, motion: &[HobbingAxesReport]) -> Result<Fores
 pub fn print(sheet: &mut Sheet) {
     let kinds = [
         "deviations beyond limits and gouges as cut",
-        "chips thicker than usual",
+        "chips thicker than usual beside the middle of the face",
         "parts of the face that the hob does not cover",
         OF_WINDOWS,
     ];

@@ -20,6 +20,17 @@ use std::sync::{Arc, OnceLock};
 pub struct Kept {
     /// Passes of every operation, numbered on from one to the next.
     pub operations: Vec<TurningPasses>,
+    /// The thickest chips that are known before the cut, once somebody has asked.
+    foreseen_chips: OnceLock<Vec<Option<ForeseenChip>>>,
+}
+
+/// The thickest chip of an operation that is known before the cut.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ForeseenChip {
+    /// Hob tooth that takes it, in blade order.
+    pub tooth: usize,
+    /// Its thickness, mm.
+    pub thickness_mm: f64,
 }
 
 /// Targets that were asked for: left and right flank of tooth 1, then of tooth 2 and so on.
@@ -55,7 +66,22 @@ impl Kept {
             first_pass = passes.end_pass();
             operations.push(passes);
         }
-        Ok(Self { operations })
+        Ok(Self { operations, foreseen_chips: OnceLock::new() })
+    }
+
+    /// The thickest chips that are known before the cut, found by `find` if nobody has asked for them yet.
+    ///
+    /// # Errors
+    /// Those of `find`.
+    pub fn foreseen_chips(
+        &self,
+        find: impl FnOnce() -> gearcut_core::Result<Vec<Option<ForeseenChip>>>,
+    ) -> gearcut_core::Result<&[Option<ForeseenChip>]> {
+        if let Some(chips) = self.foreseen_chips.get() {
+            return Ok(chips);
+        }
+        let found = find()?;
+        Ok(self.foreseen_chips.get_or_init(|| found))
     }
 }
 

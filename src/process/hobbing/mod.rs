@@ -7,6 +7,7 @@ pub mod check;
 pub mod cutter;
 pub mod flank_patch;
 pub mod foreseen;
+pub mod foreseen_chips;
 pub mod gcode;
 pub mod gear;
 pub mod hob;
@@ -19,6 +20,7 @@ pub mod rack_root;
 mod report;
 pub mod run;
 pub mod scene;
+mod stage_costs;
 mod surfaces;
 pub mod warnings;
 

@@ -15,6 +15,7 @@ use crate::findings::Findings;
 use crate::output::table::write_tables;
 use crate::process::CutDone;
 use crate::process::hobbing::axes_report::HobbingAxesReport;
+use crate::process::hobbing::stage_costs::STAGE_COSTS;
 use crate::process::hobbing::{HobCutter, HobbingJob};
 use crate::steps::attempts::Attempts;
 use crate::steps::inspection::Inspected;
@@ -33,12 +34,7 @@ use rayon::prelude::*;
 pub(super) fn run(job: &HobbingJob, tools: &Tools) -> Result<CutDone> {
     let Tools { resolved, backend, backend_why, progress, interrupt, folder, parts, notes } = *tools;
     let cutter = HobCutter::new(job)?;
-    progress.plan(stages::plan(
-        &cutter,
-        parts,
-        None,
-        &stages::Costs { before: &[("marks", 0.03)], flank_s: 0.6, root_s: 0.02, blank_s: 0.15 },
-    ));
+    progress.plan(stages::plan(&cutter, parts, None, &STAGE_COSTS));
     let motion = HobbingAxesReport::of_job(job);
     let foreseen = foresee(&cutter, &motion)?;
     let windows = &foreseen.windows;
@@ -60,7 +56,7 @@ pub(super) fn run(job: &HobbingJob, tools: &Tools) -> Result<CutDone> {
         lattices: &lattices,
         whole: whole.as_ref().map(|whole| (whole, loads.as_slice(), forces.as_slice())),
     };
-    let mut found = findings::findings(&cutter, &gear, &measured);
+    let mut found = findings::findings(&cutter, &gear, &measured)?;
     let mut load_charts = load::charts(job, &loads);
     load_charts.extend(force::bars(job, &forces));
     let force_charts = force::over_time(job, &forces);

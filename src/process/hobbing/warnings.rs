@@ -6,10 +6,11 @@
 use super::axes_report::HobbingAxesReport;
 use super::gear::HobbedGear;
 use super::job::PreparedHobbing;
+use super::kept::ForeseenChip;
 use super::measure::blank_report::HobbedBlankReport;
 use super::measure::hob_load::OperationLoad;
 use super::scene::model::HobbingKind;
-use super::{HobCutter, HobbingJob};
+use super::{HobCutter, HobbingJob, foreseen_chips};
 use crate::findings::warning::ranked;
 use crate::findings::{Warning, damage};
 use crate::job::RAY_DEPTH_MODULES;
@@ -40,25 +41,29 @@ pub fn before(cutter: &HobCutter, motion: &[HobbingAxesReport]) -> Result<Vec<Wa
              target and as gouges",
         ));
     }
+    warnings.extend(foreseen_thick_chips(cutter)?);
     warnings.extend(unreached(cutter)?);
     warnings.extend(axes::warnings(motion));
     Ok(ranked(warnings))
 }
 
 /// What the run found on its flanks and, with the loads of the hob's teeth, in its blank, if that was cut.
+///
+/// # Errors
+/// A blank field that does not fit in memory.
 pub fn after(
     cutter: &HobCutter,
     gear: &HobbedGear,
     whole: Option<(&HobbedBlankReport, &[OperationLoad])>,
-) -> Vec<Warning> {
+) -> Result<Vec<Warning>> {
     let mut warnings = of_flanks(cutter, gear);
     let untouched = gear.flanks.iter().map(|flank| flank.untouched).sum();
     warnings.extend(gear.work.warnings(untouched, "the hob does not cover the whole face"));
     if let Some((report, loads)) = whole {
-        warnings.extend(thick_chips(cutter.job, loads));
+        warnings.extend(thick_chips(cutter, loads)?);
         warnings.extend(damaged(cutter.job, report));
     }
-    warnings
+    Ok(warnings)
 }
 
 /// Starts that always meet the same tooth spaces.
@@ -164,22 +169,39 @@ fn of_flanks(cutter: &HobCutter, gear: &HobbedGear) -> Vec<Warning> {
     warnings
 }
 
-/// Operations whose hob teeth take chips thicker than is usual.
-fn thick_chips(job: &HobbingJob, loads: &[OperationLoad]) -> Vec<Warning> {
-    let of = |(operation, load): (&PreparedHobbing, &OperationLoad)| {
+/// Operations of which it is known before the cut that their hob teeth take chips thicker than is usual.
+fn foreseen_thick_chips(cutter: &HobCutter) -> Result<Vec<Warning>> {
+    let job = cutter.job;
+    let of = |(operation, chip): (&PreparedHobbing, &Option<ForeseenChip>)| {
+        let chip = chip.filter(|chip| chip.thickness_mm > USUAL_CHIP_MM)?;
+        let what = format!("a chip at least {} mm thick in the middle of the face", significant(chip.thickness_mm, 3));
+        Some(thick_chip(job, operation, chip.tooth, &what))
+    };
+    Ok(job.operations.iter().zip(foreseen_chips::of(cutter)?).filter_map(of).collect())
+}
+
+/// Operations whose hob teeth take chips thicker than is usual, which was not known before: elsewhere on the gear.
+fn thick_chips(cutter: &HobCutter, loads: &[OperationLoad]) -> Result<Vec<Warning>> {
+    let job = cutter.job;
+    let known = foreseen_chips::of(cutter)?.iter().map(|chip| chip.is_some_and(|of| of.thickness_mm > USUAL_CHIP_MM));
+    let of = |((operation, load), known): ((&PreparedHobbing, &OperationLoad), bool)| {
         let tooth = load.peak(|load| load.thickness_mm)?;
         let thickness_mm = load.teeth[tooth].thickness_mm;
-        (thickness_mm > USUAL_CHIP_MM).then(|| {
-            Warning::warn(format!(
-                "operation {}: hob tooth {} takes a chip {} mm thick, more than {USUAL_CHIP_MM} mm, which few \
-                 hobs bear: lower the feed, take more gashes or fewer starts, or divide the cut",
-                operation.spec.name,
-                job.hob.teeth[tooth].label(job.hob.starts),
-                significant(thickness_mm, 3)
-            ))
+        (!known && thickness_mm > USUAL_CHIP_MM).then(|| {
+            let what = format!("a chip {} mm thick", significant(thickness_mm, 3));
+            thick_chip(job, operation, tooth, &what)
         })
     };
-    job.operations.iter().zip(loads).filter_map(of).collect()
+    Ok(job.operations.iter().zip(loads).zip(known).filter_map(of).collect())
+}
+
+fn thick_chip(job: &HobbingJob, operation: &PreparedHobbing, tooth: usize, what: &str) -> Warning {
+    Warning::warn(format!(
+        "operation {}: hob tooth {} takes {what}, more than {USUAL_CHIP_MM} mm, which few hobs bear: lower the feed, \
+         take more gashes or fewer starts, or divide the cut",
+        operation.spec.name,
+        job.hob.teeth[tooth].label(job.hob.starts),
+    ))
 }
 
 /// Cuts below the target; what a protuberance takes there it is made to take.

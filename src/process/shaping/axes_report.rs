@@ -127,6 +127,11 @@ impl<'a> OperationAxes<'a> {
         self.program.as_ref()
     }
 
+    /// Whether a program cuts that lies so far off the scene's own strokes that what is known of them does not hold.
+    pub fn is_off_the_scene(&self) -> bool {
+        self.program.as_ref().is_some_and(|program| program.is_off(self.job.scene.output.gcode_contour_error_mm))
+    }
+
     /// What the retraction asks of the axes, where they carry it out.
     pub fn retraction_findings(&self) -> Option<Section> {
         self.retraction.map(|motion| retraction::findings(self.operation(), &motion))
@@ -171,7 +176,7 @@ impl AxesOfOperation for OperationAxes<'_> {
     }
 
     fn place(&self, peak: &Peak) -> f64 {
-        self.operation().schedule.state(peak.at).psi_c_rad.to_degrees()
+        self.operation().work_angle_rad(peak.at).to_degrees()
     }
 
     fn print_facts(&self, sheet: &mut Sheet) {
@@ -186,8 +191,12 @@ impl AxesOfOperation for OperationAxes<'_> {
         if self.program.is_some() { Warning::fault(text) } else { Warning::warn(text) }
     }
 
-    /// Little or no relief by the machine's own relief; axes too slow for another one.
+    /// Little or no relief by the machine's own relief; axes too slow for another one. Both are known of the scene's
+    /// own strokes alone.
     fn own_warnings(&self) -> Vec<Warning> {
+        if self.is_off_the_scene() {
+            return Vec::new();
+        }
         let warnings = match &self.retraction {
             None => self.relief.warning(self.job.machine.back_off_mm).into_iter().collect(),
             Some(motion) => retraction::warnings(self, motion),

@@ -28,16 +28,19 @@ pub fn print(sheet: &mut Sheet, job: &ShapingJob) -> Result<Vec<Warning>> {
     sheet.heading(&format!("{}: {}", job.scene.name, gear_words(&job.scene.gear)));
     check_curve::print(sheet, &job.curve, &job.scene.gear, Some(job.cutter.pitch_radius_mm));
     inspection::print(sheet, job)?;
-    teeth::print(sheet, job, &facts);
-    let ring = findings::ring::of_job(job);
+    let other_gear = findings::program::not_of_the_gear(job, &operations);
+    teeth::print(sheet, job, &facts, other_gear.is_some());
+    let ring = findings::ring::of_job(job, other_gear.as_deref());
     if let Some(ring) = &ring {
         ring::print(sheet, ring, job.blank.addendum_mm);
     }
     for operation in &operations {
         axes::print(operation, sheet);
     }
-    returns::print(sheet, job)?;
+    returns::print(sheet, job, &operations)?;
+    // Before the cost: a cut does it as well.
+    let foreseen = foreseen::foresee(job, &operations)?;
     cost::print(sheet, job, &facts)?;
     foreseen::print(sheet, job);
-    Ok(foreseen::foresee(job, &operations)?.warnings)
+    Ok(foreseen.warnings)
 }

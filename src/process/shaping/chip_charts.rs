@@ -102,8 +102,8 @@ fn deflection(job: &ShapingJob, operation: usize, angles_deg: &[f64]) -> Option<
 }
 
 fn work_angles_deg(job: &ShapingJob, operation: usize, strokes: usize) -> Vec<f64> {
-    let schedule = &job.operations[operation].schedule;
-    (0..strokes).map(|stroke| schedule.state(stroke as f64).psi_c_rad.to_degrees()).collect()
+    let of = &job.operations[operation];
+    (0..strokes).map(|stroke| of.work_angle_rad(stroke as f64).to_degrees()).collect()
 }
 
 fn chart(job: &ShapingJob, operation: usize, what: &str, panels: Vec<Panel>) -> LineChart {

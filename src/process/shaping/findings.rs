@@ -42,7 +42,7 @@ pub fn sections(
     ledger: &ChipLedger,
     motion: &[OperationAxes],
 ) -> Result<Vec<Section>, Refusal> {
-    let operations = (0..job.operations.len()).map(|index| operation(job, report, ledger, &motion[index], index));
+    let operations = (0..job.operations.len()).map(|index| operation(job, report, ledger, motion, index));
     let operations: Vec<Section> = operations.collect::<Result<_, _>>()?;
     let period = "teeth after which the pitch curve repeats: the first period of tables and charts";
     let other_gear = program::not_of_the_gear(job, motion);
@@ -58,7 +58,11 @@ pub fn sections(
             .table(tables::teeth(&teeth))
             .parts(teeth),
     ];
-    Ok(sections.into_iter().chain(machine_errors::errors(job)).chain(ring::of_job(job)).collect())
+    Ok(sections
+        .into_iter()
+        .chain(machine_errors::errors(job))
+        .chain(ring::of_job(job, other_gear.as_deref()))
+        .collect())
 }
 
 /// What a gear inspector states of the whole gear.

@@ -17,7 +17,7 @@ use gearcut_core::error::Result;
 pub fn foresee(job: &ShapingJob, motion: &[OperationAxes]) -> Result<Foreseen> {
     let windows = texture::windows(job)?;
     job.planar().blank_grid()?;
-    let ring = findings::ring::of_job(job);
+    let ring = findings::ring::of_job(job, findings::program::not_of_the_gear(job, motion).as_deref());
     let own = warnings::before(job, motion, ring.as_ref())?;
     Foreseen::new(job, &windows, own, job.is_as_cut())
 }

@@ -75,6 +75,14 @@ impl PreparedOperation {
         self.strokes.count()
     }
 
+    /// Work angle at a stroke coordinate as commanded, rad: by the program that is cut, or by the schedule.
+    pub fn work_angle_rad(&self, stroke: f64) -> f64 {
+        match &self.program {
+            Some(program) => program.at(stroke).psi_c_rad,
+            None => self.schedule.state(stroke).psi_c_rad,
+        }
+    }
+
     /// Cutter in the spindle's frame at a stroke coordinate, as the axes really stand.
     pub fn pose(&self, stroke: f64) -> CutterPose {
         self.pose_at_rest(stroke, 0.0)

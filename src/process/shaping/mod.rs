@@ -29,6 +29,7 @@ pub mod ring;
 mod run;
 pub mod scene;
 pub mod section;
+mod stage_costs;
 mod stroke_noise;
 mod surfaces;
 pub mod target;

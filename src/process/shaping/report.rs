@@ -72,18 +72,21 @@ pub fn page(
 }
 
 fn operation_words(operation: &findings::Section, count: usize) -> String {
-    let number = |key: &str| operation.number(key).unwrap_or(f64::NAN);
-    let offset = match number("offset") {
-        offset if offset.abs() < 1e-12 => "to the finished shape".to_owned(),
-        offset => format!("cutter held back by {} mm", plain(offset)),
+    let strokes = operation.number("strokes").unwrap_or(f64::NAN);
+    let name = format!("{}{}", operation.key, if count == 1 { " (the only operation)" } else { "" });
+    // Neither is known under a program that is off the scene's own strokes.
+    let (Some(offset_mm), Some(feed_mm)) = (operation.number("offset"), operation.number("circular_feed")) else {
+        return format!("{name}: by a program off the scene's own strokes, {strokes} strokes");
+    };
+    let offset = if offset_mm.abs() < 1e-12 {
+        "to the finished shape".to_owned()
+    } else {
+        format!("cutter held back by {} mm", plain(offset_mm))
     };
     format!(
-        "{}{}: {}, {offset}, {} strokes, {} mm circular feed per stroke",
-        operation.key,
-        if count == 1 { " (the only operation)" } else { "" },
+        "{name}: {}, {offset}, {strokes} strokes, {} mm circular feed per stroke",
         operation.words("linkage"),
-        number("strokes"),
-        significant(number("circular_feed"), 3),
+        significant(feed_mm, 3),
     )
 }
 

@@ -14,6 +14,7 @@ use crate::findings::warning::ranked;
 use crate::process::CutDone;
 use crate::process::shaping::ShapingJob;
 use crate::process::shaping::axes_report::OperationAxes;
+use crate::process::shaping::stage_costs::STAGE_COSTS;
 use crate::steps::attempts::Attempts;
 use crate::steps::inspection::Inspected;
 use crate::steps::parts::Part;
@@ -30,12 +31,7 @@ use std::mem::take;
 /// Geometry, the backend, files. Ctrl-C is no error once a flank is finished.
 pub(super) fn run(job: &ShapingJob, tools: &Tools, frames: Option<u32>) -> Result<CutDone> {
     let Tools { resolved, backend, backend_why, progress, interrupt, folder, parts, notes } = *tools;
-    progress.plan(stages::plan(
-        job,
-        parts,
-        frames,
-        &stages::Costs { before: &[("chips", 0.09)], flank_s: 0.05, root_s: 0.0, blank_s: 0.06 },
-    ));
+    progress.plan(stages::plan(job, parts, frames, &STAGE_COSTS));
     let motion = OperationAxes::of_job(job);
     let foreseen = foresee(job, &motion)?;
     let mut gear = cut_gear(job, backend, progress, interrupt, Some((folder, notes, parts)))?;
@@ -51,7 +47,8 @@ pub(super) fn run(job: &ShapingJob, tools: &Tools, frames: Option<u32>) -> Resul
     let whole = blank.flatten();
     let mut sections = findings::sections(job, &gear.report, &gear.chips, &motion)?;
     let inspected = Inspected::new(job, &gear.report.flanks, &gear.report.inspection)?;
-    sections.extend(inspected.sections(&job.scene.measure));
+    let other_gear = findings::program::not_of_the_gear(job, &motion);
+    sections.extend(inspected.sections(&job.scene.measure, other_gear.as_deref()));
     sections.extend(whole.as_ref().map(|(cut, report)| blank_findings::findings(&job.planar(), cut, report)));
     sections.push(texture::findings(job, &textures));
     let mut list = foreseen.warnings;

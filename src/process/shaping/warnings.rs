@@ -43,8 +43,9 @@ pub fn before(job: &ShapingJob, motion: &[OperationAxes], ring: Option<&Section>
         Some(_) => Vec::new(),
     };
     sentences.extend(ring.and_then(ring::warning));
-    for (index, operation) in job.operations.iter().enumerate() {
-        match returns::section(job, index)? {
+    for (index, (operation, motion)) in job.operations.iter().zip(motion).enumerate() {
+        let other = program::not_of_the_operation(job, motion);
+        match returns::section(job, index, other.as_deref())? {
             Some(section) => sentences.extend(returns::warning(&operation.spec.name, &section)),
             None => {
                 sentences.push("machine.back_off_mm = 0: the cutter returns along the surfaces that it has cut".into());

@@ -17,7 +17,8 @@ use crate::output::report::traces::{TraceColumn, TraceFigure, TraceSheet};
 use crate::output::report::{Block, PageSection, PageTable};
 use crate::output::text::significant;
 use crate::scene::Scene;
-use crate::steps::inspection::{SIZES, class_words, size_rows, verdict_words};
+use crate::steps::inspection::{NO_SIZE, SIZES, class_words, size_rows, verdict_words};
+use crate::wrap::wrapped;
 use gearcut_core::error::Result;
 use gearcut_core::terms::Side;
 use gearcut_core::units::UM_PER_MM;
@@ -26,6 +27,8 @@ use gearcut_core::units::UM_PER_MM;
 const TRACED_TEETH: u32 = 4;
 /// Smallest distance of two ticks on charts of deviations, µm: less would make rounding look like a fault.
 const LEAST_DIVISION_UM: f64 = 1.0;
+/// Letters of a line of notes on the inspector's sheet: at half their size each they take the page's width.
+const NOTE_LETTERS: usize = 150;
 /// Total, form and slope deviation of profile and helix.
 const PROFILE: [InspectionFigure; 3] =
     [InspectionFigure::ProfileTotal, InspectionFigure::ProfileForm, InspectionFigure::ProfileSlope];
@@ -150,7 +153,17 @@ fn sheet(
 /// # Errors
 /// Files that cannot be written.
 pub fn write_sheet(inspection: &Inspection, scene: &Scene, found: &Findings, folder: &OutputFolder) -> Result<()> {
-    let sizes = found.find(SIZES).map_or_else(Vec::new, size_rows);
+    let mut sizes = found.find(SIZES).map_or_else(Vec::new, size_rows);
+    // A reason is wider than its column: it stands below, once.
+    let mut reasons: Vec<(String, String)> = Vec::new();
+    for [_, sign, value] in &mut sizes {
+        let Some(why) = value.strip_prefix(NO_SIZE).map(str::to_owned) else { continue };
+        "none".clone_into(value);
+        match reasons.iter_mut().find(|(_, known)| *known == why) {
+            Some((signs, _)) => *signs = format!("{signs}, {sign}"),
+            None => reasons.push((sign.clone(), why)),
+        }
+    }
     let mut notes = vec![
         format!("Deviations of the surface as cut from {}.", inspection.words.target),
         "Profile and helix along the flank's normal, in the middle; dashed: the evaluated part. Pitch: arcs of the \
@@ -161,6 +174,7 @@ pub fn write_sheet(inspection: &Inspection, scene: &Scene, found: &Findings, fol
     if scene.gear.helix_angle_rad != 0.0 && inspection.verdict.no_class.is_none() {
         notes.push("Limits of profile and helix are those of the transverse section times cos βb.".to_owned());
     }
+    notes.extend(reasons.iter().flat_map(|(signs, why)| wrapped(&format!("No {signs}: {why}."), NOTE_LETTERS)));
     let sheet = sheet(inspection, &scene.name, &gear_words(&scene.gear), sizes, notes);
     sheet.page().write(&folder.path("inspection.svg")?, &folder.path("inspection.pdf")?)?;
     charts::write(inspection, &folder.path("inspection_charts.csv")?)

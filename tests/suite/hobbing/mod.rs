@@ -6,6 +6,7 @@ mod corners;
 mod deviations;
 mod evaluated;
 mod force;
+mod foreseen_chips;
 mod gcode;
 mod hollow;
 mod kept;

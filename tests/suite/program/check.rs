@@ -24,7 +24,7 @@ fn the_papers_gear_is_described() {
         "million dexels",
         "rays 0.1 mm apart in 1 sections; 49.1 thousand cutter teeth reach it and cross 8.7 million of them",
         "for blank and chips",
-        "to draw and write",
+        "to prepare, draw and write",
         "MB",
     ]);
     // Both operations come at full depth; a whole cut of this scene takes 141 and 52.6 kN there.

@@ -17,7 +17,7 @@ fn shipped(name: &str) -> ShapingJob {
 #[test]
 fn check_answers_what_is_asked_of_a_ring() {
     let job = shipped("internal_pair_ring");
-    let section = ring::of_job(&job).expect("a ring");
+    let section = ring::of_job(&job, None).expect("a ring");
     let table = section.table_of("teeth").expect("a table");
     assert_eq!(table.rows.len(), 34, "the curve repeats after 34 teeth");
     for (key, column) in [
@@ -88,7 +88,7 @@ fn a_cut_offers_the_direction_that_clears_stock() {
     let page = std::fs::read_to_string(out.join("report.html")).expect("a page");
     assert!(page.contains("Return strokes") && page.contains("draws the edge away from it"));
     // The scene as it is shipped draws back so, and clears all material.
-    let section = returns::section(&shipped("tilted_retraction"), 0).expect("poses").expect("drawn back");
+    let section = returns::section(&shipped("tilted_retraction"), 0, None).expect("poses").expect("drawn back");
     assert_eq!(section.number("depth_in_stock"), Some(0.0));
     assert!(section.number("smallest_clearance").expect("known") > 0.0);
 }

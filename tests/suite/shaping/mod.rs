@@ -23,6 +23,7 @@ mod linkage_oracle;
 pub mod machine_errors;
 mod noise;
 mod oracle;
+mod other_gear;
 mod paper_figures;
 mod planted;
 mod ploughing;

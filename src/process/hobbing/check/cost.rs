@@ -5,6 +5,7 @@
 
 use crate::output::text::{Sheet, significant};
 use crate::process::hobbing::HobCutter;
+use crate::process::hobbing::stage_costs::STAGE_COSTS;
 use crate::process::hobbing::warnings::greatest_common_divisor;
 use gearcut_core::Result;
 use gearcut_core::cut::Backend as _;
@@ -17,14 +18,16 @@ use gearcut_core::passes::spatial::sweep::SweepRecord;
 use gearcut_core::terms::Side;
 use rayon::prelude::*;
 
-use crate::steps::check_cost::{BYTES_PER_DEXEL, BlankCost, FlankCost, PLANNED_FLANKS};
-use crate::steps::computer_speed::ComputerSpeed;
+use crate::steps::check_cost::{BYTES_PER_DEXEL, BlankCost, FlankCost};
+use crate::steps::computer_speed::{ComputerSpeed, so_far_s};
 use crate::steps::{check_cost, stages};
 
 /// Rows of a flank that are planned, about the middle of the face. Fewer would not do: what a plan costs however small
 /// its field is would count too much, and over fewer than half of a tile's rows planning has no third row to tell bent
 /// heights from straight ones, and keeps thousands of passes.
 const PLANNED_ROWS: usize = 96;
+/// Flanks that are planned: left and right in turn. Each takes a twelfth of a second.
+const PLANNED_FLANKS: usize = 5;
 /// The first planned band is cut as well, and timed to calibrate the estimate; so is every one with fewer dexels.
 ///
 /// Road not taken: a third of the profile on each flank, in turn. It saves a quarter of a second; but tiles at the ends
@@ -32,8 +35,12 @@ const PLANNED_ROWS: usize = 96;
 const FEW_DEXELS: usize = 20_000;
 /// What one thread of the native backend takes for a dexel's ray, s.
 const RAY_S_PER_DEXEL: f64 = 5.5e-8;
-/// The same for the plan of a tile.
-const PLAN_S_PER_TILE: f64 = 1.1e-4;
+/// What planning a root takes, over what planning a flank takes: 0.9 and 1.3 were found on two gears, whose roots were
+/// planned, and hardly cut, on rows a millimetre apart.
+const ROOT_OF_A_FLANK: f64 = 1.1;
+/// How far beside a band passes come near it, so that they have to be planned, both ends together, in modules: by trial
+/// on a gear of module 3 and one of module 8, whose flanks took 0.30 and 0.24 s, and their bands 0.08 and 0.05 s.
+const BESIDE_BAND_MODULES: f64 = 0.95;
 /// The same for one evaluation (dexel against record).
 const CUT_S_PER_EVALUATION: f64 = 5e-8;
 /// The same for measuring a dexel of one surface.
@@ -47,16 +54,18 @@ const PASSES: u32 = 8000;
 /// What it takes to find whether a sweep reaches a slice, s.
 const BLANK_S_PER_SECTION: f64 = 0.8e-6;
 /// What a ray that a sweep reaches takes, s.
-const BLANK_S_PER_RAY_PASS: f64 = 2.8e-8;
+const BLANK_S_PER_RAY_PASS: f64 = 4.2e-8;
 
 /// Adds the estimate to the report.
 ///
 /// # Errors
 /// A flank that the hob does not generate; a blank field that does not fit in memory.
 pub fn print(sheet: &mut Sheet, cutter: &HobCutter) -> Result<()> {
-    let (fields, beside_s) = (&cutter.job.scene.fields, stages::beside_cutting_s(cutter));
-    let ((flanks, machine), blank) = (flank_cost(cutter)?, blank_cost(cutter)?);
-    check_cost::print(sheet, fields, &flanks, &blank, beside_s, machine);
+    let before_s = so_far_s();
+    let (flanks, machine) = flank_cost(cutter)?;
+    let blank = blank_cost(cutter, machine)?;
+    let beside_s = before_s + machine.factor() * stages::beside_cutting_s(cutter, &STAGE_COSTS);
+    check_cost::print(sheet, &cutter.job.scene.fields, &flanks, &blank, beside_s);
     Ok(())
 }
 
@@ -70,10 +79,11 @@ fn planned_rows_mm(cutter: &HobCutter) -> Vec<f64> {
 /// What planning a band of a flank found.
 struct PlannedBand {
     dexels: f64,
-    tiles: f64,
     records: f64,
     evaluations: f64,
-    /// What it took, where it was cut too.
+    /// What it took to plan it, s.
+    plan_s: f64,
+    /// What rays and cut took, where it was cut too.
     machine: ComputerSpeed,
 }
 
@@ -83,27 +93,23 @@ fn plan(cutter: &HobCutter, number: usize, (tooth, side): (u32, Side)) -> Result
     let [arcs_mm, _] = cutter.places_mm(target);
     let rows_mm = planned_rows_mm(cutter);
     let is_cut = number == 0 || arcs_mm.len() * rows_mm.len() < FEW_DEXELS;
-    let mut machine = ComputerSpeed::default();
+    let (mut planning, mut cutting) = (ComputerSpeed::default(), ComputerSpeed::default());
     let rays_s = |field: &SpatialField| field.len() as f64 * RAY_S_PER_DEXEL;
-    let field = machine.piece(|| cutter.rays_over(target, arcs_mm, rows_mm).field, rays_s);
-    let mut sum = PlannedBand { dexels: field.len() as f64, tiles: 0.0, records: 0.0, evaluations: 0.0, machine };
+    let field = cutting.piece(|| cutter.rays_over(target, arcs_mm, rows_mm).field, rays_s);
+    let (mut records, mut evaluations) = (0.0, 0.0);
     for passes in cutter.operations.iter() {
-        let plan_s = |plan: &SweepPlan| plan.tiles.len() as f64 * PLAN_S_PER_TILE;
-        let plan = sum.machine.piece(|| SweepPlan::new(&field, passes), plan_s);
-        let evaluations = plan.dexel_passes() as f64;
+        let plan = planning.piece(|| SweepPlan::new(&field, passes), |_| 0.0);
+        let own = plan.dexel_passes() as f64;
         if is_cut {
             let mut layer = field.blank_layer();
-            let cut_s = evaluations * CUT_S_PER_EVALUATION;
-            sum.machine.piece(|| Cpu::default().cut_spatial(&field, &plan, &mut layer), |_| cut_s)?;
+            let cut_s = own * CUT_S_PER_EVALUATION;
+            cutting.piece(|| Cpu::default().cut_spatial(&field, &plan, &mut layer), |_| cut_s)?;
         }
-        sum.tiles += plan.tiles.len() as f64;
-        sum.records += plan.records.len() as f64;
-        sum.evaluations += evaluations;
+        records += plan.records.len() as f64;
+        evaluations += own;
     }
-    if !is_cut {
-        sum.machine = ComputerSpeed::default();
-    }
-    Ok(sum)
+    let machine = if is_cut { cutting } else { ComputerSpeed::default() };
+    Ok(PlannedBand { dexels: field.len() as f64, records, evaluations, plan_s: planning.taken_s(), machine })
 }
 
 /// With it, how fast this machine plans and cuts.
@@ -111,7 +117,7 @@ fn flank_cost(cutter: &HobCutter) -> Result<(FlankCost, ComputerSpeed)> {
     let job = cutter.job;
     let (gear, fields) = (&job.scene.gear, &job.scene.fields);
     let surfaces = job.operations.len() as f64;
-    let every = (gear.teeth as usize).div_ceil(PLANNED_FLANKS);
+    let every = (gear.teeth as usize).div_ceil(PLANNED_FLANKS).max(1);
     let teeth: Vec<(u32, Side)> =
         (1..=gear.teeth).step_by(every).zip([Side::Left, Side::Right].into_iter().cycle()).collect();
     let planned: Vec<PlannedBand> =
@@ -134,6 +140,11 @@ fn flank_cost(cutter: &HobCutter) -> Result<(FlankCost, ComputerSpeed)> {
     let scale = dexels / sum(|p| p.dexels);
     let records = scale * sum(|p| p.records);
     let evaluations = scale * sum(|p| p.evaluations);
+    // Passes come near a band from beside it, so that a whole flank costs less than its share.
+    let beside_mm = BESIDE_BAND_MODULES * gear.module_mm;
+    let band_mm = fields.lead_spacing_mm * planned_rows_mm(cutter).len() as f64;
+    let of_bands = (gear.face_width_mm + beside_mm) / (band_mm + beside_mm);
+    let plan_s = of_bands * sum(|p| p.plan_s) * 2.0 * f64::from(gear.teeth) / planned.len() as f64;
     let bytes_of_rays = largest * (BYTES_PER_RAY as f64 + BYTES_PER_DEXEL as f64 * surfaces);
     let bytes_of_records = records / dexels * largest * size_of::<SweepRecord>() as f64;
     let cost = FlankCost {
@@ -145,15 +156,16 @@ fn flank_cost(cutter: &HobCutter) -> Result<(FlankCost, ComputerSpeed)> {
         records,
         note: "",
         bytes: rayon::current_num_threads() as f64 * (bytes_of_rays + bytes_of_records),
-        seconds: dexels * (RAY_S_PER_DEXEL + surfaces * MEASURE_S_PER_DEXEL)
-            + scale * sum(|p| p.tiles) * PLAN_S_PER_TILE
-            + evaluations * CUT_S_PER_EVALUATION,
+        seconds: plan_s
+            + f64::from(gear.teeth) * ROOT_OF_A_FLANK * plan_s / per_flank.len() as f64
+            + machine.factor()
+                * (dexels * (RAY_S_PER_DEXEL + surfaces * MEASURE_S_PER_DEXEL) + evaluations * CUT_S_PER_EVALUATION),
     };
     Ok((cost, machine))
 }
 
 /// Rays through the blank and the sweeps that cross them.
-fn blank_cost(cutter: &HobCutter) -> Result<BlankCost> {
+fn blank_cost(cutter: &HobCutter, machine: ComputerSpeed) -> Result<BlankCost> {
     let grid = cutter.job.blank_grid()?;
     let slices = grid.slices_z_mm.len();
     let every_slice = slices.div_ceil(SLICES);
@@ -194,6 +206,6 @@ fn blank_cost(cutter: &HobCutter) -> Result<BlankCost> {
         significant(1e-6 * sections, 3),
         significant(1e-6 * ray_passes, 3)
     );
-    let seconds = sections * BLANK_S_PER_SECTION + ray_passes * BLANK_S_PER_RAY_PASS;
+    let seconds = machine.factor() * (sections * BLANK_S_PER_SECTION + ray_passes * BLANK_S_PER_RAY_PASS);
     Ok(BlankCost { crossings, bytes: grid.estimated_bytes(&cutter.job.blank), grid, seconds })
 }

@@ -17,6 +17,7 @@ use crate::steps::axes::{self, AxesOfOperation as _};
 use crate::steps::inspection::Inspected;
 use crate::steps::machine_errors::{self, tool_words};
 use crate::texture::{self, WindowTexture};
+use gearcut_core::error::Result;
 use gearcut_core::units::UM_PER_MM;
 
 /// Why a pitch is not known.
@@ -45,7 +46,10 @@ pub struct Measured<'a> {
 }
 
 /// Everything that was found.
-pub fn findings(cutter: &HobCutter, gear: &HobbedGear, measured: &Measured) -> Findings {
+///
+/// # Errors
+/// A blank field that does not fit in memory.
+pub fn findings(cutter: &HobCutter, gear: &HobbedGear, measured: &Measured) -> Result<Findings> {
     let job = cutter.job;
     let work = &gear.work;
     let operations = job.operations.iter().zip(measured.motion).zip(&gear.passes);
@@ -80,7 +84,7 @@ pub fn findings(cutter: &HobCutter, gear: &HobbedGear, measured: &Measured) -> F
     let tool = (ErrorLayer::Tool, tool.join(", "));
     sections.extend(machine_errors::section(&job.errors, &AXES, &[tool]));
     sections.extend(evaluated(job));
-    sections.extend(measured.inspected.sections(&job.scene.measure));
+    sections.extend(measured.inspected.sections(&job.scene.measure, None));
     if let Some((whole, loads, forces)) = measured.whole {
         sections.push(load::findings(job, loads));
         sections.extend(force::findings(job, forces));
@@ -88,10 +92,10 @@ pub fn findings(cutter: &HobCutter, gear: &HobbedGear, measured: &Measured) -> F
     }
     let mut list = measured.foreseen.to_vec();
     let of_blank = measured.whole.map(|(whole, loads, _)| (&whole.report, loads));
-    list.extend(warnings::after(cutter, gear, of_blank));
+    list.extend(warnings::after(cutter, gear, of_blank)?);
     list.extend(measured.inspected.warnings());
     list.extend(texture::warnings(cutter, measured.textures));
-    Findings {
+    Ok(Findings {
         program_version: env!("CARGO_PKG_VERSION").to_owned(),
         process: "hobbing".to_owned(),
         scene: job.scene.name.clone(),
@@ -99,7 +103,7 @@ pub fn findings(cutter: &HobCutter, gear: &HobbedGear, measured: &Measured) -> F
         headline: headline(job, gear, measured.motion),
         warnings: ranked(list),
         sections,
-    }
+    })
 }
 
 /// Where the scene has profiles evaluated, if it names it.

@@ -19,23 +19,27 @@ pub(super) fn all(job: &ShapingJob, operation: &PreparedOperation, rows: &[Strok
     let limits = dynamics::limits(&job.machine.limits);
     let points: Vec<(f64, [AxisMotion; 3])> = rows.iter().map(|row| (work_angle_deg(row), row.motion)).collect();
     let moving = |order: Order| panels(&AXES, 0..AXES.len(), &limits, order, &points);
-    // Under a program the axes are the program's.
-    let of = match operation.program {
-        Some(_) => format!("{}; the program's axes", operation.linkage.words()),
-        None => operation.linkage.words().to_owned(),
+    // Under a program the axes are the program's; clearance and retraction follow from the schedule.
+    let linkage = operation.linkage.words();
+    let under_test = |whose: &str| match operation.program {
+        Some(_) => format!("{linkage}; {whose}"),
+        None => linkage.to_owned(),
     };
-    let words = [operation.spec.name.as_str(), &job.scene.name, &of];
-    let over_work_angle =
-        |what: &str, panels: Vec<Panel>| chart(words, what, ["work angle ψc", position_sign(&WORK)], panels);
+    let [of, of_scene] = [under_test("the program's axes"), under_test("by the scene's own strokes")];
+    let chart_of = |of: &str, what: &str, panels: Vec<Panel>| {
+        let words = [operation.spec.name.as_str(), &job.scene.name, of];
+        chart(words, what, ["work angle ψc", position_sign(&WORK)], panels)
+    };
+    let over_work_angle = |what: &str, panels: Vec<Panel>| chart_of(&of, what, panels);
     let mut charts = vec![
         ("positions", over_work_angle("axis positions", positions(job, rows))),
         ("velocities", over_work_angle("axis velocities", moving(Order::Speed))),
         ("accelerations", over_work_angle("axis accelerations", moving(Order::Acceleration))),
-        ("relief", over_work_angle("clearance when the cutter backs off", relief(job, rows))),
+        ("relief", chart_of(&of_scene, "clearance when the cutter backs off", relief(job, rows))),
     ];
     if operation.retraction.is_in_axes() {
-        charts
-            .push(("retraction", over_work_angle("travel of the axes to the return stroke", retraction::panels(rows))));
+        let travel = chart_of(&of_scene, "travel of the axes to the return stroke", retraction::panels(rows));
+        charts.push(("retraction", travel));
     }
     charts
 }

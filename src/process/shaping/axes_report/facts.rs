@@ -22,9 +22,10 @@ pub(super) fn print(axes: &OperationAxes, sheet: &mut Sheet) {
     let per_turn = schedule.strokes_per_revolution();
     sheet.line("strokes", format!("{}{plunging}; {per_turn} per turn", schedule.count()));
     if operation.program.is_some() {
+        let scene = if axes.is_off_the_scene() { "; feed, beta and relief below are the scene's own" } else { "" };
         sheet.line(
             "program",
-            format!("{} strokes; tables, charts and peaks are those of the program", operation.count()),
+            format!("{} strokes; tables, charts and peaks are those of the program{scene}", operation.count()),
         );
     }
     let feed = significant(schedule.circular_feed_mm_per_stroke(), 3);

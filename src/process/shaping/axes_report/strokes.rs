@@ -62,7 +62,14 @@ pub(super) fn write_table(path: &Path, operation: &PreparedOperation, rows: &[St
     let relief = ["left_relief_share_of_circular", "right_relief_share_of_circular", "normal_to_line_of_centres_deg"];
     let returning = if plan.is_in_axes() { &COLUMNS[..] } else { &[] };
     let scene = if under_test { &SCENE_COLUMNS[..] } else { &[] };
-    let own = [vec!["stroke", "time_s"], vec!["offset_mm", "phi_deg"], [&relief[..], returning, scene].concat()];
+    // What follows from the schedule and not from the axes is the scene's as well.
+    let of_scene = |names: &[&str]| -> Vec<String> {
+        let of = if under_test { "scene_" } else { "" };
+        names.iter().map(|name| format!("{of}{name}")).collect()
+    };
+    let following = [of_scene(&[&relief[..], returning].concat()), scene.iter().map(|&name| name.to_owned()).collect()];
+    let own: [Vec<String>; 3] =
+        [["stroke", "time_s"].map(str::to_owned).to_vec(), of_scene(&["offset_mm", "phi_deg"]), following.concat()];
     let row = |row: &StrokeRow| {
         let stroke = Datum::from(row.stroke as u64);
         let own = [
@@ -77,6 +84,7 @@ pub(super) fn write_table(path: &Path, operation: &PreparedOperation, rows: &[St
         ];
         (own, row.motion)
     };
+    let own = own.each_ref().map(|names| names.iter().map(String::as_str).collect());
     axes::write_table(path, &AXES, own, rows.iter().map(row))
 }
 

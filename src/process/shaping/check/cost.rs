@@ -9,6 +9,7 @@ use crate::output::text::{Sheet, significant};
 use crate::process::shaping::ShapingJob;
 use crate::process::shaping::chips::{last_chips_on_map, ploughed_layers};
 use crate::process::shaping::scene::model::EdgeRounding;
+use crate::process::shaping::stage_costs::STAGE_COSTS;
 use crate::process::shaping::tearing::LOOKUP_MM;
 use gearcut_core::cut::Backend as _;
 use gearcut_core::cut::cpu::Cpu;
@@ -25,16 +26,18 @@ use gearcut_core::tool::closed_tooth::PlacedScratch;
 
 use crate::process::shaping::tooth_facts::ToothFacts;
 use crate::steps::check_cost::{BYTES_PER_DEXEL, BlankCost, FlankCost, PLANNED_FLANKS};
-use crate::steps::computer_speed::ComputerSpeed;
+use crate::steps::computer_speed::{ComputerSpeed, so_far_s};
 use crate::steps::planar::CutField;
 use crate::steps::{check_cost, stages};
 
 /// What one thread of the native backend takes for the plan of a tile, s.
 const PLAN_S_PER_TILE: f64 = 6.0e-5;
 /// The same for one evaluation (dexel against pass), in groups of [`ROWS_AT_ONCE`].
-const CUT_S_PER_EVALUATION: f64 = 2.1e-9;
+const CUT_S_PER_EVALUATION: f64 = 2.6e-9;
 /// The same for measuring a dexel of one surface.
-const MEASURE_S_PER_DEXEL: f64 = 2.0e-8;
+const MEASURE_S_PER_DEXEL: f64 = 1e-8;
+/// The same for a dexel of a row that another row stands for, where maps show it.
+const COPY_S_PER_DEXEL: f64 = 5e-9;
 /// Cells of maps beside one another, in all their rows, whose chips are followed for the estimate. What a chip takes
 /// depends on how many passes come near: 2e-6 to 4e-4 s for a cell were found on two gears, so that it is timed on the
 /// scene's own. On fewer cells what comes first on each strip would count too much.
@@ -55,18 +58,22 @@ const MARK_S: f64 = 5.0e-5;
 const FOLLOWED: [usize; 2] = [6, 4];
 /// Strokes of each operation that are placed in the blank.
 const PLACED_STROKES: usize = 40;
-/// What one thread takes for a ray that a cutter tooth crosses, its return stroke checked, s.
-const BLANK_S_PER_RAY_PASS: f64 = 2.4e-7;
-/// What it takes to follow the chips of a cutter tooth in one stroke, s, at the spacing [`CHIP_SPACING_MM`]; it grows
-/// with the inverse of the spacing.
-const CHIPS_S_PER_PASS: f64 = 5.0e-5;
+/// What one thread takes for a ray that a cutter tooth crosses, its return stroke checked, and for each tooth in each
+/// slice beside, s.
+const BLANK_S_PER_RAY_PASS: f64 = 9e-8;
+const BLANK_S_PER_PASS: f64 = 8e-6;
+/// What it takes to follow the chips of a cutter tooth in one stroke, s, at the spacing [`CHIP_SPACING_MM`] and the
+/// module [`CHIP_MODULE_MM`]; it grows with the section of a tooth and the inverse of the spacing.
+const CHIPS_S_PER_PASS: f64 = 3.2e-5;
 const CHIP_SPACING_MM: f64 = 0.05;
+const CHIP_MODULE_MM: f64 = 3.0;
 
 /// Adds the estimate to the report.
 ///
 /// # Errors
 /// A blank field that does not fit in memory; a piece that cannot be cut.
 pub fn print(sheet: &mut Sheet, job: &ShapingJob, facts: &[ToothFacts]) -> Result<()> {
+    let before_s = so_far_s();
     let surfaces = job.operations.len();
     let (mut rows, mut planned_columns, mut records) = (0, 0.0, 0.0);
     let (mut evaluations, mut tiles) = (0.0, 0.0);
@@ -132,22 +139,22 @@ pub fn print(sheet: &mut Sheet, job: &ShapingJob, facts: &[ToothFacts]) -> Resul
         bytes: rayon::current_num_threads() as f64
             * (largest * (BYTES_PER_DEXEL * surfaces) as f64
                 + records / planned_columns * longest * size_of::<PassRecord>() as f64),
-        seconds: dexels * surfaces as f64 * MEASURE_S_PER_DEXEL
-            + marks_s(job, facts)
-            + match &job.cutter_spec.edge_rounding {
-                None => {
-                    scale * (tiles * PLAN_S_PER_TILE + evaluations * idle_rows * CUT_S_PER_EVALUATION)
-                        + mapped.s_per_column() * all_columns / machine.factor()
-                }
-                Some(_) => {
-                    let followed_of_a_cell = if rows_cut == 1 { 1.0 } else { CHIPS_OF_A_CELL as f64 };
-                    let rays = all_columns * rows_cut as f64 + map_cells * followed_of_a_cell;
-                    rays * followed.looks_per_ray() * FOLLOW_S_PER_LOOK
-                }
-            },
+        seconds: mapped.s_per_column() * all_columns
+            + machine.factor()
+                * (all_columns * (rows_cut * surfaces) as f64 * MEASURE_S_PER_DEXEL
+                    + all_columns * ((rows - rows_cut) * surfaces) as f64 * COPY_S_PER_DEXEL
+                    + marks_s(job, facts)
+                    + match &job.cutter_spec.edge_rounding {
+                        None => scale * (tiles * PLAN_S_PER_TILE + evaluations * idle_rows * CUT_S_PER_EVALUATION),
+                        Some(_) => {
+                            let followed_of_a_cell = if rows_cut == 1 { 1.0 } else { CHIPS_OF_A_CELL as f64 };
+                            let rays = all_columns * rows_cut as f64 + map_cells * followed_of_a_cell;
+                            rays * followed.looks_per_ray() * FOLLOW_S_PER_LOOK
+                        }
+                    }),
     };
-    let (fields, beside_s) = (&job.scene.fields, stages::beside_cutting_s(job));
-    check_cost::print(sheet, fields, &flanks, &blank_cost(job)?, beside_s, machine);
+    let beside_s = before_s + machine.factor() * stages::beside_cutting_s(job, &STAGE_COSTS);
+    check_cost::print(sheet, &job.scene.fields, &flanks, &blank_cost(job, machine)?, beside_s);
     Ok(())
 }
 
@@ -219,7 +226,7 @@ fn marks_s(job: &ShapingJob, facts: &[ToothFacts]) -> f64 {
 }
 
 /// Rays through the blank and the cutter teeth that cross them.
-fn blank_cost(job: &ShapingJob) -> Result<BlankCost, Refusal> {
+fn blank_cost(job: &ShapingJob, machine: ComputerSpeed) -> Result<BlankCost, Refusal> {
     let grid = job.planar().blank_grid()?;
     let reach_mm = BlankOutline::new(&job.blank).reach_mm();
     let (mut passes, mut ray_passes) = (0.0, 0.0);
@@ -247,7 +254,11 @@ fn blank_cost(job: &ShapingJob) -> Result<BlankCost, Refusal> {
         ray_passes += all.len() as f64 * f64::from(crossed as u32) / f64::from(strokes.max(1));
     }
     ray_passes *= grid.slices_z_mm.len() as f64;
-    let seconds = ray_passes * BLANK_S_PER_RAY_PASS + passes * CHIPS_S_PER_PASS * CHIP_SPACING_MM / job.chip_spacing_mm;
+    let section_mm2 = (job.scene.gear.module_mm / CHIP_MODULE_MM).powi(2);
+    let chips_s = passes * CHIPS_S_PER_PASS * section_mm2 * CHIP_SPACING_MM / job.chip_spacing_mm;
+    let in_slices = passes * grid.slices_z_mm.len() as f64;
+    let blank_s = ray_passes * BLANK_S_PER_RAY_PASS + in_slices * BLANK_S_PER_PASS;
+    let seconds = machine.factor() * (blank_s + chips_s);
     let crossings = format!(
         "{} thousand cutter teeth reach it and cross {} million of them",
         significant(1e-3 * passes, 3),

@@ -2,20 +2,27 @@
 
 use super::along::{self, bars, largest, values};
 use crate::findings::Section;
+use crate::output::summary;
 use crate::output::text::Sheet;
 use crate::process::shaping::ShapingJob;
-use crate::process::shaping::findings::{answers, returns};
+use crate::process::shaping::axes_report::OperationAxes;
+use crate::process::shaping::findings::{answers, program, returns};
 use gearcut_core::error::Refusal;
 
 /// Adds the lines; none where the cutter is not drawn back.
 ///
 /// # Errors
 /// A back-off so large that the retraction leads to no pose.
-pub fn print(sheet: &mut Sheet, job: &ShapingJob) -> Result<(), Refusal> {
-    for (index, operation) in job.operations.iter().enumerate() {
-        let Some(section) = returns::section(job, index)? else { return Ok(()) };
+pub fn print(sheet: &mut Sheet, job: &ShapingJob, motion: &[OperationAxes]) -> Result<(), Refusal> {
+    for (index, (operation, motion)) in job.operations.iter().zip(motion).enumerate() {
+        let other = program::not_of_the_operation(job, motion);
+        let Some(section) = returns::section(job, index, other.as_deref())? else { return Ok(()) };
         let name = &operation.spec.name;
         sheet.heading(&format!("{} of {name}: {}", section.title, section.words("direction")));
+        if let Some(why) = &other {
+            summary::line(sheet, "not known", why);
+            continue;
+        }
         answers::print(sheet, &section);
         along(sheet, &section);
     }

@@ -2,12 +2,17 @@
 
 use super::along::{self, bars, largest, values};
 use crate::findings::Section;
+use crate::output::summary;
 use crate::output::text::Sheet;
 use crate::process::shaping::findings::answers;
 
 /// Adds the lines.
 pub fn print(sheet: &mut Sheet, ring: &Section, addendum_mm: f64) {
     sheet.heading(&ring.title);
+    if let Some(why) = ring.entries.first().and_then(|entry| entry.quantity.why()) {
+        summary::line(sheet, "not known", why);
+        return;
+    }
     answers::print(sheet, ring);
     let Some(table) = ring.table_of("teeth") else { return };
     let place = || [values("tooth", "tooth", 0), values("phi", "polar angle", 2)];

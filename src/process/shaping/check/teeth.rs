@@ -8,7 +8,8 @@ use crate::process::shaping::tooth_facts::{FlankFacts, ToothFacts, flanks_with, 
 /// Values closer than this print alike, mm.
 const SAME_MM: f64 = 5e-4;
 
-pub fn print(sheet: &mut Sheet, job: &ShapingJob, facts: &[ToothFacts]) {
+/// Adds the lines; `other_gear`: a program cuts another gear than the one that they are of.
+pub fn print(sheet: &mut Sheet, job: &ShapingJob, facts: &[ToothFacts], other_gear: bool) {
     let cutter = &job.cutter;
     sheet.heading("Cutter");
     sheet.line("teeth", cutter.teeth.to_string());
@@ -19,7 +20,7 @@ pub fn print(sheet: &mut Sheet, job: &ShapingJob, facts: &[ToothFacts]) {
             cutter.pitch_radius_mm, cutter.base_radius_mm, cutter.tip_radius_mm
         ),
     );
-    sheet.heading("Teeth");
+    sheet.heading(if other_gear { "Teeth by the scene's own strokes, not by the program" } else { "Teeth" });
     sheet.line("start of involute", range(facts, " over the pitch curve", |flank| flank.start_height_mm));
     sheet.line("end of flank", range(facts, " over the pitch curve", |flank| flank.tip_height_mm));
     sheet.line("length of profile", range(facts, "", |flank| flank.length_mm));

@@ -130,12 +130,12 @@ pub fn peak(
 
 /// Where a stroke that cuts stands: [`peak`] says with what.
 pub fn stroke_place(job: &ShapingJob, ledger: &ChipLedger, operation: usize, stroke: usize) -> Place {
-    let schedule = &job.operations[operation].schedule;
+    let prepared = &job.operations[operation];
     let chips = &ledger.operations[operation].strokes[stroke];
     Place::default()
         .and("stroke", stroke as u64)
-        .and("time_s", schedule.time_s(stroke as f64))
-        .and("work_angle_deg", schedule.state(stroke as f64).psi_c_rad.to_degrees())
+        .and("time_s", prepared.schedule.time_s(stroke as f64))
+        .and("work_angle_deg", prepared.work_angle_rad(stroke as f64).to_degrees())
         .and("space", chips.space)
         .and("cutter_tooth", chips.blade)
 }

@@ -82,10 +82,7 @@ pub fn headline(job: &ShapingJob, report: &GearReport, chips: &ChipLedger, motio
     let thickness_why = "no tooth crosses the pitch curve with both flanks, or nothing is left between them";
     // Ends and tips of flanks follow from the meshing condition: of the scene's own strokes.
     let other_gear = program::not_of_the_gear(job, motion);
-    let of_scene = |quantity: Quantity| match &other_gear {
-        Some(why) => quantity.without_value(why.clone()),
-        None => quantity,
-    };
+    let of_scene = |quantity: Quantity| program::of_scene(quantity, other_gear.as_deref());
     vec![
         Entry::headline(
             "smallest_normal_stock",
@@ -182,12 +179,12 @@ pub fn headline(job: &ShapingJob, report: &GearReport, chips: &ChipLedger, motio
         Entry::headline(
             "relief_ratio",
             "relief over a round gear's",
-            Quantity::number_or(
+            of_scene(Quantity::number_or(
                 relief,
                 "1",
                 "smallest relief clearance on the return stroke, as a share of a circular gear's",
                 none,
-            ),
+            )),
         ),
         Entry::headline(
             "cycle_time",

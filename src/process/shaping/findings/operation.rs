@@ -20,10 +20,18 @@ pub fn operation(
     job: &ShapingJob,
     report: &GearReport,
     ledger: &ChipLedger,
-    motion: &OperationAxes,
+    motions: &[OperationAxes],
     index: usize,
 ) -> Result<Section, Refusal> {
-    let operation = &job.operations[index];
+    let (operation, motion) = (&job.operations[index], &motions[index]);
+    // What is known of the scene's own strokes: of this operation, and of all that shape the gear.
+    let other = program::not_of_the_operation(job, motion);
+    let other_gear = program::not_of_the_gear(job, motions);
+    let of_scene = |quantity: Quantity| program::of_scene(quantity, other.as_deref());
+    let withheld = |section: Section, other: &Option<String>| match other {
+        Some(why) => section.without_values(why, &[]),
+        None => section,
+    };
     let allowance = report.allowances.iter().find(|a| a.operation == index);
     let last = index + 1 == job.operations.len();
     let why = if last { "the last operation leaves no stock to itself" } else { "no flank was reached" };
@@ -65,38 +73,46 @@ pub fn operation(
     };
     let unevenness = Section::new("unevenness", "Unevenness of the allowance")
         .part(spread("mean_denominator", [mean, cut], allowance.and_then(|a| by_mean(&a.strokes))))
-        .part(spread("rack_denominator", [rack, cut], allowance.and_then(|a| by_rack(&a.strokes, a.rack_mm))))
-        .part(spread("envelope_mean_denominator", [mean, limit], allowance.and_then(|a| by_mean(&a.envelope))))
-        .part(spread(
-            "envelope_rack_denominator",
-            [rack, limit],
-            allowance.and_then(|a| by_rack(&a.envelope, a.rack_mm)),
+        .part(withheld(
+            spread("rack_denominator", [rack, cut], allowance.and_then(|a| by_rack(&a.strokes, a.rack_mm))),
+            &other_gear,
+        ))
+        .part(withheld(
+            spread("envelope_mean_denominator", [mean, limit], allowance.and_then(|a| by_mean(&a.envelope))),
+            &other_gear,
+        ))
+        .part(withheld(
+            spread("envelope_rack_denominator", [rack, limit], allowance.and_then(|a| by_rack(&a.envelope, a.rack_mm))),
+            &other_gear,
         ));
     let (spec, schedule) = (&operation.spec, &operation.schedule);
     let strokes = operation.count();
     let stock_of_teeth = allowance.into_iter().flat_map(|of| &of.strokes);
     let section = Section::new(&spec.name, format!("Operation {}", spec.name))
-        .with("linkage", Quantity::text(operation.linkage.words(), "linkage of cutter and work"))
-        .with("offset", Quantity::number(spec.offset_mm, "mm", "delta_d in force, thickness allowance included"))
+        .with("linkage", of_scene(Quantity::text(operation.linkage.words(), "linkage of cutter and work")))
+        .with(
+            "offset",
+            of_scene(Quantity::number(spec.offset_mm, "mm", "delta_d in force, thickness allowance included")),
+        )
         .with("strokes", Quantity::count(strokes as u64, "strokes", "strokes, plunging ones included"))
         .with(
             "circular_feed",
-            Quantity::number(
+            of_scene(Quantity::number(
                 schedule.circular_feed_mm_per_stroke(),
                 "mm per stroke",
                 "mean arc of the pitch curve per double stroke",
-            ),
+            )),
         )
         .with(
             "cycle_time",
             Quantity::number(schedule.time_s(strokes as f64), "s", "time of the operation's double strokes"),
         )
-        .table(teeth::allowance(report, allowance, &spec.name))
+        .table(teeth::allowance(report, allowance, &spec.name, other_gear.is_some()))
         .part(axes::findings(motion))
         .parts(program::section(motion))
-        .part(motion.relief_findings())
-        .parts(motion.retraction_findings())
-        .parts(returns::section(job, index)?)
+        .part(withheld(motion.relief_findings(), &other))
+        .parts(motion.retraction_findings().map(|section| withheld(section, &other)))
+        .parts(returns::section(job, index, other.as_deref())?)
         .part(chips::chips(job, ledger, index).table(strokes::strokes(job, ledger, index)))
         .parts(deflection::section(job, ledger, index))
         .part(stock_range("flank_stock", "Stock on all active flanks", &over_flanks, "on all active flanks", why))

@@ -12,9 +12,6 @@ use crate::process::shaping::gcode::Judgement;
 use crate::steps::axes::AxesOfOperation as _;
 use gearcut_core::units::UM_PER_MM;
 
-/// Programs are written with six decimals of a millimetre: what lies this little off is not told apart, mm.
-const LAST_DIGIT_MM: f64 = 1e-6;
-
 /// The section; none where the operation is cut by the scene's own strokes.
 pub fn section(motion: &OperationAxes) -> Option<Section> {
     let Judgement { distance_mm, distance_at, missing, doubled, off, strokes_per_minute } = motion.program()?;
@@ -55,17 +52,27 @@ pub fn section(motion: &OperationAxes) -> Option<Section> {
 
 /// Whether what is known of the scene's own strokes holds for the gear that is cut: a reason where it does not.
 pub fn not_of_the_gear(job: &ShapingJob, motion: &[OperationAxes]) -> Option<String> {
-    let asked_mm = job.scene.output.gcode_contour_error_mm;
-    let judged = motion.iter().filter_map(|operation| Some((operation.name(), operation.program()?)));
-    let worst = judged.max_by(|a, b| a.1.distance_mm.total_cmp(&b.1.distance_mm))?;
-    let (name, judgement) = worst;
-    (judgement.distance_mm > asked_mm + LAST_DIGIT_MM).then(|| {
-        format!(
-            "known of the scene's own strokes alone; the program of {name} that cuts this gear lies up to {} mm off \
-             them",
-            significant(judgement.distance_mm, 3)
-        )
-    })
+    let distance_mm = |operation: &OperationAxes| operation.program().map_or(0.0, |program| program.distance_mm);
+    let worst = motion.iter().max_by(|a, b| distance_mm(a).total_cmp(&distance_mm(b)))?;
+    not_of_the_operation(job, worst)
+}
+
+/// The same of one operation, whatever the others do.
+pub fn not_of_the_operation(job: &ShapingJob, motion: &OperationAxes) -> Option<String> {
+    let judgement = motion.program().filter(|program| program.is_off(job.scene.output.gcode_contour_error_mm))?;
+    Some(format!(
+        "known of the scene's own strokes alone; the program of {} that cuts this gear lies up to {} mm off them",
+        motion.name(),
+        significant(judgement.distance_mm, 3)
+    ))
+}
+
+/// A quantity that is known of the scene's own strokes alone; `other` says why it does not hold.
+pub fn of_scene(quantity: Quantity, other: Option<&str>) -> Quantity {
+    match other {
+        Some(why) => quantity.without_value(why),
+        None => quantity,
+    }
 }
 
 /// What a reader must know of the programs under test.
@@ -78,7 +85,7 @@ fn told(job: &ShapingJob, name: &str, judgement: &Judgement) -> Vec<Warning> {
     let mut warnings = Vec::new();
     let asked_mm = job.scene.output.gcode_contour_error_mm;
     let distance_mm = judgement.distance_mm;
-    if distance_mm > asked_mm + LAST_DIGIT_MM {
+    if judgement.is_off(asked_mm) {
         let text = format!(
             "operation {name}: the program lies up to {} um off the scene's own strokes, at stroke {}; {} um are asked \
              (output.gcode_contour_error_um)",

@@ -22,20 +22,28 @@ const NO_OFFER: &str = "none is needed, none clears all of it, or the cutter is 
 /// Why there is no cost.
 const NO_COST: &str = "no direction is offered, or machine.limits does not say what the axes can do";
 
-/// The section of an operation; none where the cutter is not drawn back.
+/// Entry that holds of the scene whatever is cut.
+const DIRECTION: &str = "direction";
+
+/// The section of an operation; none where the cutter is not drawn back. Where a program cuts other strokes, `other`
+/// says why nothing of it holds.
 ///
 /// # Errors
 /// A back-off so large that the retraction leads to no pose.
-pub fn section(job: &ShapingJob, index: usize) -> Result<Option<Section>, Refusal> {
+pub fn section(job: &ShapingJob, index: usize, other: Option<&str>) -> Result<Option<Section>, Refusal> {
     let operation = &job.operations[index];
     let Some(facts) = job.return_facts(index)? else { return Ok(None) };
     let asked = operation.retraction.asked();
     let words = Quantity::text(asked.words(), "which way the cutter is drawn back");
-    let section = Section::new("return_strokes", "Return strokes").with("direction", words);
+    let section = Section::new("return_strokes", "Return strokes").with(DIRECTION, words);
     let section = angle(section, facts, asked, job.scene.gear.pressure_angle_rad);
     let section = surface(section, facts, asked);
     let section = stock(section, operation.schedule.double_strokes_per_minute(), facts);
-    Ok(Some(section.table(table(operation, facts))))
+    let section = section.table(table(operation, facts));
+    Ok(Some(match other {
+        Some(why) => section.without_values(why, &[DIRECTION]),
+        None => section,
+    }))
 }
 
 fn at(room: &PlacedRoom) -> Place {

@@ -28,9 +28,15 @@ const NO_OUTLINE: &str = "the target's outline is not known";
 const ROLLING: &str = "most cutter teeth whose pitch circle rolls everywhere";
 const CLEARING: &str = "most cutter teeth whose tip corners come clear of the tips beside their space";
 
-/// The section; none of an external gear.
-pub fn of_job(job: &ShapingJob) -> Option<Section> {
-    (job.blank.kind() == GearKind::Internal).then(|| section(job, &RingFacts::new(job)))
+/// The section; none of an external gear. Where a program cuts another ring, `other` says why nothing of it holds.
+pub fn of_job(job: &ShapingJob, other: Option<&str>) -> Option<Section> {
+    (job.blank.kind() == GearKind::Internal).then(|| {
+        let section = section(job, &RingFacts::new(job));
+        match other {
+            Some(why) => section.without_values(why, &[]),
+            None => section,
+        }
+    })
 }
 
 fn section(job: &ShapingJob, facts: &RingFacts) -> Section {

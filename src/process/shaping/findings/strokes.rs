@@ -15,7 +15,7 @@ pub fn strokes(job: &ShapingJob, ledger: &ChipLedger, operation: usize) -> Table
     let prepared = &job.operations[operation];
     let rows = ledger.operations[operation].strokes.iter().enumerate().map(|(stroke, s)| {
         let coordinate = stroke as f64;
-        let angle_deg = prepared.schedule.state(coordinate).psi_c_rad.to_degrees();
+        let angle_deg = prepared.work_angle_rad(coordinate).to_degrees();
         let mut row: Vec<Datum> =
             vec![(stroke as u64).into(), prepared.schedule.time_s(coordinate).into(), angle_deg.into()];
         row.extend(cells(job, s, prepared.schedule.double_strokes_per_minute()));

@@ -1,6 +1,7 @@
 //! Single teeth: the stock and the allowances that an operation left, and the tooth as it is finished.
 
 use super::place;
+use super::program::of_scene;
 use crate::findings::{Datum, Place, Quantity, Section, Table, TableColumn};
 use crate::measure::stock::{Extreme, Stock};
 use crate::process::shaping::measure::gear_report::OperationAllowance;
@@ -71,9 +72,20 @@ pub fn tooth_stock(report: &GearReport, operation: usize, tooth: u32) -> Section
 }
 
 /// Allowances that an operation left, tooth by tooth, in `tables/allowance_<operation>.csv`; empty and without a file
-/// where it is the last one.
-pub fn allowance(report: &GearReport, allowance: Option<&OperationAllowance>, operation: &str) -> Table {
-    let missing = "a surface does not cross the pitch curve with its involute, or the flank is cut away";
+/// where it is the last one. Where a program cuts an `other_gear` than the scene's own strokes would, their limit and
+/// their offset say nothing of it.
+pub fn allowance(
+    report: &GearReport,
+    allowance: Option<&OperationAllowance>,
+    operation: &str,
+    other_gear: bool,
+) -> Table {
+    let missing = if other_gear {
+        "a surface does not cross the pitch curve with its involute, or the flank is cut away; the limit of many \
+         strokes and the offset are known of the scene's own strokes alone, and a program cuts others"
+    } else {
+        "a surface does not cross the pitch curve with its involute, or the flank is cut away"
+    };
     let mm = |key, definition| TableColumn::new(key, "mm", definition).or(missing);
     let columns = vec![
         TableColumn::new("tooth", "1", "number of the tooth, from 1"),
@@ -98,8 +110,11 @@ pub fn allowance(report: &GearReport, allowance: Option<&OperationAllowance>, op
         TableColumn::new("unevenness_mean_denominator", "%", "|AB - CD| over the mean of AB and CD")
             .or(missing)
             .as_bars(),
-        TableColumn::new("unevenness_rack_denominator", "%", "|AB - CD| over delta_d tan(alpha)")
-            .or("a surface does not cross the pitch curve, or the operation has no offset over the last one"),
+        TableColumn::new("unevenness_rack_denominator", "%", "|AB - CD| over delta_d tan(alpha)").or(if other_gear {
+            missing
+        } else {
+            "a surface does not cross the pitch curve, or the operation has no offset over the last one"
+        }),
         mm("envelope_AB", "AB in the limit of many strokes"),
         mm("envelope_CD", "CD in the limit of many strokes"),
         TableColumn::new(
@@ -109,6 +124,7 @@ pub fn allowance(report: &GearReport, allowance: Option<&OperationAllowance>, op
         )
         .or(missing),
     ];
+    let of_scene = |value: Option<f64>| value.filter(|_| !other_gear);
     let rows = allowance.into_iter().flat_map(|of| {
         of.strokes.iter().zip(&of.envelope).map(|(cut, envelope)| {
             let mut row = vec![Datum::from(cut.tooth)];
@@ -120,10 +136,10 @@ pub fn allowance(report: &GearReport, allowance: Option<&OperationAllowance>, op
                     cut.ab_mm(),
                     cut.cd_mm(),
                     cut.unevenness_mean_percent(),
-                    cut.unevenness_rack_percent(of.rack_mm),
-                    envelope.ab_mm(),
-                    envelope.cd_mm(),
-                    envelope.unevenness_mean_percent(),
+                    of_scene(cut.unevenness_rack_percent(of.rack_mm)),
+                    of_scene(envelope.ab_mm()),
+                    of_scene(envelope.cd_mm()),
+                    of_scene(envelope.unevenness_mean_percent()),
                 ]
                 .map(Datum::from),
             );
@@ -144,10 +160,9 @@ pub fn finished_tooth(report: &GearReport, tooth: u32, other_gear: Option<&str>)
     Section::new(format!("tooth_{tooth:02}"), format!("tooth {tooth}"))
         .with(
             "tip_land",
-            mm(
-                report.tip_lands_mm.get(row).copied().filter(|_| other_gear.is_none()),
-                "width of the tip between the flanks",
-                other_gear.unwrap_or("not computed"),
+            of_scene(
+                mm(report.tip_lands_mm.get(row).copied(), "width of the tip between the flanks", "not computed"),
+                other_gear,
             ),
         )
         .with(
@@ -167,8 +182,8 @@ pub fn finished_tooth(report: &GearReport, tooth: u32, other_gear: Option<&str>)
                 "a flank was not cut, is cut away, or does not cross the pitch curve",
             ),
         )
-        .part(finished_flank(report, tooth, Side::Left))
-        .part(finished_flank(report, tooth, Side::Right))
+        .part(finished_flank(report, tooth, Side::Left, other_gear))
+        .part(finished_flank(report, tooth, Side::Right, other_gear))
 }
 
 fn end_words(end: FlankEnd) -> &'static str {
@@ -181,7 +196,7 @@ fn end_words(end: FlankEnd) -> &'static str {
     }
 }
 
-fn finished_flank(report: &GearReport, tooth: u32, side: Side) -> Section {
+fn finished_flank(report: &GearReport, tooth: u32, side: Side, other_gear: Option<&str>) -> Section {
     let flank = flank_of(report, tooth, side);
     let not_cut = "the run was stopped before this flank was cut";
     let why = |reason: &'static str| match flank {
@@ -192,6 +207,7 @@ fn finished_flank(report: &GearReport, tooth: u32, side: Side) -> Section {
     let number = |value: Option<f64>, unit: &'static str, definition: &'static str, reason: &'static str| {
         Quantity::number_or(value, unit, definition, why(reason))
     };
+    let mm = |of: fn(&FlankReport) -> f64, definition: &'static str| number(flank.map(of), "mm", definition, "");
     let word = |end: Option<FlankEnd>, definition: &'static str| match end {
         Some(end) => Quantity::text(end_words(end), definition),
         None => Quantity::undefined("1", definition, not_cut),
@@ -239,45 +255,39 @@ fn finished_flank(report: &GearReport, tooth: u32, side: Side) -> Section {
     Section::new(side.name(), format!("{} flank", side.name()))
         .with(
             "start_of_involute",
-            number(
-                flank.map(|f| f.own.form.height_mm),
-                "mm",
-                "start of the involute as height over the pitch curve",
-                "",
-            ),
+            of_scene(mm(|f| f.own.form.height_mm, "start of the involute as height over the pitch curve"), other_gear),
         )
-        .with("start", word(flank.map(|f| f.own.form.end), "what begins the flank"))
+        .with("start", of_scene(word(flank.map(|f| f.own.form.end), "what begins the flank"), other_gear))
         .with(
             "undercut",
-            number(
-                flank.and_then(|f| f.own.undercut_mm).map(|mm| mm * UM_PER_MM),
-                "um",
-                "how deep the path of the cutter's tip corner cuts below the flank under its start",
-                "the flank is not undercut",
+            of_scene(
+                number(
+                    flank.and_then(|f| f.own.undercut_mm).map(|mm| mm * UM_PER_MM),
+                    "um",
+                    "how deep the path of the cutter's tip corner cuts below the flank under its start",
+                    "the flank is not undercut",
+                ),
+                other_gear,
             ),
         )
         .with(
             "tip",
-            number(flank.map(|f| f.own.tip.height_mm), "mm", "end of the flank as height over the pitch curve", ""),
+            of_scene(mm(|f| f.own.tip.height_mm, "end of the flank as height over the pitch curve"), other_gear),
         )
-        .with("end", word(flank.map(|f| f.own.tip.end), "what ends the flank"))
-        .with("length", number(flank.map(|f| f.length_mm), "mm", "length of the profile from start to tip", ""))
+        .with("end", of_scene(word(flank.map(|f| f.own.tip.end), "what ends the flank"), other_gear))
+        .with("length", of_scene(mm(|f| f.length_mm, "length of the profile from start to tip"), other_gear))
         .with(
             "evaluated_from",
-            number(
-                flank.map(|f| f.evaluated_mm[0]),
-                "mm",
-                "arc from the start of the involute at which the evaluated profile begins",
-                "",
+            mm(
+                |f| f.evaluated_mm[0],
+                "arc from the start of the target's involute at which the evaluated profile begins",
             ),
         )
         .with(
             "evaluated_to",
-            number(
-                flank.map(|f| f.evaluated_mm[1]),
-                "mm",
-                "arc from the start of the involute at which the evaluated profile ends",
-                "",
+            mm(
+                |f| f.evaluated_mm[1],
+                "arc from the start of the target's involute at which the evaluated profile ends",
             ),
         )
         .with(

@@ -18,6 +18,9 @@ const NEAR_SHARE: f64 = 0.25;
 /// Speeds of the ram that differ by less than this share are the same: programs are written with nine digits.
 const SAME_SPEED: f64 = 1e-6;
 
+/// Programs are written with six decimals of a millimetre: what lies this little off is not told apart, mm.
+const LAST_DIGIT_MM: f64 = 1e-6;
+
 /// A program against the scene's own strokes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Judgement {
@@ -36,6 +39,11 @@ pub struct Judgement {
 }
 
 impl Judgement {
+    /// Whether it lies further off than what a program may: the gear is then another one than the scene's strokes make.
+    pub fn is_off(&self, asked_mm: f64) -> bool {
+        self.distance_mm > asked_mm + LAST_DIGIT_MM
+    }
+
     /// Whether the ram runs at another speed than the scene says.
     pub fn is_at_another_speed(&self) -> bool {
         let [program, scene] = self.strokes_per_minute;

@@ -1,6 +1,6 @@
 //! The return strokes on the page: what was known of them before cutting.
 
-use crate::findings::{Findings, Section};
+use crate::findings::{Findings, Quantity, Section};
 use crate::output::line_chart::{LineChart, Panel};
 use crate::output::report::{Block, PageSection};
 use crate::process::shaping::ShapingJob;
@@ -14,8 +14,11 @@ pub fn section(job: &ShapingJob, found: &Findings) -> Option<PageSection> {
         operations.iter().filter_map(|of| Some((of.key.as_str(), of.find("return_strokes")?))).collect();
     let direction = returns.first()?.1.words("direction").to_owned();
     let blocks = returns.iter().flat_map(|&(name, section)| {
-        let answers = Block::Table(answers::table(section, &format!("Return strokes of {name}")));
-        std::iter::once(answers).chain(chart(job, name, section).map(Block::Lines))
+        let first = match section.quantity("retraction_angle").and_then(Quantity::why) {
+            Some(why) => Block::Note(format!("Return strokes of {name}: what is told of them is {why}.")),
+            None => Block::Table(answers::table(section, &format!("Return strokes of {name}"))),
+        };
+        std::iter::once(first).chain(chart(job, name, section).map(Block::Lines))
     });
     Some(PageSection {
         id: "returns",
@@ -30,7 +33,7 @@ pub fn section(job: &ShapingJob, found: &Findings) -> Option<PageSection> {
 
 /// Over one period of the pitch curve.
 fn chart(job: &ShapingJob, name: &str, section: &Section) -> Option<LineChart> {
-    let table = section.table_of("places")?;
+    let table = section.table_of("places").filter(|table| !table.rows.is_empty())?;
     let curve = |key: &str| {
         let value = |value: Option<f64>| value.unwrap_or(f64::NAN);
         table.numbers("phi").map(value).zip(table.numbers(key).map(value)).collect::<Vec<_>>()

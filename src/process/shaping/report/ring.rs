@@ -11,8 +11,14 @@ use crate::steps::axes::charts::panel;
 pub fn section(job: &ShapingJob, found: &Findings) -> Option<PageSection> {
     let ring = found.find("ring")?;
     let table = ring.table_of("teeth")?;
-    let mut blocks = vec![Block::Table(answers::table(ring, "Before cutting"))];
-    if table.rows.len() > 1 {
+    let mut blocks = Vec::new();
+    let withheld = ring.entries.first().and_then(|entry| entry.quantity.why());
+    if withheld.is_none() {
+        blocks.push(Block::Table(answers::table(ring, "Before cutting")));
+    }
+    if let Some(why) = withheld {
+        blocks.push(Block::Note(format!("What is told of the cutter in the ring is {why}.")));
+    } else if table.rows.len() > 1 {
         blocks.push(Block::Lines(LineChart {
             title: format!("{}: the cutter in the ring, over one period of the pitch curve", job.scene.name),
             x_name: "polar angle φ".to_owned(),

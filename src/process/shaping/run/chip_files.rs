@@ -28,9 +28,10 @@ pub fn write(job: &ShapingJob, ledger: &ChipLedger, folder: &OutputFolder, notes
         }
         let chips = &ledger.operations[index];
         let feed_mm = operation.schedule.circular_feed_mm_per_stroke();
+        let of = if operation.program.is_some() { " of the scene's own strokes" } else { "" };
         let by_stroke = MapAxis {
             name: "feed".into(),
-            meaning: format!("mean arc of pitch curve; one stroke is {} mm", significant(feed_mm, 4)),
+            meaning: format!("mean arc of pitch curve{of}; one stroke is {} mm", significant(feed_mm, 4)),
             start_mm: 0.5 * (chips.by_stroke.per_row - 1.0) * feed_mm,
             step_mm: chips.by_stroke.per_row * feed_mm,
             count: chips.by_stroke.rows,

@@ -26,7 +26,7 @@
 use super::swept_pose::{SliceCrossing, Sweeping};
 use crate::error::Refusal;
 use crate::math::planar_rays::{ClosedCurve, Family, Piece};
-use crate::passes::spatial::turning_passes::TurningPasses;
+use crate::passes::spatial::turning_passes::{BladePass, TurningPasses};
 use crate::tool::edge::{Edge, Segment};
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
@@ -140,6 +140,21 @@ impl SweptSections {
         face_width_mm: f64,
         cull: bool,
     ) -> Result<Self, Refusal> {
+        let sampled = |pass: &BladePass| (pass.pass - set.first_pass).is_multiple_of(every.max(1));
+        Self::of_some(sampled, set, reach_mm, face_width_mm, cull)
+    }
+
+    /// The same of those passes that are `wanted`.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub fn of_some(
+        wanted: impl Fn(&BladePass) -> bool + Sync,
+        set: &TurningPasses,
+        reach_mm: f64,
+        face_width_mm: f64,
+        cull: bool,
+    ) -> Result<Self, Refusal> {
         if let Some(place) = set.places.iter().find(|place| place.looks != DVec2::X || place.radial_mm != 0.0) {
             return Err(Refusal::new(
                 "tool",
@@ -148,9 +163,8 @@ impl SweptSections {
             ));
         }
         let mut outlines: Vec<EdgeOutline> = set.edges.edges().iter().map(EdgeOutline::new).collect();
-        let sampled = set.count().div_ceil(every.max(1));
-        let passes: Vec<Sweeping> =
-            (0..sampled).into_par_iter().map(|i| Sweeping::new(set, &set.pass(i * every.max(1)))).collect();
+        let some = (0..set.count()).into_par_iter().map(|i| set.pass(i)).filter(|pass| wanted(pass));
+        let passes: Vec<Sweeping> = some.map(|pass| Sweeping::new(set, &pass)).collect();
         // Seen along the gear axis the rake face may show its other side: inside is on the left there too.
         if passes.first().is_some_and(Sweeping::is_turned_over) {
             outlines = outlines.into_iter().map(EdgeOutline::reversed).collect();
