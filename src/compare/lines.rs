@@ -132,8 +132,18 @@ impl Line {
         self.pairs().map(|pair| pair.map(|[first, other]| other - first))
     }
 
-    /// The first value over those of the results after it: how many times less they have.
+    /// The first value over those of the results after it: how many times less they have. Over nothing but rounding
+    /// there is none.
     pub(super) fn ratios(&self) -> impl Iterator<Item = Option<f64>> {
-        self.pairs().map(|pair| pair.map(|[first, other]| first / other).filter(|ratio| ratio.is_finite()))
+        self.pairs().map(|pair| {
+            let [first, other] = pair.filter(|[_, other]| !is_rounding(*other))?;
+            Some(first / other).filter(|ratio| ratio.is_finite())
+        })
     }
+}
+
+/// Whether a value is nothing but rounding, in every unit that results have, and as a ratio; the exact one is in the
+/// file.
+pub(super) fn is_rounding(value: f64) -> bool {
+    value.abs() < 1e-9
 }

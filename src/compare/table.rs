@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::lines::Line;
+use super::lines::{Line, is_rounding};
 use super::{Comparison, letters};
 use crate::findings::{Datum, Quantity};
 use crate::output::table::write_table;
@@ -104,11 +104,8 @@ impl Comparison {
     }
 }
 
-/// A value this small is rounding in every unit that results have, and so is a ratio; the exact one is in the file.
-const ROUNDING: f64 = 1e-9;
-
 fn shown(value: f64) -> String {
-    if value.abs() < ROUNDING { "0".to_owned() } else { significant(value, 4) }
+    if is_rounding(value) { "0".to_owned() } else { significant(value, 4) }
 }
 
 fn cells(line: &Line) -> Vec<Datum> {

@@ -1,8 +1,8 @@
 //! The end of a run: programs, page and `results.json`, in this order.
 //!
 //! In: what was found, the motion of the axes, what the parts before had to tell. Out: the files. Each shows the list
-//! of warnings as far as it is known then: a program that is left out is told on the page, and a page that fails in
-//! `results.json`, which closes the run.
+//! of warnings as far as it is known then: a program that cannot be written is told on the page, and a page that fails
+//! in `results.json`, which closes the run.
 
 use super::Tools;
 use super::attempts::Attempts;
@@ -30,10 +30,9 @@ pub fn write<O: AxesOfOperation>(
     if parts.has(Part::Axes) {
         let step = progress.step("axis programs", 1, "part");
         let written = axes::write_programs(motion, &list(attempts), folder);
-        let left_out = attempts.of("axis programs", written)?;
+        attempts.of("axis programs", written)?;
         step.advance(1);
         step.finish();
-        left_out.into_iter().flatten().for_each(|warning| attempts.tell(warning));
     }
     found.warnings = list(attempts);
     if parts.has(Part::Report) {

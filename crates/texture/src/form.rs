@@ -269,9 +269,12 @@ impl Cylinder {
     }
 
     fn note(&self) -> String {
+        let radius_mm = 1e-3 / self.curvature.abs();
+        if !radius_mm.is_finite() {
+            return "cylinder: a plane, no curvature is left".to_owned();
+        }
         format!(
-            "cylinder: radius {:.4} mm ({}), axis at {:.2} deg from +x",
-            1e-3 / self.curvature.abs(),
+            "cylinder: radius {radius_mm:.4} mm ({}), axis at {:.2} deg from +x",
             if self.curvature < 0.0 { "convex" } else { "concave" },
             (self.angle.to_degrees() + 90.0).rem_euclid(180.0)
         )

@@ -15,7 +15,6 @@ mod tests;
 pub use peaks::{Named, PeakWords, STEADY, findings, margin_entry};
 pub use table::{Own, write_table};
 
-use crate::findings::warning::ranked;
 use crate::findings::{Findings, Severity, Warning};
 use crate::interrupt::Interrupt;
 use crate::machine::Peak;
@@ -88,11 +87,15 @@ pub fn print(operation: &impl AxesOfOperation, sheet: &mut Sheet) {
     sheet.table(&peaks::rows(operation));
 }
 
-/// What the user should know before cutting: limits exceeded, and what the process says.
+/// What the user should know before cutting: limits exceeded, what the process says, and operations for which no
+/// program can be written, with the reason.
 pub fn warnings<O: AxesOfOperation>(operations: &[O]) -> Vec<Warning> {
     let of = |operation: &O| -> Vec<Warning> {
         let exceeded = peaks::exceeded(operation).map(|text| operation.exceeded(text));
-        exceeded.chain(operation.own_warnings()).collect()
+        let left_out = operation.programs(&[]).and_then(Result::err);
+        let left_out =
+            left_out.map(|why| Warning::warn(format!("operation {}: no G-code written: {why}", operation.name())));
+        exceeded.chain(operation.own_warnings()).chain(left_out).collect()
     };
     operations.iter().flat_map(of).collect()
 }
@@ -111,36 +114,22 @@ pub fn write(operation: &impl AxesOfOperation, folder: &OutputFolder) -> Result<
 }
 
 /// Writes the programs of all operations into `axes/`, the faults and warnings among `warnings` in their heads (notes
-/// say how to read numbers); tells each operation that has none.
+/// say how to read numbers). An operation that has none is told in [`warnings`].
 ///
 /// # Errors
 /// Files that cannot be written.
-pub fn write_programs<O: AxesOfOperation>(
-    operations: &[O],
-    warnings: &[Warning],
-    folder: &OutputFolder,
-) -> Result<Vec<Warning>> {
-    let mut left_out = Vec::new();
+pub fn write_programs<O: AxesOfOperation>(operations: &[O], warnings: &[Warning], folder: &OutputFolder) -> Result<()> {
     let head: Vec<Warning> = warnings.iter().filter(|of| of.severity > Severity::Note).cloned().collect();
     for operation in operations {
-        let name = operation.name();
-        match operation.programs(&head) {
-            Some(Ok(programs)) => {
-                for (file, text) in programs {
-                    write_bytes_atomically(&folder.path(format!("axes/{file}"))?, text.as_bytes())?;
-                }
-            }
-            Some(Err(why)) => {
-                left_out.push(Warning::warn(format!("operation {name}: no G-code written: {why}")));
-            }
-            None => {}
+        let Some(Ok(programs)) = operation.programs(&head) else { continue };
+        for (file, text) in programs {
+            write_bytes_atomically(&folder.path(format!("axes/{file}"))?, text.as_bytes())?;
         }
     }
-    Ok(left_out)
+    Ok(())
 }
 
-/// All that the command `axes` writes and says; gives what must be known before the programs are used: the job's
-/// `warnings`, and the programs that are left out.
+/// All that the command `axes` writes and says, the job's `warnings` in the heads of programs; gives these back.
 ///
 /// # Errors
 /// Files that cannot be written; Ctrl-C.
@@ -161,8 +150,8 @@ pub fn command<O: AxesOfOperation>(
         print(operation, sheet);
     }
     interrupt.check()?;
-    let left_out = write_programs(operations, &warnings, folder)?;
-    Ok(ranked(warnings.into_iter().chain(left_out)))
+    write_programs(operations, &warnings, folder)?;
+    Ok(warnings)
 }
 
 /// The page's section: peaks and first chart of every operation, the other charts folded under their name.

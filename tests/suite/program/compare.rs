@@ -240,6 +240,12 @@ fn figures_of_the_inspection_are_compared() {
         assert!(found.contains(value) && found.contains("um"), "{found}");
     }
     assert!(all.contains("inspection.figures.runout ") && !first.contains("runout"), "{out}");
+    // Over rounding there is no ratio: 0 beside 0 is as often 2 as a half.
+    put(&folder, "c", &of(3e-11, -0.004, 1.1e-11));
+    put(&folder, "d", &of(9.0, -0.004, 1e-11));
+    let out = gearcut_in(folder.path(), &["compare", "out/c", "out/d"]).done().out;
+    let runout = out.lines().find(|line| line.contains("inspection.figures.runout ")).expect("a line");
+    assert!(!runout.contains("1.1"), "{runout}");
 }
 
 /// Maps that both runs have are subtracted cell by cell.

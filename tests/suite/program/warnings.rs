@@ -87,6 +87,26 @@ fn every_place_shows_the_same_list() {
     assert!(page.contains(&format!("{}</a>", counted(&listed))), "the page does not count them");
 }
 
+/// A program that cannot be written is known before anything is cut, and told by every command alike, whether it would
+/// write one or not.
+#[test]
+fn a_program_that_cannot_be_written_is_told_by_all() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = |name: &str| folder.path().join(name).to_str().expect("a path").to_owned();
+    let settings = [&SETTINGS[..], &["machine.limits.work_speed_deg_per_s=2"]].concat();
+    let told = |command: &str, more: &[&str]| -> Vec<String> {
+        let err = run(command, UNDERCUT, &settings, more).done().err;
+        err.lines().filter(|line| line.contains("no G-code written")).map(str::to_owned).collect()
+    };
+    let known = told("check", &[]);
+    assert!(known.len() == 2 && known[0].contains("operation rough: no G-code written: the work spindle"), "{known:?}");
+    assert_eq!(told("axes", &["--out", &path("axes")]), known);
+    run("cut", UNDERCUT, &settings, &["--only", "numbers", "--out", &path("cut")]).done();
+    let listed = listed(&folder.path().join("cut"));
+    assert!(known.iter().all(|line| listed.contains(line)), "{listed:?}");
+    assert_eq!(listed.iter().filter(|line| line.contains("no G-code")).count(), 2, "{listed:?}");
+}
+
 /// What is a function of the scene is known before the cut: the first stroke's force, a class that the standard does
 /// not give, marks with too few points. What `cut` adds is what `check` says that only a cut can find.
 #[test]

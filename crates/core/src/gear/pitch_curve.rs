@@ -135,7 +135,7 @@ impl PitchCurve {
                     arc.closed(),
                     LARGEST_CLOSURE_ERROR_MODULES * module_mm
                 ),
-                format!("the size that closes is {closing_mm:.9} mm; leave the key out and it is solved"),
+                way_to_close(shape, closing_mm, size_mm, module_mm),
             ));
         }
         let scaling = shape.scaled_from_mm().map(|(points_mm, allowed)| (size_mm / points_mm, allowed));
@@ -149,11 +149,7 @@ impl PitchCurve {
                      without this key a change of {} % is allowed",
                     100.0 * LARGEST_UNASKED_SCALING
                 ),
-                format!(
-                    "correct the module (the points fit {:.6} mm), the teeth or the points; or write scale_to_close = \
-                     true",
-                    module_mm / factor
-                ),
+                way_to_close(shape, closing_mm, closing_mm / factor, module_mm),
             ));
         }
         let facts = CurveFacts::new(|phi| law.unit(phi) * size_mm, samples);
@@ -245,5 +241,18 @@ impl PitchCurve {
     /// Number of samples per turn that resolve every variation of the curve.
     pub fn samples_per_turn(&self) -> usize {
         self.law.samples_per_turn()
+    }
+}
+
+/// What closes a curve that was given a size which does not: the size that does, or for points that are too far from
+/// it what else they may be.
+fn way_to_close(shape: &PitchCurveShape, closing_mm: f64, size_mm: f64, module_mm: f64) -> String {
+    let factor = closing_mm / size_mm;
+    match shape {
+        PitchCurveShape::Table { .. } if (factor - 1.0).abs() > LARGEST_UNASKED_SCALING => format!(
+            "correct the module (the points fit {:.6} mm), the teeth or the points; or write scale_to_close = true",
+            module_mm / factor
+        ),
+        _ => format!("the size that closes is {closing_mm:.9} mm; leave the key out and it is solved"),
     }
 }
