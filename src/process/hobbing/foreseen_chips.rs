@@ -4,10 +4,11 @@
 //! rays that stands in the middle of the face, with the hob tooth that takes it ([`ForeseenChip`]).
 //!
 //! A part of the cut itself: that slice, with material in those spaces alone, from the middle of a tooth to the middle
-//! of the next, and the passes that go through them, on the rays and by the law of [`super::measure::hob_load`]. What a slice is left with depends on no
-//! other, and what a space is left with on no other while the hob leaves the middle of the teeth alone. The cut so finds
-//! these chips as well, and in the other spaces and slices perhaps thicker ones: what is foreseen is a least value.
-//! `tests/suite/hobbing/foreseen_chips.rs` compares it with the cut of the whole blank.
+//! of the next, and the passes that go through them, on the rays and by the law of [`super::measure::hob_load`]. What
+//! a slice is left with depends on no other, and what a space is left with on no other while the hob leaves the middle
+//! of the teeth alone. The cut so finds these chips as well, and in the other spaces and slices perhaps thicker ones:
+//! what is foreseen is a least value. `tests/suite/hobbing/foreseen_chips.rs` compares it with the cut of the whole
+//! blank.
 //!
 //! Road not taken: the largest chip thickness of Hoffmeister's formula, from module, gashes, starts, feed and depth. It
 //! is fitted to standard racks on round gears, another number than the cut's, and says nothing of a gear that is not
