@@ -1,7 +1,7 @@
 //! The thickest chips that are known before a hobbing cut.
 //!
 //! In: the passes of all operations. Out: for each the thickest chip in some tooth spaces, in the slice of the blank's
-//! rays that stands in the middle of the face, with the hob tooth that takes it ([`ForeseenChip`]).
+//! rays that stands in the middle of the face, with the hob tooth that takes it.
 //!
 //! A part of the cut itself: that slice, with material in those spaces alone, from the middle of a tooth to the middle
 //! of the next, and the passes that go through them, on the rays and by the law of [`super::measure::hob_load`]. What
