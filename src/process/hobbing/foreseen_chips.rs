@@ -30,8 +30,8 @@ use glam::DVec2;
 /// Tooth spaces that are looked at, evenly round the gear.
 const SPACES: u32 = 6;
 
-/// The thickest chip of every operation in the spaces that are looked at; none where it takes nothing there. They are
-/// found once for a job.
+/// The thickest chip of every operation in the spaces that are looked at; none where it takes nothing there, where the
+/// hob cuts the tips as well, and under a linkage as printed, which leaves no teeth. They are found once for a job.
 ///
 /// # Errors
 /// A blank field that does not fit in memory.
@@ -40,6 +40,11 @@ pub fn of<'a>(cutter: &HobCutter<'a>) -> Result<&'a [Option<ForeseenChip>]> {
 }
 
 fn find(cutter: &HobCutter) -> Result<Vec<Option<ForeseenChip>>> {
+    // Passes of other spaces would cut there as well: through the teeth, or over their tips.
+    let as_printed = cutter.job.operations.iter().any(|operation| operation.linkage.law().is_as_printed());
+    if as_printed || cutter.tops_the_gear() {
+        return Ok(vec![None; cutter.operations.len()]);
+    }
     let spaces: Vec<i64> = spaces(cutter.job.scene.gear.teeth).collect();
     let mut field = field(cutter, &spaces)?;
     let mut found = Vec::new();
