@@ -1,13 +1,14 @@
 //! The thickest chips that are known before a hobbing cut.
 //!
 //! In: the passes of all operations. Out: for each the thickest chip in some tooth spaces, in the slice of the blank's
-//! rays that stands in the middle of the face, with the hob tooth that takes it ([`ForeseenChip`]).
+//! rays that stands in the middle of the face, with the hob tooth that takes it.
 //!
 //! A part of the cut itself: that slice, with material in those spaces alone, from the middle of a tooth to the middle
-//! of the next, and the passes that go through them, on the rays and by the law of [`super::measure::hob_load`]. What a slice is left with depends on no
-//! other, and what a space is left with on no other while the hob leaves the middle of the teeth alone. The cut so finds
-//! these chips as well, and in the other spaces and slices perhaps thicker ones: what is foreseen is a least value.
-//! `tests/suite/hobbing/foreseen_chips.rs` compares it with the cut of the whole blank.
+//! of the next, and the passes that go through them, on the rays and by the law of [`super::measure::hob_load`]. What
+//! a slice is left with depends on no other, and what a space is left with on no other while the hob leaves the middle
+//! of the teeth alone. The cut so finds these chips as well, and in the other spaces and slices perhaps thicker ones:
+//! what is foreseen is a least value. `tests/suite/hobbing/foreseen_chips.rs` compares it with the cut of the whole
+//! blank.
 //!
 //! Road not taken: the largest chip thickness of Hoffmeister's formula, from module, gashes, starts, feed and depth. It
 //! is fitted to standard racks on round gears, another number than the cut's, and says nothing of a gear that is not
@@ -29,8 +30,8 @@ use glam::DVec2;
 /// Tooth spaces that are looked at, evenly round the gear.
 const SPACES: u32 = 6;
 
-/// The thickest chip of every operation in the spaces that are looked at; none where it takes nothing there. They are
-/// found once for a job.
+/// The thickest chip of every operation in the spaces that are looked at; none where it takes nothing there, where the
+/// hob cuts the tips as well, and under a linkage as printed, which leaves no teeth. They are found once for a job.
 ///
 /// # Errors
 /// A blank field that does not fit in memory.
@@ -39,6 +40,11 @@ pub fn of<'a>(cutter: &HobCutter<'a>) -> Result<&'a [Option<ForeseenChip>]> {
 }
 
 fn find(cutter: &HobCutter) -> Result<Vec<Option<ForeseenChip>>> {
+    // Passes of other spaces would cut there as well: through the teeth, or over their tips.
+    let as_printed = cutter.job.operations.iter().any(|operation| operation.linkage.law().is_as_printed());
+    if as_printed || cutter.tops_the_gear() {
+        return Ok(vec![None; cutter.operations.len()]);
+    }
     let spaces: Vec<i64> = spaces(cutter.job.scene.gear.teeth).collect();
     let mut field = field(cutter, &spaces)?;
     let mut found = Vec::new();

@@ -247,7 +247,7 @@ impl HobCutter<'_> {
 
     /// Whether the hob's roots come down to the blank's outline at full depth. If they do not, no edge reaches a tip
     /// land: it is highest over the hob where it passes the pitch point.
-    fn tops_the_gear(&self) -> bool {
+    pub fn tops_the_gear(&self) -> bool {
         let dedendum = self.job.hob_spec.dedendum_coefficient;
         let deepest_mm = self.job.operations.iter().map(|o| o.offset_mm).fold(f64::INFINITY, f64::min);
         dedendum * self.job.scene.gear.module_mm + deepest_mm <= self.job.blank.addendum_mm

@@ -48,8 +48,8 @@ fn the_spur_gears_thickest_chip_is_that_of_the_front_of_points() {
 mod slow {
     use super::*;
 
-    /// What is foreseen is a chip of the cut: in the slice in the middle, all spaces with all their material, the same hob
-    /// tooth takes one as thick or thicker; the whole blank has no thinner one, and one not much thicker.
+    /// What is foreseen is a chip of the cut: in the slice in the middle, all spaces with all their material, the
+    /// same hob tooth takes one as thick or thicker; the whole blank has no thinner one, and one not much thicker.
     #[test]
     fn a_foreseen_chip_is_one_of_the_cut() {
         for (name, settings) in [
