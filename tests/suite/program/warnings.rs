@@ -93,7 +93,7 @@ fn every_place_shows_the_same_list() {
 fn a_program_that_cannot_be_written_is_told_by_all() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = |name: &str| folder.path().join(name).to_str().expect("a path").to_owned();
-    let settings = [&SETTINGS[..], &["machine.limits.work_speed_deg_per_s=2"]].concat();
+    let settings = [&SETTINGS[..], &["machine.limits.work_speed_deg_per_s=0.1"]].concat();
     let told = |command: &str, more: &[&str]| -> Vec<String> {
         let err = run(command, UNDERCUT, &settings, more).done().err;
         err.lines().filter(|line| line.contains("no G-code written")).map(str::to_owned).collect()

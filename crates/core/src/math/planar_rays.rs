@@ -176,8 +176,8 @@ pub struct PartCubic {
     pub across_end_mm: f64,
 }
 
-/// Parts that a ray crosses, in their order. Nearly all rays cross two or none: what is known of a tile's rays then lies
-/// side by side in memory.
+/// Parts that a ray crosses, in their order. Nearly all rays cross two or none: what is known of a tile's rays then
+/// lies side by side in memory.
 #[derive(Debug, Default, Clone)]
 struct MetParts {
     count: u32,

@@ -5,10 +5,10 @@
 //!
 //! Every tooth space is a [`section::SpaceSection`] of its own, in the transverse plane in the middle of the face, and
 //! sees **all** passes that come where its own teeth come in strict order of time: nothing is left out because it does
-//! not shape the final surface. Each cutter tooth in each stroke belongs to the space that its tip stands in; so every chip is counted
-//! once. Where the axes rest during the stroke all sections are equal and the ledger is exact for the whole face; where
-//! the feed goes on, the middle section stands for the face, the others being the same a fraction of a stroke earlier
-//! or later.
+//! not shape the final surface. Each cutter tooth in each stroke belongs to the space that its tip stands in; so every
+//! chip is counted once. Where the axes rest during the stroke all sections are equal and the ledger is exact for the
+//! whole face; where the feed goes on, the middle section stands for the face, the others being the same a fraction of
+//! a stroke earlier or later.
 //!
 //! Rays on a flank see only the chips that shape it, and those exactly: [`flank::last_chips`] says with how thick a
 //! chip each place of a flank was cut last. Where edges are rounded, what is left depends on the order of passes, and

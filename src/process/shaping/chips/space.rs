@@ -92,8 +92,8 @@ impl StockHeight {
 }
 
 impl<'a> Space<'a> {
-    /// Space `number` (1 to z): the one after tooth `number`, with the passes that its chips depend on. Passes may stand
-    /// elsewhere by as much as `room_mm`.
+    /// Space `number` (1 to z): the one after tooth `number`, with the passes that its chips depend on. Passes may
+    /// stand elsewhere by as much as `room_mm`.
     pub(super) fn new(
         job: &'a ShapingJob,
         polygon: &'a EdgePolygon,
