@@ -25,7 +25,7 @@ pub use pairs::{ContactArguments, FlankChoice, PairArguments};
         gearcut check scenes/shaping/elliptical_normal.toml   what the scene means, in a second\n  \
         gearcut cut scenes/shaping/elliptical_normal.toml     cut it and measure it\n  \
         gearcut new shaping --out my_gear.toml                a commented scene of your own\n\n\
-        Exit codes: 0 done; 1 refused or failed, with the reason; 2 wrong usage; 3 done and written, but the verdict\n\
+        Exit codes: 0 done; 1 refused or failed, with the reason; 2 wrong usage; 3 done and written, but the verdict \
         is bad (a fault; pair: a tip stands in the mate); 130 stopped by Ctrl-C."
 )]
 pub struct CommandLine {
@@ -42,11 +42,11 @@ pub enum Command {
         gearcut cut scenes/shaping/elliptical_normal.toml --set operation.rough.offset_mm=1.5\n  \
         gearcut cut scenes/shaping/elliptical_normal.toml --draft\n  \
         gearcut cut scenes/shaping/elliptical_normal.toml --only numbers,report\n\n\
-        Writes a folder (out/<scene> unless --out or the scene says otherwise): results.json with every\n\
-        number, its unit and its definition; run.json to repeat the run; tables as CSV (mm, um, deg in\n\
-        the column names); maps of every flank as EXR (mm) and PNG (um); the gear as a closed mesh in STL,\n\
-        PLY and glTF (mm); pictures; axis tables and charts. An existing folder is replaced only if\n\
-        gearcut wrote it, and only after the new one is complete. The summary goes to standard output,\n\
+        Writes a folder (out/<scene> unless --out or the scene says otherwise): results.json with every \
+        number, its unit and its definition; run.json to repeat the run; tables as CSV (mm, um, deg in \
+        the column names); maps of every flank as EXR (mm) and PNG (um); the gear as a closed mesh in STL, \
+        PLY and glTF (mm); pictures; axis tables and charts. An existing folder is replaced only if \
+        gearcut wrote it, and only after the new one is complete. The summary goes to standard output, \
         progress to standard error.")]
     Cut(CutArguments),
     /// Say what a scene means: pitch curve, teeth, axes, relief, warnings, cost. Cuts nothing.
@@ -57,23 +57,23 @@ pub enum Command {
     /// Write the axis positions of every stroke, with charts.
     #[command(after_help = "Example:\n  \
         gearcut axes scenes/shaping/elliptical_normal.toml --out out/axes_of_my_gear\n\n\
-        Writes a folder (out/<scene>_axes unless --out is given): axes/<operation>.csv with one row per\n\
-        stroke (s, deg, mm, deg/s, mm/s, deg/s^2, mm/s^2), <operation>.ngc (G-code in straight lines,\n\
-        or for a control by output.post, see docs/gcode.md), and charts of positions, velocities,\n\
-        accelerations and relief clearance over the work angle as SVG. Prints the peaks against the\n\
+        Writes a folder (out/<scene>_axes unless --out is given): axes/<operation>.csv with one row per \
+        stroke (s, deg, mm, deg/s, mm/s, deg/s^2, mm/s^2), <operation>.ngc (G-code in straight lines, \
+        or for a control by output.post, see docs/gcode.md), and charts of positions, velocities, \
+        accelerations and relief clearance over the work angle as SVG. Prints the peaks against the \
         machine's limits.")]
     Axes(AxesArguments),
     /// Put results side by side.
     #[command(after_help = "Example:\n  \
         gearcut compare out/elliptical_traditional out/elliptical_normal\n  \
         gearcut compare out/third_order_plain out/third_order_diagonal --out out/load_of_the_hob\n\n\
-        Takes 2 to 7 results of one process; the others are compared with the first. Writes a folder\n\
-        (compare_<A>_<B>... beside the last one unless --out is given): comparison.csv with every number\n\
-        of all results under its path in results.json, with unit and definition, its difference to the\n\
-        first and the first over it (2 means that this result has half); and bar charts as SVG.\n\
-        Shaped gears: unevenness of the allowance by tooth (%), in one chart (first period of the pitch\n\
+        Takes 2 to 7 results of one process; the others are compared with the first. Writes a folder \
+        (compare_<A>_<B>... beside the last one unless --out is given): comparison.csv with every number \
+        of all results under its path in results.json, with unit and definition, its difference to the \
+        first and the first over it (2 means that this result has half); and bar charts as SVG. \
+        Shaped gears: unevenness of the allowance by tooth (%), in one chart (first period of the pitch \
         curve, and all teeth) and each on its own scale.\n\
-        Hobbed gears: what each tooth of the hob does over the whole process: volume (mm3), largest\n\
+        Hobbed gears: what each tooth of the hob does over the whole process: volume (mm3), largest \
         uncut chip thickness (mm), travel in the cut (mm).\n\
         Load is no life: wear follows heat and chip thickness besides. Prints headline and summary.")]
     Compare(CompareArguments),
@@ -83,13 +83,13 @@ pub enum Command {
         gearcut texture measured.sdf --form plane --s-filter-um 8 --l-filter-um 800 --crop-um 400\n  \
         gearcut texture heights.npy --spacing-um 2 5 --line y=500 --json\n  \
         gearcut texture measured.sur --save measured.x3p\n\n\
-        Reads X3P, SDF (binary and ASCII), SUR, NPY, CSV and gearcut's EXR maps; heights become um\n\
-        whatever the file counts in (m in X3P and SDF, the unit of the axis in SUR, mm or um in the\n\
-        channels of EXR maps); NPY and CSV name no unit, their heights are um.\n\
-        The chain is applied in this order and printed beside the numbers: form, S-filter, L-filter,\n\
-        crop. Holes are left out where a parameter allows it. A value that does not exist is printed as\n\
+        Reads X3P, SDF (binary and ASCII), SUR, NPY, CSV and gearcut's EXR maps; heights become um \
+        whatever the file counts in (m in X3P and SDF, the unit of the axis in SUR, mm or um in the \
+        channels of EXR maps); NPY and CSV name no unit, their heights are um. \
+        The chain is applied in this order and printed beside the numbers: form, S-filter, L-filter, \
+        crop. Holes are left out where a parameter allows it. A value that does not exist is printed as \
         none with the reason (null in JSON).\n\
-        Angles count counter-clockwise from +x (along a row) towards +y (from row to row). Writes no\n\
+        Angles count counter-clockwise from +x (along a row) towards +y (from row to row). Writes no \
         files but those named by --save.")]
     Texture(TextureArguments),
     /// List what can compute here.
@@ -106,9 +106,9 @@ pub enum Command {
     #[command(after_help = "Example:\n  \
         gearcut mate scenes/shaping/internal_pair_driver.toml --teeth 102 --internal --out ring.toml\n  \
         gearcut mate scenes/shaping/elliptical_normal.toml --teeth 47 --out mate.toml\n\n\
-        The mate's pitch curve follows from the driver's: equal arcs on both, r2 = a - r1 outside and a + r1 in a\n\
-        ring; the distance of the axes a (mm) is solved so that the curve closes. Tool, machine and operations\n\
-        are the driver's. Prints the scene, or writes it with --out and prints a; an existing file is never\n\
+        The mate's pitch curve follows from the driver's: equal arcs on both, r2 = a - r1 outside and a + r1 in a \
+        ring; the distance of the axes a (mm) is solved so that the curve closes. Tool, machine and operations \
+        are the driver's. Prints the scene, or writes it with --out and prints a; an existing file is never \
         replaced.")]
     Mate(MateArguments),
     /// Roll two gears on each other without load: ratio, transmission error, backlash, contact, interference.
@@ -117,26 +117,26 @@ pub enum Command {
         gearcut pair scenes/shaping/internal_pair_driver.toml scenes/shaping/internal_pair_ring.toml\n  \
         gearcut pair scenes/shaping/circular_m3_z24.toml --mate 36 --flanks nominal --center-distance-error-um 20\n  \
         gearcut pair out/elliptical_normal out/my_mate --eccentricity-b-um 15 --parallelism-in-plane-um 10\n\n\
-        A drives, B is driven. Each is a scene or a folder of results; --mate solves B from A. The gears must belong\n\
-        together: one module, pitch curves that close on each other (0.1 module is allowed between them).\n\
-        Their flanks are cut in the sections that are rolled, with every stroke; --flanks nominal leaves the strokes\n\
+        A drives, B is driven. Each is a scene or a folder of results; --mate solves B from A. The gears must belong \
+        together: one module, pitch curves that close on each other (0.1 module is allowed between them). \
+        Their flanks are cut in the sections that are rolled, with every stroke; --flanks nominal leaves the strokes \
         and the fillets out. A ring is always gear B.\n\n\
-        Transmission error is B's rotation less the one that the pitch curves ask for (arcsec), and times r2 (um).\n\
+        Transmission error is B's rotation less the one that the pitch curves ask for (arcsec), and times r2 (um). \
         Right flanks drive when the angle of A grows; left ones are the back flanks.\n\n\
-        Writes a folder (out/<A>_with_<B> unless --out is given): results.json, tables/rolling.csv with a row for\n\
+        Writes a folder (out/<A>_with_<B> unless --out is given): results.json, tables/rolling.csv with a row for \
         every position, tables/contact_by_tooth.csv, harmonics, double-flank rolling. See docs/pair.md.")]
     Pair(PairArguments),
     /// Bring a bevel gear and its pinion into contact without load: motion error, contact path and ellipses.
     #[command(after_help = "Example:\n  \
         gearcut contact scenes/bevel/crown_gear.toml scenes/bevel/crown_pinion.toml\n  \
         gearcut contact scenes/bevel/crown_gear.toml scenes/bevel/crown_pinion.toml --e-um 50 --g-um -30\n\n\
-        The flanks that the heads' cones generate touch; marks of blades are left out. Both scenes have a face-mill\n\
+        The flanks that the heads' cones generate touch; marks of blades are left out. Both scenes have a face-mill \
         head, one module and opposite hands of spiral; the shaft angle is the sum of their pitch angles.\n\n\
-        Errors of the mounting have Gleason's letters: E offset of the pinion's axis, P pinion and G gear away from\n\
-        the apex, Sigma shaft angle. Beside the mounting asked for, 50 um and 0.05 deg of each are tried in both\n\
+        Errors of the mounting have Gleason's letters: E offset of the pinion's axis, P pinion and G gear away from \
+        the apex, Sigma shaft angle. Beside the mounting asked for, 50 um and 0.05 deg of each are tried in both \
         directions: how far the contact moves, and what the motion error becomes.\n\n\
-        Writes a folder (out/<GEAR>_with_<PINION> unless --out is given): report.html, results.json,\n\
-        tables/contact_*.csv, tables/trends_*.csv, pictures/motion_error.svg, pictures/bearing_*.svg.\n\
+        Writes a folder (out/<GEAR>_with_<PINION> unless --out is given): report.html, results.json, \
+        tables/contact_*.csv, tables/trends_*.csv, pictures/motion_error.svg, pictures/bearing_*.svg. \
         See docs/bevel.md.")]
     Contact(ContactArguments),
     /// Cut many gears of a scene with errors: how their numbers scatter, and which layer of errors makes how much.
@@ -144,14 +144,14 @@ pub enum Command {
         gearcut scatter scenes/shaping/noise.toml\n  \
         gearcut scatter scenes/shaping/noise.toml --tooth 3 --side right --seeds 50 --out out/noise\n  \
         gearcut scatter scenes/shaping/noise.toml --tolerance mounting.eccentricity_um=0..10\n\n\
-        Layers of errors are axes, guide, mounting, tool, noise, stock, edge, ploughing, tearing and deflection, as\n\
-        far as the scene has them. One flank is cut with none of them, with each alone, with all, and with all but\n\
-        each; then as many gears as there are seeds (machine.errors.seed = 1, 2, ...), the cutter being the same.\n\
+        Layers of errors are axes, guide, mounting, tool, noise, stock, edge, ploughing, tearing and deflection, as \
+        far as the scene has them. One flank is cut with none of them, with each alone, with all, and with all but \
+        each; then as many gears as there are seeds (machine.errors.seed = 1, 2, ...), the cutter being the same. \
         Keys that are given a tolerance have another value in each of these gears, anywhere between the limits.\n\n\
-        Texture is that of a window of 0.25 mm in the middle of the flank, profile and helix are lines through it;\n\
+        Texture is that of a window of 0.25 mm in the middle of the flank, profile and helix are lines through it; \
         pitch is taken on all teeth from the mean deviation over 0.25 mm of profile there. Heights in um.\n\n\
-        Writes a folder (out/<scene>_scatter unless --out is given): layers.csv, seeds.csv with a row for every gear,\n\
-        scatter.csv with median, 5 % and 95 % of each number. A row is written as soon as its gear is done: after a\n\
+        Writes a folder (out/<scene>_scatter unless --out is given): layers.csv, seeds.csv with a row for every gear, \
+        scatter.csv with median, 5 % and 95 % of each number. A row is written as soon as its gear is done: after a \
         kill or Ctrl-C the same command goes on. See docs/errors.md.")]
     Scatter(ScatterArguments),
     /// Rank the errors of the machine: which micrometre or arc second costs what on the gear.
@@ -159,25 +159,25 @@ pub enum Command {
         gearcut budget scenes/shaping/circular_m3_z24.toml\n  \
         gearcut budget scenes/shaping/machine_errors.toml --parameters mounting,machine.errors.work\n  \
         gearcut budget scenes/hobbing/circular_spur.toml --flanks 1-left,1-right\n\n\
-        Shifts every error that the scene's process knows by a natural step to both sides, cuts the gear on few\n\
-        places, and takes the differences: what the error alone makes of an otherwise ideal gear, in um. Half the\n\
-        step tells whether twice the error does twice as much. Shaped gears take seconds, hobbed ones many minutes,\n\
+        Shifts every error that the scene's process knows by a natural step to both sides, cuts the gear on few \
+        places, and takes the differences: what the error alone makes of an otherwise ideal gear, in um. Half the \
+        step tells whether twice the error does twice as much. Shaped gears take seconds, hobbed ones many minutes, \
         or seconds with one tooth in --flanks; Ctrl-C keeps what is finished.\n\n\
-        Writes a folder (out/<scene>_budget unless --out is given): report.html, results.json, budget.csv with every\n\
-        figure per unit of each error, tables/influence_maps.csv with the derivative of every height.\n\
+        Writes a folder (out/<scene>_budget unless --out is given): report.html, results.json, budget.csv with every \
+        figure per unit of each error, tables/influence_maps.csv with the derivative of every height. \
         See docs/budget.md.")]
     Budget(BudgetArguments),
     /// Say which errors of the machine explain measured flanks, and what they leave over.
     #[command(after_help = "Example:\n  \
         gearcut diagnose scenes/shaping/circular_m3_z24.toml --measured gear.csv --noise-um 0.5\n  \
         gearcut diagnose my.toml --measured gear.csv --noise-um 0.5 --parameters mounting,machine.errors.guide\n\n\
-        The CSV has a row for each measured place: tooth (from 1, counter-clockwise), flank (left or right), u_mm\n\
-        (arc along the profile from the form point), v_mm (along the tooth from the middle of the face), deviation_um\n\
+        The CSV has a row for each measured place: tooth (from 1, counter-clockwise), flank (left or right), u_mm \
+        (arc along the profile from the form point), v_mm (along the tooth from the middle of the face), deviation_um \
         (normal to the target, positive where material is). The noise is the standard deviation of each value.\n\n\
-        Fits the influences of errors to the deviations from the scene's own gear, and names those that explain more\n\
-        than noise would, with 95 % intervals; says which of them cannot be told apart, and whether what is left over\n\
+        Fits the influences of errors to the deviations from the scene's own gear, and names those that explain more \
+        than noise would, with 95 % intervals; says which of them cannot be told apart, and whether what is left over \
         is more than noise. A turn of the gear on the measuring machine is always fitted along.\n\n\
-        Writes a folder (out/<scene>_diagnosis unless --out is given): report.html, results.json, tables/sources.csv,\n\
+        Writes a folder (out/<scene>_diagnosis unless --out is given): report.html, results.json, tables/sources.csv, \
         tables/residuals.csv. See docs/budget.md.")]
     Diagnose(DiagnoseArguments),
     /// Fit errors of the machine to what was measured on a gear: numbers, surfaces, inspection charts.
@@ -185,15 +185,15 @@ pub enum Command {
         gearcut calibrate my.toml --measured numbers.csv --fit mounting.eccentricity_um,machine.errors.guide\n  \
         gearcut calibrate my.toml --measured out/my/inspection_charts.csv --noise-um 0.3 --fit mounting\n  \
         gearcut calibrate my.toml --measured flank.x3p --surface-percent 5 --fit machine.errors.work.noise_arcsec\n\n\
-        A CSV of numbers has a row for each: quantity (its path in results.json, such as deviations.runout;\n\
-        headline.KEY for the headline), value (in the unit that it has there), uncertainty (standard). Charts and\n\
-        figures are read as `gearcut cut` writes them (inspection_charts.csv, tables/inspection.csv), places as\n\
-        `gearcut diagnose` reads them. A surface belongs to a [[texture]] window of the scene: the one that its notes\n\
+        A CSV of numbers has a row for each: quantity (its path in results.json, such as deviations.runout; \
+        headline.KEY for the headline), value (in the unit that it has there), uncertainty (standard). Charts and \
+        figures are read as `gearcut cut` writes them (inspection_charts.csv, tables/inspection.csv), places as \
+        `gearcut diagnose` reads them. A surface belongs to a [[texture]] window of the scene: the one that its notes \
         name, the only one, or FILE@finish.tooth_03_left.\n\n\
-        Cuts again and again, some ten times for each parameter: whole gears for numbers (minutes), windows or places\n\
-        alone where nothing else was measured. Prints shifts with 95 % intervals, which of them the measured values\n\
+        Cuts again and again, some ten times for each parameter: whole gears for numbers (minutes), windows or places \
+        alone where nothing else was measured. Prints shifts with 95 % intervals, which of them the measured values \
         cannot identify, and the --set arguments of the fitted scene. Ctrl-C keeps the rounds that are done.\n\n\
-        Writes a folder (out/<scene>_calibration unless --out is given): report.html, results.json, tables/fits.csv,\n\
+        Writes a folder (out/<scene>_calibration unless --out is given): report.html, results.json, tables/fits.csv, \
         tables/numbers.csv, tables/lines.csv, tables/places.csv. See docs/budget.md.")]
     Calibrate(CalibrateArguments),
 }
