@@ -33,4 +33,5 @@ mod round_gear;
 mod rubbing;
 mod stroke_noise;
 mod tearing;
+mod tooth_tips;
 mod undercut;
