@@ -10,8 +10,8 @@ use crate::process::shaping::target::FlankEnd;
 use gearcut_core::terms::Side;
 use gearcut_core::units::UM_PER_MM;
 
-/// Why a lowest height is not known.
-const BELOW_RANGE: &str = "the flank is cut deeper than its rays record, half a module under the target";
+/// Why a lowest height, or what is known of whole flanks alone, is not known.
+pub const BELOW_RANGE: &str = "the flank is cut deeper than its rays record, half a module under the target";
 
 /// Smallest, largest and mean stock over some flanks (with their report, for the place) or roots.
 pub fn stock_range(
