@@ -46,11 +46,7 @@ pub fn sections(
     let operations: Vec<Section> = operations.collect::<Result<_, _>>()?;
     let period = "teeth after which the pitch curve repeats: the first period of tables and charts";
     let other_gear = program::not_of_the_gear(job, motion);
-    let tooth = |tooth| {
-        let is_lost = report.flanks.iter().any(|flank| flank.tooth == tooth && flank.own.is_lost);
-        let other = other_gear.as_deref().or(is_lost.then_some(teeth::BELOW_RANGE));
-        teeth::finished_tooth(report, tooth, other)
-    };
+    let tooth = |tooth| teeth::finished_tooth(report, tooth, other_gear.as_deref());
     let teeth: Vec<Section> = (1..=job.scene.gear.teeth).map(tooth).collect();
     let flank_table = tables::flanks(&report.flanks, &operations[..operations.len() - 1], &teeth);
     let sections = [

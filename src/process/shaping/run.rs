@@ -95,7 +95,7 @@ pub(super) fn run(job: &ShapingJob, tools: &Tools, frames: Option<u32>) -> Resul
     conclusion::write(&mut found, &motion, tools, &mut attempts, page)?;
     let out = folder.results_path(found.complete);
     let work = Work { interrupted, ..gear.work };
-    let flanks = gear.report.flanks.len();
+    let flanks = [gear.report.flanks.len(), gear.report.lost()];
     let summary = summary::text(&job.scene.gear, &found, flanks, &work, &out, &backend.name());
     Ok(CutDone { findings: found, summary, work })
 }

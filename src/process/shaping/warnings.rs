@@ -184,8 +184,8 @@ fn uncut(report: &GearReport) -> Option<Warning> {
     let (flank, most) = flanks.iter().max_by_key(|(_, uncut)| uncut.dexels)?;
     let dexels: u64 = flanks.iter().map(|(_, uncut)| uncut.dexels).sum();
     Some(Warning::warn(format!(
-        "{dexels} dexels were reached by no pass: part of {} flanks is still the blank, most of tooth {} {}: {} % of it, \
-         beginning {:.2} mm above the start of the involute",
+        "{dexels} dexels were reached by no pass: part of {} flanks is still the blank, most of tooth {} {}: {} % of \
+         it, beginning {:.2} mm above the start of the involute",
         flanks.len(),
         flank.tooth,
         flank.side.name(),

@@ -1,6 +1,8 @@
 //! A gear of which flanks are cut away, by an operation or by a program: nothing of the scene's gear stands for it.
 
+use crate::fixtures::command::gearcut;
 use gearcut::cut::cpu::Cpu;
+use gearcut::findings::Section;
 use gearcut::interrupt::Interrupt;
 use gearcut::output::progress::{Progress, ProgressMode};
 use gearcut::process::load;
@@ -62,8 +64,32 @@ fn headlines_of_a_gear_that_is_cut_away_are_not_those_of_the_scene() {
             assert_eq!(why.contains("48 of 48 flanks are cut away"), lost > 0, "{key}: {why}");
             assert_eq!(of(key).value().is_some(), lost == 0, "{key}");
         }
+        let sections = findings::sections(&job, &gear.report, &gear.chips, &motion).expect("sections");
+        let teeth = sections.iter().find(|section| section.key == "teeth").expect("teeth");
+        for path in ["tooth_01/tip_land", "tooth_24/right/start_of_involute", "tooth_07/left/tip"] {
+            assert_eq!(number(teeth, path).is_some(), lost == 0, "{path}");
+        }
         assert_eq!(of("smallest_tooth_thickness").value().is_some(), lost == 0);
     }
+}
+
+/// The number at a path below a section.
+fn number(section: &Section, path: &str) -> Option<f64> {
+    match path.split_once('/') {
+        Some((part, rest)) => number(section.sections.iter().find(|of| of.key == part).expect("a part"), rest),
+        None => section.entries.iter().find(|entry| entry.key == path).expect("an entry").quantity.value(),
+    }
+}
+
+#[test]
+fn the_summary_says_how_many_flanks_are_away() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let out = folder.path().join("out");
+    let scene = "scenes/shaping/circular_m3_z24.toml";
+    let mut arguments = vec!["cut", scene, "--draft", "--backend", "cpu", "--only", "numbers"];
+    arguments.extend(["--out", out.to_str().expect("a path"), "--set", "operation.rough.offset_mm=-5"]);
+    let told = gearcut(&arguments).out;
+    assert!(told.contains("48 of 48 flanks cut, 48 of them away"), "{told}");
 }
 
 #[test]

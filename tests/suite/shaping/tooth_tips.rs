@@ -59,7 +59,8 @@ fn a_gouge_at_a_thin_tip_is_found() {
 
 /// An oval whose last columns, at the tip corner, the blank's outline keeps; and a gear clamped 20 um off its axis.
 const OVAL: &str = "[gear]\nmodule_mm = 2.0\nteeth = 24\nface_width_mm = 6\n[gear.pitch_curve.ellipse]\norder = 2\n\
-                    eccentricity = 0.3\n[tool.shaper_cutter]\nteeth = 20\n[machine.limits]\nwork_speed_deg_per_s = 100\n";
+                    eccentricity = 0.3\n[tool.shaper_cutter]\nteeth = 20\n[machine.limits]\nwork_speed_deg_per_s = \
+                    100\n";
 const ROUND: &str = "[gear]\nmodule_mm = 3.0\nteeth = 18\nface_width_mm = 6\n[tool.shaper_cutter]\nteeth = 20\n\
                      [mounting]\neccentricity_um = 20\n";
 
