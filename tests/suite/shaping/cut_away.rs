@@ -73,6 +73,22 @@ fn headlines_of_a_gear_that_is_cut_away_are_not_those_of_the_scene() {
     }
 }
 
+/// Where one tooth of 24 has a flank that is cut away, the thickness is that of the others and says so.
+#[test]
+fn the_thickness_says_of_how_many_teeth_it_is() {
+    let job = job(&[]);
+    let progress = Progress::new(ProgressMode::Quiet);
+    let mut gear = cut_gear(&job, &Cpu::default(), &progress, &Interrupt::default(), None).expect("a gear");
+    gear.report.flanks[4].own.is_lost = true;
+    gear.report.inspection.thickness[2] = None;
+    let headline = findings::headline(&job, &gear.report, &gear.chips, &OperationAxes::of_job(&job));
+    for key in ["smallest_tooth_thickness", "largest_tooth_thickness"] {
+        let thickness = &headline.iter().find(|of| of.key == key).expect("an entry").quantity;
+        assert!(thickness.value().is_some());
+        assert!(thickness.definition().ends_with("of 23 of 24 teeth; the others are cut away"), "{thickness:?}");
+    }
+}
+
 /// The number at a path below a section.
 fn number(section: &Section, path: &str) -> Option<f64> {
     match path.split_once('/') {

@@ -1,6 +1,7 @@
 //! Tips of teeth: rays that pass through a thin one into the next space, and rays of the tip corner that rounding or a
 //! shift of the gear leaves uncut, are no defects; what is cut away or left is told.
 
+use crate::fixtures::command::gearcut;
 use gearcut::cut::cpu::Cpu;
 use gearcut::findings::{Severity, Warning};
 use gearcut::interrupt::Interrupt;
@@ -55,6 +56,42 @@ fn a_gouge_at_a_thin_tip_is_found() {
         let deepest_mm = flank.own.below_target.expect("a cut").value_mm;
         assert!((-0.1..-0.05).contains(&deepest_mm) && flank.own.below_range == 0, "{deepest_mm} mm");
     }
+}
+
+/// Ten finishing strokes turn the cutter by 0.1 degrees, some 50 um at its pitch circle, where they finish the tip of a
+/// flank: the gouge is found there.
+#[test]
+fn a_gouge_of_a_thin_tip_alone_is_found() {
+    const STROKES: usize = 600;
+    let operations = |program: &str| {
+        format!(
+            "operation=[{{name=\"rough\",offset_mm=0.3,strokes_per_revolution={STROKES}}},\
+             {{name=\"finish\",strokes_per_revolution={STROKES}{program}}}]"
+        )
+    };
+    let folder = tempfile::tempdir().expect("a folder");
+    let at = |name: &str| folder.path().join(name).to_str().expect("a path").to_owned();
+    std::fs::write(at("thin.toml"), THIN).expect("written");
+    let code = gearcut(&["axes", &at("thin.toml"), "--out", &at("axes"), "--set", &operations("")]).code;
+    assert_eq!(code, 0);
+    let own = std::fs::read_to_string(at("axes/axes/finish.ngc")).expect("a program");
+    // A block to stroke 332 of the turn, to the next with the cutter turned, nine so, one back, and the rest.
+    let mut blocks = String::new();
+    let mut stroke = 0.0;
+    for (strokes, turned_deg) in [(332.0, 0.0), (1.0, 0.1), (9.0, 0.1), (1.0, 0.0), (256.0, 0.0)] {
+        stroke += strokes;
+        let work_deg = 4.2 + 0.6 * stroke;
+        let (cutter_deg, rate) = (0.6 * work_deg + turned_deg, 400.0 / strokes);
+        blocks += &format!("N60 G93 G1 X50.0970 C-{work_deg:.5} B{cutter_deg:.5} F{rate:.9}\n");
+    }
+    let whole_turn = own.lines().find(|line| line.starts_with("N60 G93 G1 X50.0970 C-363.60000")).expect("a turn");
+    std::fs::write(at("turned.ngc"), own.replace(&format!("{whole_turn}\n"), &blocks)).expect("written");
+    let named = operations(&format!(",program=\"{}\"", at("turned.ngc")));
+    let (report, told) = cut(THIN, &[&COARSE[..], &[named.as_str()]].concat());
+    let deepest = report.flanks.iter().filter_map(|flank| Some((flank, flank.own.below_target?)));
+    let found: Vec<(f64, f64)> = deepest.map(|(flank, of)| (of.arc_mm / flank.length_mm, of.value_mm)).collect();
+    assert!(found.iter().any(|&(share, mm)| share > 0.9 && mm < -0.02), "{found:?}");
+    assert!(has(&told, "below the target") && !has(&told, "rays record"), "{told:?}");
 }
 
 /// An oval whose last columns, at the tip corner, the blank's outline keeps; and a gear clamped 20 um off its axis.
