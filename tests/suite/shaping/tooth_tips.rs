@@ -82,7 +82,7 @@ fn a_gouge_of_a_thin_tip_alone_is_found() {
         stroke += strokes;
         let work_deg = 4.2 + 0.6 * stroke;
         let (cutter_deg, rate) = (0.6 * work_deg + turned_deg, 400.0 / strokes);
-        blocks += &format!("N60 G93 G1 X50.0970 C-{work_deg:.5} B{cutter_deg:.5} F{rate:.9}\n");
+        blocks.extend([format!("N60 G93 G1 X50.0970 C-{work_deg:.5} B{cutter_deg:.5} F{rate:.9}\n")]);
     }
     let whole_turn = own.lines().find(|line| line.starts_with("N60 G93 G1 X50.0970 C-363.60000")).expect("a turn");
     std::fs::write(at("turned.ngc"), own.replace(&format!("{whole_turn}\n"), &blocks)).expect("written");

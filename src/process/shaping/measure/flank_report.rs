@@ -76,7 +76,8 @@ pub struct ShapedFlank {
     pub finished: Option<[Extreme; 2]>,
     /// Arcs between which the surface of each earlier operation is its flank and no fillet, mm; stock is judged there.
     pub active_mm: Vec<[f64; 2]>,
-    /// Deepest cut below the target anywhere on the flank, if deeper than the dexels' resolution.
+    /// Deepest cut below the target on any ray that does not end in the next space, if deeper than the dexels'
+    /// resolution.
     pub below_target: Option<Extreme>,
     /// Scallops in the middle of the face.
     pub scallops: Option<Scallops>,
@@ -85,7 +86,7 @@ pub struct ShapedFlank {
     pub witness: Option<Extreme>,
     /// What is still the blank.
     pub uncut: Option<Uncut>,
-    /// Dexels that were cut deeper than their rays record.
+    /// Dexels that were cut deeper than their rays record, but for rays that end in the next space.
     pub below_range: u64,
     /// The evaluated profile was cut deeper than its rays record, half a module under the target: heights there are
     /// upper bounds, and nothing that follows from them is stated.
