@@ -72,13 +72,9 @@ impl Work {
         format!("{millions:.1} million, {per_dexel} passes each{alike}")
     }
 
-    /// What a reader of the results must know of how flanks were cut: `untouched` dexels were reached by no pass, and
-    /// `why` says so for the process.
-    pub fn warnings(&self, untouched: u64, why: &str) -> Vec<Warning> {
+    /// What a reader of the results must know of how flanks were cut.
+    pub fn warnings(&self) -> Vec<Warning> {
         let mut warnings = Vec::new();
-        if untouched > 0 {
-            warnings.push(Warning::warn(format!("{untouched} dexels were reached by no pass: {why}")));
-        }
         let unconverged = self.stats.unconverged;
         if unconverged > 0 {
             warnings.push(Warning::warn(format!(
@@ -90,6 +86,11 @@ impl Work {
         }
         warnings
     }
+}
+
+/// Dexels that no pass reached; `why` says so for the process.
+pub fn untouched_dexels(dexels: u64, why: &str) -> Option<Warning> {
+    (dexels > 0).then(|| Warning::warn(format!("{dexels} dexels were reached by no pass: {why}")))
 }
 
 /// What a run says where a gear has no closed body.

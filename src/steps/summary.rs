@@ -8,12 +8,21 @@ use crate::output::text::{Sheet, plain, significant};
 use crate::scene::model::Gear;
 use std::path::Path;
 
-/// The summary of a run that has finished `flanks` flanks on `backend` and has written to `out`.
-pub fn text(gear: &Gear, findings: &Findings, flanks: usize, work: &Work, out: &Path, backend: &str) -> String {
+/// The summary of a run that has finished `flanks` flanks, of which `lost` are cut away, on `backend` and has written
+/// to `out`.
+pub fn text(
+    gear: &Gear,
+    findings: &Findings,
+    [flanks, lost]: [usize; 2],
+    work: &Work,
+    out: &Path,
+    backend: &str,
+) -> String {
     let mut sheet = Sheet::default();
     let state = if findings.complete { "" } else { ", stopped before all were done" };
+    let away = if lost > 0 { format!(", {lost} of them away") } else { String::new() };
     sheet.heading(&format!(
-        "{}: {} teeth, module {} mm, {flanks} of {} flanks cut{state}",
+        "{}: {} teeth, module {} mm, {flanks} of {} flanks cut{away}{state}",
         findings.scene,
         gear.teeth,
         plain(gear.module_mm),

@@ -17,6 +17,7 @@ use crate::output::text::significant;
 use crate::steps::axes::{self, AxesOfOperation as _};
 use crate::steps::foreseen::Foreseen;
 use crate::steps::machine_errors::{self, size, tool_words};
+use crate::steps::untouched_dexels;
 use crate::texture::{self, WindowTexture};
 use gearcut_core::bevel::ease_off::{Explained, Setting};
 use gearcut_core::error::Result;
@@ -53,7 +54,8 @@ pub fn findings(job: &BevelJob, gear: &BevelGear, measured: &BevelMeasured) -> R
     );
     let mut warnings = foreseen.to_vec();
     let untouched = gear.flanks.iter().map(|flank| flank.untouched).sum();
-    warnings.extend(work.warnings(untouched, "the roll does not cover the whole flanks"));
+    warnings.extend(untouched_dexels(untouched, "the roll does not cover the whole flanks"));
+    warnings.extend(work.warnings());
     warnings.extend(texture::warnings(job, textures));
     let mut sections = vec![
         settings(job),

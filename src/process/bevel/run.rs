@@ -89,6 +89,6 @@ pub(super) fn run(job: &BevelJob, tools: &Tools) -> Result<CutDone> {
     conclusion::write(&mut found, &motion, tools, &mut attempts, page)?;
     let out = folder.results_path(found.complete);
     let flanks = gear.flanks.len();
-    let summary = summary::text(&job.scene.gear, &found, flanks, &work, &out, &backend.name());
+    let summary = summary::text(&job.scene.gear, &found, [flanks, 0], &work, &out, &backend.name());
     Ok(CutDone { findings: found, summary, work })
 }

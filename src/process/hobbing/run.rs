@@ -109,7 +109,7 @@ pub(super) fn run(job: &HobbingJob, tools: &Tools) -> Result<CutDone> {
     conclusion::write(&mut found, &motion, tools, &mut attempts, page)?;
     let out = folder.results_path(found.complete);
     let flanks = gear.flanks.len();
-    let summary = summary::text(&job.scene.gear, &found, flanks, &gear.work, &out, &backend.name());
+    let summary = summary::text(&job.scene.gear, &found, [flanks, 0], &gear.work, &out, &backend.name());
     Ok(CutDone { findings: found, summary, work: gear.work })
 }
 

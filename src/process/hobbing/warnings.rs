@@ -16,7 +16,7 @@ use crate::findings::{Warning, damage};
 use crate::job::RAY_DEPTH_MODULES;
 use crate::measure::damage::{Damage, gouge_mm};
 use crate::output::text::significant;
-use crate::steps::{axes, check_curve, flanks_of};
+use crate::steps::{axes, check_curve, flanks_of, untouched_dexels};
 use gearcut_core::error::Result;
 use rayon::prelude::*;
 
@@ -58,7 +58,8 @@ pub fn after(
 ) -> Result<Vec<Warning>> {
     let mut warnings = of_flanks(cutter, gear);
     let untouched = gear.flanks.iter().map(|flank| flank.untouched).sum();
-    warnings.extend(gear.work.warnings(untouched, "the hob does not cover the whole face"));
+    warnings.extend(untouched_dexels(untouched, "the hob does not cover the whole face"));
+    warnings.extend(gear.work.warnings());
     if let Some((report, loads)) = whole {
         warnings.extend(thick_chips(cutter, loads)?);
         warnings.extend(damaged(cutter.job, report));

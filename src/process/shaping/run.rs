@@ -47,7 +47,7 @@ pub(super) fn run(job: &ShapingJob, tools: &Tools, frames: Option<u32>) -> Resul
     let whole = blank.flatten();
     let mut sections = findings::sections(job, &gear.report, &gear.chips, &motion)?;
     let inspected = Inspected::new(job, &gear.report.flanks, &gear.report.inspection)?;
-    let other_gear = findings::program::not_of_the_gear(job, &motion);
+    let other_gear = findings::program::not_of_the_cut_gear(job, &motion, &gear.report);
     sections.extend(inspected.sections(&job.scene.measure, other_gear.as_deref()));
     sections.extend(whole.as_ref().map(|(cut, report)| blank_findings::findings(&job.planar(), cut, report)));
     sections.push(texture::findings(job, &textures));
@@ -95,7 +95,7 @@ pub(super) fn run(job: &ShapingJob, tools: &Tools, frames: Option<u32>) -> Resul
     conclusion::write(&mut found, &motion, tools, &mut attempts, page)?;
     let out = folder.results_path(found.complete);
     let work = Work { interrupted, ..gear.work };
-    let flanks = gear.report.flanks.len();
+    let flanks = [gear.report.flanks.len(), gear.report.lost()];
     let summary = summary::text(&job.scene.gear, &found, flanks, &work, &out, &backend.name());
     Ok(CutDone { findings: found, summary, work })
 }

@@ -80,8 +80,8 @@ pub fn after(
     }
     warnings.extend(beyond_record(report));
     warnings.extend(unsettled(report));
-    let untouched = report.flanks.iter().map(|flank| flank.untouched).sum();
-    warnings.extend(work.warnings(untouched, "part of the flanks is still the blank"));
+    warnings.extend(uncut(report));
+    warnings.extend(work.warnings());
     if let Some(blank) = blank {
         warnings.extend(blank_findings::warnings(&job.planar(), blank, depth_mm));
         warnings.extend(rubbing(job, blank));
@@ -176,6 +176,22 @@ fn beyond_record(report: &GearReport) -> Option<Warning> {
     (below > 0).then(|| {
         Warning::warn(format!("{below} dexels were cut deeper than their rays record: heights there are upper bounds"))
     })
+}
+
+/// Flanks that are still the blank somewhere below their tip corner.
+fn uncut(report: &GearReport) -> Option<Warning> {
+    let flanks: Vec<_> = report.flanks.iter().filter_map(|flank| Some((flank, flank.own.uncut?))).collect();
+    let (flank, most) = flanks.iter().max_by_key(|(_, uncut)| uncut.dexels)?;
+    let dexels: u64 = flanks.iter().map(|(_, uncut)| uncut.dexels).sum();
+    Some(Warning::warn(format!(
+        "{dexels} dexels were reached by no pass: part of {} flanks is still the blank, most of tooth {} {}: {} % of \
+         it, beginning {:.2} mm above the start of the involute",
+        flanks.len(),
+        flank.tooth,
+        flank.side.name(),
+        significant(100.0 * most.share, 3),
+        most.from_mm
+    )))
 }
 
 /// The flank that is cut deepest below the target, and where.

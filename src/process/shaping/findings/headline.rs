@@ -81,8 +81,21 @@ pub fn headline(job: &ShapingJob, report: &GearReport, chips: &ChipLedger, motio
     };
     let thickness_why = "no tooth crosses the pitch curve with both flanks, or nothing is left between them";
     // Ends and tips of flanks follow from the meshing condition: of the scene's own strokes.
-    let other_gear = program::not_of_the_gear(job, motion);
+    let other_gear = program::not_of_the_cut_gear(job, motion, report);
+    let other_strokes = program::not_of_the_gear(job, motion);
     let of_scene = |quantity: Quantity| program::of_scene(quantity, other_gear.as_deref());
+    // What is left of a gear that is cut away says of how many teeth it is, or nothing where most are gone.
+    let teeth = job.scene.gear.teeth as usize;
+    let of_teeth = |definition: &str| match report.lost() {
+        0 => definition.to_owned(),
+        _ => format!("{definition}, of {} of {teeth} teeth; the others are cut away", thickness.len()),
+    };
+    let are_most_gone = report.lost() > 0 && 2 * thickness.len() < teeth;
+    let of_left = |pick: fn(f64, f64) -> f64, definition: &str| {
+        let value = thickness.iter().copied().reduce(pick).filter(|_| !are_most_gone);
+        let why = if are_most_gone { "most teeth are cut away" } else { thickness_why };
+        Quantity::number_or(value, "mm", of_teeth(definition), why)
+    };
     vec![
         Entry::headline(
             "smallest_normal_stock",
@@ -147,22 +160,12 @@ pub fn headline(job: &ShapingJob, report: &GearReport, chips: &ChipLedger, motio
         Entry::headline(
             "smallest_tooth_thickness",
             "thinnest tooth, arc",
-            Quantity::number_or(
-                thickness.iter().copied().reduce(f64::min),
-                "mm",
-                "smallest tooth thickness, arc of the pitch curve",
-                thickness_why,
-            ),
+            of_left(f64::min, "smallest tooth thickness, arc of the pitch curve"),
         ),
         Entry::headline(
             "largest_tooth_thickness",
             "thickest tooth, arc",
-            Quantity::number_or(
-                thickness.iter().copied().reduce(f64::max),
-                "mm",
-                "largest tooth thickness, arc of the pitch curve",
-                thickness_why,
-            ),
+            of_left(f64::max, "largest tooth thickness, arc of the pitch curve"),
         ),
         Entry::headline(
             "witness_mark",
@@ -179,12 +182,15 @@ pub fn headline(job: &ShapingJob, report: &GearReport, chips: &ChipLedger, motio
         Entry::headline(
             "relief_ratio",
             "relief over a round gear's",
-            of_scene(Quantity::number_or(
-                relief,
-                "1",
-                "smallest relief clearance on the return stroke, as a share of a circular gear's",
-                none,
-            )),
+            program::of_scene(
+                Quantity::number_or(
+                    relief,
+                    "1",
+                    "smallest relief clearance on the return stroke, as a share of a circular gear's",
+                    none,
+                ),
+                other_strokes.as_deref(),
+            ),
         ),
         Entry::headline(
             "cycle_time",

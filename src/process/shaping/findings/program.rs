@@ -9,6 +9,7 @@ use crate::output::text::significant;
 use crate::process::shaping::ShapingJob;
 use crate::process::shaping::axes_report::OperationAxes;
 use crate::process::shaping::gcode::Judgement;
+use crate::process::shaping::measure::GearReport;
 use crate::steps::axes::AxesOfOperation as _;
 use gearcut_core::units::UM_PER_MM;
 
@@ -53,18 +54,36 @@ pub fn section(motion: &OperationAxes) -> Option<Section> {
 /// Whether what is known of the scene's own strokes holds for the gear that is cut: a reason where it does not.
 pub fn not_of_the_gear(job: &ShapingJob, motion: &[OperationAxes]) -> Option<String> {
     let distance_mm = |operation: &OperationAxes| operation.program().map_or(0.0, |program| program.distance_mm);
-    let worst = motion.iter().max_by(|a, b| distance_mm(a).total_cmp(&distance_mm(b)))?;
-    not_of_the_operation(job, worst)
+    let others = motion.iter().filter_map(|of| Some((distance_mm(of), not_of_the_operation(job, of)?)));
+    others.max_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, why)| why)
 }
 
-/// The same of one operation, whatever the others do.
+/// The same of the gear after the run: flanks that are cut away have neither the ends nor the tips of the scene's own.
+pub fn not_of_the_cut_gear(job: &ShapingJob, motion: &[OperationAxes], report: &GearReport) -> Option<String> {
+    let lost = report.lost();
+    not_of_the_gear(job, motion).or_else(|| {
+        (lost > 0)
+            .then(|| format!("known of whole flanks alone; {lost} of {} flanks are cut away", report.flanks.len()))
+    })
+}
+
+/// The same of one operation, whatever the others do: a program that lies off its strokes, leaves some of them out or
+/// makes others.
 pub fn not_of_the_operation(job: &ShapingJob, motion: &OperationAxes) -> Option<String> {
-    let judgement = motion.program().filter(|program| program.is_off(job.scene.output.gcode_contour_error_mm))?;
-    Some(format!(
-        "known of the scene's own strokes alone; the program of {} that cuts this gear lies up to {} mm off them",
-        motion.name(),
-        significant(judgement.distance_mm, 3)
-    ))
+    let judgement = motion.program()?;
+    let lies_off = judgement.is_off(job.scene.output.gcode_contour_error_mm);
+    let (missing, off) = (judgement.missing.len(), judgement.off.len());
+    let told = [
+        (lies_off, format!("lies up to {} mm off them", significant(judgement.distance_mm, 3))),
+        (missing > 0, format!("leaves out {missing} of them")),
+        (off > 0, format!("makes {off} that {} none of them", if off == 1 { "is" } else { "are" })),
+    ];
+    let told: Vec<String> = told.into_iter().filter_map(|(is_so, words)| is_so.then_some(words)).collect();
+    (!told.is_empty()).then(|| {
+        let name = motion.name();
+        let told = told.join(" and ");
+        format!("known of the scene's own strokes alone; the program of {name} that cuts this gear {told}")
+    })
 }
 
 /// A quantity that is known of the scene's own strokes alone; `other` says why it does not hold.

@@ -10,7 +10,7 @@ use crate::process::shaping::target::FlankEnd;
 use gearcut_core::terms::Side;
 use gearcut_core::units::UM_PER_MM;
 
-/// Why a lowest height is not known.
+/// Why a lowest height, or what is known of whole flanks alone, is not known.
 const BELOW_RANGE: &str = "the flank is cut deeper than its rays record, half a module under the target";
 
 /// Smallest, largest and mean stock over some flanks (with their report, for the place) or roots.
@@ -151,10 +151,12 @@ pub fn allowance(
     if allowance.is_some() { table.in_file(&format!("allowance_{operation}")) } else { table }
 }
 
-/// One finished tooth; `other_gear` says why what is known of the scene's own strokes does not hold for this gear.
+/// One finished tooth; `other_gear` says why what is known of the scene's own strokes does not hold for this gear. It
+/// does not hold for a flank that is cut away either, nor for its tooth's tip.
 pub fn finished_tooth(report: &GearReport, tooth: u32, other_gear: Option<&str>) -> Section {
     let row = tooth as usize - 1;
     let thickness = report.inspection.thickness.get(row).copied().flatten();
+    let is_lost = report.flanks.iter().any(|flank| flank.tooth == tooth && flank.own.is_lost);
     let mm = |value: Option<f64>, definition: &'static str, why| Quantity::number_or(value, "mm", definition, why);
     let crossing = "a flank does not cross the pitch curve or is cut away, or nothing is left between both";
     Section::new(format!("tooth_{tooth:02}"), format!("tooth {tooth}"))
@@ -162,7 +164,7 @@ pub fn finished_tooth(report: &GearReport, tooth: u32, other_gear: Option<&str>)
             "tip_land",
             of_scene(
                 mm(report.tip_lands_mm.get(row).copied(), "width of the tip between the flanks", "not computed"),
-                other_gear,
+                other_gear.or(is_lost.then_some("a flank of the tooth is cut away")),
             ),
         )
         .with(
@@ -198,6 +200,8 @@ fn end_words(end: FlankEnd) -> &'static str {
 
 fn finished_flank(report: &GearReport, tooth: u32, side: Side, other_gear: Option<&str>) -> Section {
     let flank = flank_of(report, tooth, side);
+    let is_lost = flank.is_some_and(|flank| flank.own.is_lost);
+    let other_gear = other_gear.or(is_lost.then_some(BELOW_RANGE));
     let not_cut = "the run was stopped before this flank was cut";
     let why = |reason: &'static str| match flank {
         Some(flank) if flank.own.is_lost => BELOW_RANGE,

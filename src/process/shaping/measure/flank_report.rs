@@ -4,6 +4,7 @@
 //! each operation and the finished surface, heights, scallops, profile deviations, cuts below it, the witness mark.
 //! Heights come from the dexels; begin and end from the closed form.
 
+use super::thin_tips;
 use crate::measure::deviation::Trace;
 use crate::measure::inspection::{InspectedFlank, TracedLines};
 use crate::measure::scallop::{Cusp, cusps};
@@ -15,6 +16,9 @@ use gearcut_core::dexel::{Layer, NO_PASS};
 
 /// Share of the flank left out at either end when the scene does not say where profiles are evaluated, and of the face.
 const DEFAULT_MARGIN: f64 = 0.05;
+/// What may stay of the blank at the tip corner, in modules: rounding decides of the last ray, and errors that shift a
+/// gear within its tolerances shift its corner as far. Tips are broken by more.
+const TIP_CORNER_MODULES: f64 = 0.02;
 /// Strokes at either end of an operation that make its witness mark.
 const WITNESS_STROKES: usize = 2;
 
@@ -36,6 +40,17 @@ pub struct Scallops {
     pub largest: Cusp,
     /// Cusp nearest to the pitch curve.
     pub at_pitch_curve: Option<Cusp>,
+}
+
+/// What no pass reached of a flank, but for its tip corner.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Uncut {
+    /// Dexels.
+    pub dexels: u64,
+    /// Their share of the flank's.
+    pub share: f64,
+    /// Arc of the lowest of them, mm.
+    pub from_mm: f64,
 }
 
 /// One flank, measured: the line along the tooth runs at the pitch curve, or in the middle of the evaluated profile
@@ -61,14 +76,17 @@ pub struct ShapedFlank {
     pub finished: Option<[Extreme; 2]>,
     /// Arcs between which the surface of each earlier operation is its flank and no fillet, mm; stock is judged there.
     pub active_mm: Vec<[f64; 2]>,
-    /// Deepest cut below the target anywhere on the flank, if deeper than the dexels' resolution.
+    /// Deepest cut below the target on any ray that does not end in the next space, if deeper than the dexels'
+    /// resolution.
     pub below_target: Option<Extreme>,
     /// Scallops in the middle of the face.
     pub scallops: Option<Scallops>,
     /// What the first and last finishing strokes stand above the rest of this flank (0 if nothing), where they touched
     /// it.
     pub witness: Option<Extreme>,
-    /// Dexels that were cut deeper than their rays record.
+    /// What is still the blank.
+    pub uncut: Option<Uncut>,
+    /// Dexels that were cut deeper than their rays record, but for rays that end in the next space.
     pub below_range: u64,
     /// The evaluated profile was cut deeper than its rays record, half a module under the target: heights there are
     /// upper bounds, and nothing that follows from them is stated.
@@ -116,12 +134,16 @@ pub fn measure(job: &ShapingJob, flank: &TargetFlank, cut: &CutField, rows_z_mm:
     let rows = field.rows();
     let middle = rows / 2;
     let inside = |arc: f64| arc >= evaluated_mm[0] && arc <= evaluated_mm[1];
-    let evaluated = extremes(
-        field,
-        |column| inside(field.columns[column].arc_mm),
-        |index| (finished.passes[index] != NO_PASS).then_some(finished.heights_mm[index]),
-    );
-    let deepest = lowest(field, &finished.heights_mm);
+    let tells = thin_tips::tell(job, flank, field, layers);
+    let is_evaluated = |column: usize| inside(field.columns[column].arc_mm);
+    let counts = |column: usize| tells[column] && is_evaluated(column);
+    let evaluated =
+        extremes(field, counts, |index| (finished.passes[index] != NO_PASS).then_some(finished.heights_mm[index]));
+    let deepest = if tells.contains(&false) {
+        extremes(field, |column| tells[column], |index| Some(finished.heights_mm[index])).map(|[lowest, _]| lowest)
+    } else {
+        lowest(field, &finished.heights_mm)
+    };
 
     let cusps: Vec<Cusp> = cusps(field, finished, middle).into_iter().filter(|cusp| inside(cusp.arc_mm)).collect();
     let pitch_arc_mm = flank.at_height(&job.blank, 0.0).map(|(arc, _)| arc);
@@ -143,11 +165,9 @@ pub fn measure(job: &ShapingJob, flank: &TargetFlank, cut: &CutField, rows_z_mm:
     let makes_mark =
         |pass: u32| (pass >= operation.strokes.first_pass && pass != NO_PASS).then(|| !ordinary.contains(&pass));
     let highest = |mark: bool| {
-        extremes(
-            field,
-            |column| inside(field.columns[column].arc_mm),
-            |index| (makes_mark(finished.passes[index]) == Some(mark)).then_some(finished.heights_mm[index]),
-        )
+        extremes(field, counts, |index| {
+            (makes_mark(finished.passes[index]) == Some(mark)).then_some(finished.heights_mm[index])
+        })
         .map(|[_, high]| high)
     };
     let witness = highest(true).map(|mark| {
@@ -169,9 +189,24 @@ pub fn measure(job: &ShapingJob, flank: &TargetFlank, cut: &CutField, rows_z_mm:
         let low = field.columns[column].low_mm as f32;
         layer.column(column, rows).iter().filter(|&&h| h <= low).count() as u64
     };
-    let below_range = (0..field.columns.len()).map(|column| copies * below_in(finished, column)).sum();
-    let is_lost =
-        (0..field.columns.len()).any(|column| inside(field.columns[column].arc_mm) && below_in(finished, column) > 0);
+    let columns = 0..field.columns.len();
+    let below_range =
+        columns.clone().filter(|&column| tells[column]).map(|column| copies * below_in(finished, column)).sum();
+    let is_lost = columns.clone().any(|column| counts(column) && below_in(finished, column) > 0);
+    let is_told = columns.clone().all(|column| tells[column] || !is_evaluated(column));
+    let corner_mm = length_mm - TIP_CORNER_MODULES * job.scene.gear.module_mm;
+    let uncut_in = |column: usize| {
+        let passes = &finished.passes[column * rows..(column + 1) * rows];
+        passes.iter().filter(|&&pass| pass == NO_PASS).count() as u64
+    };
+    let below_corner = columns.filter(|&column| field.columns[column].arc_mm <= corner_mm.max(evaluated_mm[1]));
+    let uncut: Vec<(usize, u64)> =
+        below_corner.map(|column| (column, uncut_in(column))).filter(|of| of.1 > 0).collect();
+    let uncut = uncut.first().map(|&(lowest, _)| {
+        let dexels: u64 = uncut.iter().map(|of| of.1).sum();
+        let from_mm = field.columns[lowest].arc_mm;
+        Uncut { dexels: copies * dexels, share: dexels as f64 / field.len() as f64, from_mm }
+    });
     // Where the involute of every earlier operation begins on this flank; its fillet stands below.
     let from_mm = |operation: usize| begins_mm(job, operation, flank).max(evaluated_mm[0]);
     let active_mm: Vec<[f64; 2]> =
@@ -187,7 +222,9 @@ pub fn measure(job: &ShapingJob, flank: &TargetFlank, cut: &CutField, rows_z_mm:
     };
     let earlier = || layers[..layers.len() - 1].iter().enumerate();
     let stock_in = |layer: &Layer, columns: &dyn Fn(usize) -> bool| {
-        stock(field, layer, finished, columns).filter(|_| !is_lost).map(|stock| stock.of_rows(copies))
+        stock(field, layer, finished, |column| tells[column] && columns(column))
+            .filter(|_| !is_lost)
+            .map(|stock| stock.of_rows(copies))
     };
     let own = ShapedFlank {
         form: limit(0.0, flank.form_end),
@@ -200,6 +237,7 @@ pub fn measure(job: &ShapingJob, flank: &TargetFlank, cut: &CutField, rows_z_mm:
         below_target: deepest.filter(|low| low.value_mm < -RESOLUTION_MM),
         scallops: scallops.filter(|_| !is_lost),
         witness: witness.filter(|_| !is_lost),
+        uncut,
         below_range,
         is_lost,
     };
@@ -208,7 +246,7 @@ pub fn measure(job: &ShapingJob, flank: &TargetFlank, cut: &CutField, rows_z_mm:
         side: flank.side,
         length_mm,
         evaluated_mm,
-        profile: profile_trace.deviation(evaluated_mm).filter(|_| !own.is_lost),
+        profile: profile_trace.deviation(evaluated_mm).filter(|_| is_told && !own.is_lost),
         lead: lead_trace.deviation([v_first + v_margin, v_last - v_margin]).filter(|_| !own.is_lost),
         lines: TracedLines {
             arcs_mm: profile_trace.places_mm.clone(),

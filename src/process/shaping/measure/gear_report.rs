@@ -52,6 +52,13 @@ pub struct GearReport {
     pub period_teeth: u32,
 }
 
+impl GearReport {
+    /// How many flanks are cut away.
+    pub fn lost(&self) -> usize {
+        self.flanks.iter().filter(|flank| flank.own.is_lost).count()
+    }
+}
+
 /// Measures what belongs to the whole gear; `flanks` and `roots` as far as they were cut.
 pub fn measure(job: &ShapingJob, flanks: Vec<FlankReport>, roots: Vec<RootReport>) -> GearReport {
     let teeth = job.scene.gear.teeth;

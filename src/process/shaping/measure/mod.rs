@@ -5,6 +5,7 @@ pub mod crossing;
 pub mod flank_deflection;
 pub mod flank_report;
 pub mod gear_report;
+mod thin_tips;
 pub mod unevenness;
 
 pub use flank_report::FlankReport;

@@ -1,0 +1,52 @@
+//! Rays that pass through the tip of a tooth into the next space.
+//!
+//! In: a flank, its rays, what operations left on them. Out: for each column whether its heights tell of the flank that
+//! it stands on. Law: a ray that leaves the tooth through its other flank meets there the strokes that cut the next
+//! space, down to twice the depth that it records. What stands beyond the middle of the tooth is not told from them, so
+//! such a column says nothing; the columns below it, where the tooth is thicker, do.
+//!
+//! Road not taken: rays that end in the middle of the tooth. Heights would then be those of the flank on every ray, but
+//! which strokes are candidates is decided for tiles of rays of one depth, on the CPU and in shaders.
+
+use crate::process::shaping::ShapingJob;
+use crate::process::shaping::target::TargetFlank;
+use gearcut_core::dexel::{Column, Field, Layer};
+use gearcut_core::terms::Side;
+use glam::DVec2;
+
+/// Chords that stand for the other flank: they lie a micrometre or less off it, and only half the thickness of a tooth
+/// is taken from them.
+const CHORDS: u32 = 64;
+
+/// Whether the heights of each column are those of its own flank.
+pub fn tell(job: &ShapingJob, flank: &TargetFlank, field: &Field, layers: &[Layer]) -> Vec<bool> {
+    let other = match flank.side {
+        Side::Left => Side::Right,
+        Side::Right => Side::Left,
+    };
+    let other = job.target_flank(flank.tooth, other);
+    let at = |i: u32| other.at_arc(other.length_mm() * f64::from(i) / f64::from(CHORDS)).point_mm;
+    let points_mm: Vec<DVec2> = (0..=CHORDS).map(at).collect();
+    let rows = field.rows();
+    let tells = |(index, column): (usize, &Column)| {
+        let Some(depth_mm) = through_mm(column, &points_mm).filter(|depth_mm| *depth_mm < -2.0 * column.low_mm) else {
+            return true;
+        };
+        let middle_mm = (-0.5 * depth_mm) as f32;
+        layers.iter().all(|layer| layer.column(index, rows).iter().all(|&height_mm| height_mm > middle_mm))
+    };
+    field.columns.iter().enumerate().map(tells).collect()
+}
+
+/// How deep in the tooth a ray leaves it through a flank, mm; none where it does not.
+fn through_mm(column: &Column, flank_mm: &[DVec2]) -> Option<f64> {
+    let inwards = -column.normal;
+    let met = |chord: &[DVec2]| {
+        let [from, to] = [chord[0], chord[1]].map(|point| point - column.origin_mm);
+        let [a, b] = [from, to].map(|point| inwards.perp_dot(point));
+        // The chord crosses the ray's line between its ends.
+        let depth_mm = inwards.dot(from.lerp(to, a / (a - b)));
+        (a * b <= 0.0 && a != b && depth_mm >= 0.0).then_some(depth_mm)
+    };
+    flank_mm.windows(2).filter_map(met).reduce(f64::min)
+}
