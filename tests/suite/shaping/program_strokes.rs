@@ -143,7 +143,10 @@ fn an_excursion_between_two_strokes_is_told() {
     ] {
         let (severity, words) = verdict(&text(&own, Some(by), &end));
         assert_eq!(severity, expected, "{by:?}: {words}");
-        assert!(expected.is_none() || words.contains("between strokes") && words.contains("at 100.5"), "{words}");
+        assert!(
+            expected.is_none() || words.contains("between strokes") && words.contains("at stroke 100.5"),
+            "{words}"
+        );
     }
     // In no time at all, on the way or where a stroke stands.
     let (there, back) = (words(&own, 50.0, [-20.0, 0.0]), words(&own, 50.0, [0.0; 2]));

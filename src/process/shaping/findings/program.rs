@@ -110,7 +110,8 @@ fn told(job: &ShapingJob, motion: &OperationAxes, judgement: &Judgement) -> Vec<
     if scraping_mm > asked_mm {
         let text = format!(
             "operation {name}: between strokes the program lies up to {} um off the straight way from the one to the \
-             next, at {}; relief clears a flank by {} um (machine.back_off_mm); let the axes go straight, or draw back",
+             next, at stroke {}; relief clears a flank by {} um (machine.back_off_mm); let the axes go straight, or \
+             draw back",
             significant(UM_PER_MM * judgement.between_mm, 4),
             significant(judgement.between_at, 6),
             significant(UM_PER_MM * clearance_mm, 3)
