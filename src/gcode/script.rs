@@ -46,6 +46,8 @@ pub struct Ram {
     pub per_minute: f64,
     /// The same as a scene gives it.
     pub shown: String,
+    /// Double strokes that it makes after the last line.
+    pub runs_on: f64,
 }
 
 /// A program of straight lines.
@@ -122,8 +124,7 @@ impl Script {
             text.block("G90");
         }
         if let Some(ram) = &self.ram {
-            // The last stroke is made where the last block ends.
-            text.block(&(dialect.dwell)(60.0 / ram.per_minute));
+            text.block(&(dialect.dwell)(60.0 * ram.runs_on / ram.per_minute));
             text.block("M5");
         }
         if dialect.approaches {

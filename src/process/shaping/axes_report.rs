@@ -82,12 +82,12 @@ impl<'a> OperationAxes<'a> {
             places.map(|phi| (phi, beta(phi))).fold((0.0, 0.0), |best, here| if here.1 > best.1 { here } else { best });
         let judged = |program: &AxisProgram| {
             let ram = job.ram_times();
-            let ram = retraction.is_in_axes().then_some(&ram);
+            let back = retraction.is_in_axes().then_some((&ram, retraction));
             let asked_mm = job.scene.output.gcode_contour_error_mm;
             program.judged(
                 schedule,
                 job.cutter.tip_radius_mm,
-                ram,
+                back,
                 asked_mm,
                 job.machine.double_strokes_per_minute,
                 spec.feed_during_stroke,

@@ -86,8 +86,9 @@ fn programs_of_shaping_move_the_axes_on_every_control() {
                 psi_b_rad: at[&'B'].to_radians(),
                 center_distance_mm: at[&'X'],
             };
+            let knots = done.path.iter().map(knot).collect();
             let program =
-                AxisProgram { double_strokes_per_minute: per_minute, knots: done.path.iter().map(knot).collect() };
+                AxisProgram { double_strokes_per_minute: per_minute, knots, runs_on: done.dwell_s * per_minute / 60.0 };
             let schedule = &job.operations[0].schedule;
             let (last, strokes) = (program.knots[program.knots.len() - 1].stroke, schedule.count() as f64 - 1.0);
             let doubt = doubt_minutes(post) * per_minute;

@@ -281,8 +281,8 @@ fn malformed_programs_are_refused_by_line_and_word() {
         ("G93 G1 X91 F0\n", "line 4: word `F0`: a feed"),
         ("G93 G1 X91 F10 S200\n", "line 4: word `S200`: the ram's speed changes"),
         ("G93 G1 X91 F10\n", "line 4: the program ends without M30"),
-        ("M30\nG0 X1\n", "line 5: a block after the end"),
-        ("M5\nS300 M3\n", "line 5: word `M3`: the ram starts a second time"),
+        ("G4 P1\nM30\nG0 X1\n", "line 6: a block after the end"),
+        ("G4 P1\nM5\nS300 M3\n", "line 6: word `M3`: the ram starts a second time"),
     ] {
         let why = read::program(&format!("G21 G90 G94\nG0 X90 C0 B0\nS300 M3\n{tail}")).expect_err(tail);
         assert!(why.contains(expected), "{tail:?}: {why}");
@@ -294,10 +294,10 @@ fn dwells_lower_case_and_comments_are_understood() {
     let program = "%\n(head)\nn1 g21 g90 g94\nG0X90C-1B+2.5 ; to the start\nS60M3\nG93 G1 X91 (in) F30\nG4 P3\nG1 X92 \
         F60\nM5\nM30\n";
     let read = read::program(program).expect("well formed");
-    // 60 per minute: two strokes in 1/30 min, three at rest, one more.
+    // 60 per minute: two strokes in 1/30 min, three at rest, one more; the ram stops at the top of the next.
     let knots: Vec<[f64; 2]> = read.knots.iter().map(|k| [k.stroke, k.center_distance_mm]).collect();
     assert_eq!(knots, [[0.0, 90.0], [2.0, 91.0], [5.0, 91.0], [6.0, 92.0]]);
-    assert_eq!(read.count(), 7);
+    assert_eq!((read.count(), read.runs_on), (6, 0.0));
     // C counts counter-clockwise, and the work turns by -psi_c.
     assert!((read.knots[0].psi_c_rad.to_degrees() - 1.0).abs() < 1e-12);
     assert!((read.knots[0].psi_b_rad.to_degrees() - 2.5).abs() < 1e-12);
@@ -327,6 +327,9 @@ fn every_infeed_has_a_program() {
                 assert_eq!(program.count(), schedule.count());
                 let (reached_mm, stroke) = program.contour_error_mm(schedule, job.cutter.tip_radius_mm, continuous);
                 assert!(reached_mm <= 1.001e-3, "{infeed:?}, continuous {continuous}: {reached_mm} mm at {stroke}");
+                // An infeed ends between two strokes, where the scene has the cutter.
+                let (off_mm, stroke) = program.between_mm(schedule, job.cutter.tip_radius_mm, None);
+                assert!(off_mm <= 1.001e-3, "{infeed:?}, continuous {continuous}: {off_mm} mm off at {stroke}");
             }
         }
     }

@@ -28,6 +28,7 @@ mod other_gear;
 mod paper_figures;
 mod planted;
 mod ploughing;
+mod program_strokes;
 mod retraction;
 mod ring_errors;
 mod round_gear;

@@ -35,7 +35,7 @@ fn own(job: &ShapingJob) -> AxisProgram {
         }
     };
     let double_strokes_per_minute = 60.0 / schedule.time_s(1.0);
-    AxisProgram { double_strokes_per_minute, knots: (0..schedule.count()).map(knot).collect() }
+    AxisProgram { double_strokes_per_minute, knots: (0..schedule.count()).map(knot).collect(), runs_on: 1.0 }
 }
 
 /// The same with strokes numbered anew: what a removed or doubled block leaves.

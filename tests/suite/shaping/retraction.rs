@@ -10,13 +10,14 @@ use crate::fixtures::rings::ring_scene;
 use gearcut::cut::cpu::Cpu;
 use gearcut::frame::Rigid2;
 use gearcut::gear::{Driver, GearKind, PitchCurve, PitchCurveShape};
+use gearcut::process::shaping::axes_report::OperationAxes;
 use gearcut::process::shaping::linkage::retraction::{RetractingCutter, RetractionLaw};
 use gearcut::process::shaping::linkage::{CutterPose, dynamics};
 use gearcut::process::shaping::returns::clearance::{Clearance, ReturnRoom};
 use gearcut::process::shaping::returns::motion::{RamTimes, RetractionMotion};
 use gearcut::process::shaping::returns::survey::tightest;
 use gearcut::process::shaping::scene::model as shaping;
-use gearcut::process::shaping::{ShapingJob, gcode, programs};
+use gearcut::process::shaping::{ShapingJob, findings, gcode, programs};
 use gearcut::steps::planar::blank_report;
 use glam::DVec2;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
@@ -311,7 +312,7 @@ fn programs_draw_the_cutter_back_and_are_read_back() {
         part.machine.retraction = retraction;
         part.machine.limits = shaping::AxisLimits::default();
         part.operations[0].feed_during_stroke = continuous;
-        let job = ShapingJob::new(scene).expect("a gear");
+        let mut job = ShapingJob::new(scene).expect("a gear");
         let operation = job.finishing();
         let text = programs::text(&job, operation, &[]).expect("wanted").expect("written");
         assert!(text.contains("RETRACTION"), "{}", &text[..600]);
@@ -332,6 +333,13 @@ fn programs_draw_the_cutter_back_and_are_read_back() {
             // Drawn back it is: a program without its return would be caught.
             assert!(found.center_mm.distance(state.pose.center_mm) > 0.49);
         }
+        job.operations[0].program = Some(program);
+        let motion = OperationAxes::of_job(&job);
+        let told = findings::program::warnings(&job, &motion);
+        assert!(told.is_empty(), "{retraction:?}: {told:?}");
+        // Beside the drawing back the axes go straight.
+        let between_mm = motion[0].program().expect("judged").between_mm;
+        assert!(between_mm < 0.01, "{retraction:?}: {between_mm} mm between strokes");
     }
 }
 

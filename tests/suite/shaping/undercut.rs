@@ -342,7 +342,7 @@ fn undercut_is_told_of_the_scenes_own_strokes_alone() {
         };
         let double_strokes_per_minute = 60.0 / schedule.time_s(1.0);
         let knots = (0..schedule.count()).map(knot).collect();
-        job.operations[1].program = Some(AxisProgram { double_strokes_per_minute, knots });
+        job.operations[1].program = Some(AxisProgram { double_strokes_per_minute, knots, runs_on: 1.0 });
         assert_eq!(tells(&job), told, "{back_mm} mm back");
         job.operations[1].program = None;
     }

@@ -15,7 +15,8 @@ use gearcut_core::units::UM_PER_MM;
 
 /// The section; none where the operation is cut by the scene's own strokes.
 pub fn section(motion: &OperationAxes) -> Option<Section> {
-    let Judgement { distance_mm, distance_at, missing, doubled, off, strokes_per_minute } = motion.program()?;
+    let Judgement { distance_mm, distance_at, between_mm, between_at, missing, doubled, off, strokes_per_minute } =
+        motion.program()?;
     let count = |of: &[usize], definition: &'static str| {
         let quantity = Quantity::count(of.len() as u64, "strokes", definition);
         match of.first() {
@@ -25,6 +26,8 @@ pub fn section(motion: &OperationAxes) -> Option<Section> {
     };
     let [program, scene] = *strokes_per_minute;
     let distance = "largest displacement of the cutter's edge in the work from the scene's own strokes";
+    let between = "largest displacement of the cutter's edge between two strokes from the straight way from the one to \
+                   the other; drawing back is none";
     Some(
         Section::new("program", "Program under test")
             .shown(
@@ -32,6 +35,10 @@ pub fn section(motion: &OperationAxes) -> Option<Section> {
                 "off the scene's strokes",
                 Quantity::number(UM_PER_MM * distance_mm, "um", distance)
                     .at(Place::default().and("stroke", *distance_at)),
+            )
+            .with(
+                "largest_distance_between_strokes",
+                Quantity::number(UM_PER_MM * between_mm, "um", between).at(Place::default().and("stroke", *between_at)),
             )
             .shown("missing_strokes", "missing", count(missing, "strokes of the scene that the program does not make"))
             .shown("doubled_strokes", "made twice", count(doubled, "strokes of the program that repeat one before"))
@@ -96,12 +103,14 @@ pub fn of_scene(quantity: Quantity, other: Option<&str>) -> Quantity {
 
 /// What a reader must know of the programs under test.
 pub fn warnings(job: &ShapingJob, motion: &[OperationAxes]) -> Vec<Warning> {
-    let of = |operation: &OperationAxes| operation.program().map(|program| told(job, operation.name(), program));
+    let of = |operation: &OperationAxes| operation.program().map(|program| told(job, operation, program));
     motion.iter().filter_map(of).flatten().collect()
 }
 
-fn told(job: &ShapingJob, name: &str, judgement: &Judgement) -> Vec<Warning> {
-    let mut warnings = Vec::new();
+fn told(job: &ShapingJob, motion: &OperationAxes, judgement: &Judgement) -> Vec<Warning> {
+    let (name, mut warnings) = (motion.name(), Vec::new());
+    let gouges = |mm: f64| mm > gouge_mm(job.scene.gear.module_mm);
+    let graded = |gouges: bool, text: String| if gouges { Warning::fault(text) } else { Warning::warn(text) };
     let asked_mm = job.scene.output.gcode_contour_error_mm;
     let distance_mm = judgement.distance_mm;
     if judgement.is_off(asked_mm) {
@@ -112,8 +121,21 @@ fn told(job: &ShapingJob, name: &str, judgement: &Judgement) -> Vec<Warning> {
             significant(judgement.distance_at, 6),
             significant(UM_PER_MM * asked_mm, 3)
         );
-        let damages = distance_mm > gouge_mm(job.scene.gear.module_mm);
-        warnings.push(if damages { Warning::fault(text) } else { Warning::warn(text) });
+        warnings.push(graded(gouges(distance_mm), text));
+    }
+    // Between strokes the cutter is drawn back: the nearest flank is this far away.
+    let clearance_mm = motion.relief.clearance_mm(job.machine.back_off_mm).max(0.0);
+    let scraping_mm = judgement.between_mm - clearance_mm;
+    if scraping_mm > asked_mm {
+        let text = format!(
+            "operation {name}: between strokes the program lies up to {} um off the straight way from the one to the \
+             next, at stroke {}; relief clears a flank by {} um (machine.back_off_mm); let the axes go straight, or \
+             draw back",
+            significant(UM_PER_MM * judgement.between_mm, 4),
+            significant(judgement.between_at, 6),
+            significant(UM_PER_MM * clearance_mm, 3)
+        );
+        warnings.push(graded(gouges(scraping_mm), text));
     }
     for (strokes, one, several) in [
         (

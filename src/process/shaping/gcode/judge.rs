@@ -4,13 +4,15 @@
 //! In: the program and the schedule of its operation. Out: [`Judgement`]. Law: a stroke of the program is the stroke of
 //! the schedule that it lies nearest to, if it lies nearer to it than a quarter of the way to its neighbours or than
 //! the contour error that is asked for; a stroke of the schedule that no stroke of the program is, is missing. Strokes
-//! are thus counted one by one, however many of them follow each other.
+//! are thus counted one by one, however many of them follow each other, until the ram stops. Between two strokes the
+//! axes go straight ([`super::between`]).
 //!
 //! Road not taken: what each stroke removes from the blank. It needs no schedule, but five missing strokes in a row
 //! leave one large chip, and few strokes on few teeth leave chips that differ as if one were missing between them.
 
 use super::program::{AxisProgram, Knot};
 use crate::process::shaping::linkage::StrokeSchedule;
+use crate::process::shaping::returns::RetractionPlan;
 use crate::process::shaping::returns::motion::RamTimes;
 
 /// A stroke is one of the schedule's within this share of the way to its neighbours.
@@ -28,6 +30,10 @@ pub struct Judgement {
     pub distance_mm: f64,
     /// Stroke coordinate that has it.
     pub distance_at: f64,
+    /// The largest between two strokes, from the straight way from the one to the other ([`super::between`]), mm.
+    pub between_mm: f64,
+    /// Stroke coordinate that has it.
+    pub between_at: f64,
     /// Strokes of the schedule that the program does not make.
     pub missing: Vec<usize>,
     /// Strokes of the program that repeat one that it has made.
@@ -61,21 +67,22 @@ impl AxisProgram {
         differ(self.double_strokes_per_minute, asked_per_minute)
     }
 
-    /// The program against a schedule; `ram` where its axes draw the cutter back, so that it is compared while it cuts.
+    /// The program against a schedule; `back` where its axes draw the cutter back: it is then compared while it cuts.
     /// `contour_error_mm` is what a program may be off, `asked_per_minute` the scene's double strokes.
     pub fn judged(
         &self,
         schedule: &StrokeSchedule,
         tip_radius_mm: f64,
-        ram: Option<&RamTimes>,
+        back: Option<(&RamTimes, &RetractionPlan)>,
         contour_error_mm: f64,
         asked_per_minute: f64,
         continuous: bool,
     ) -> Judgement {
-        let (distance_mm, distance_at) = match ram {
-            Some(ram) => self.cut_error_mm(schedule, tip_radius_mm, ram, continuous),
+        let (distance_mm, distance_at) = match back {
+            Some((ram, _)) => self.cut_error_mm(schedule, tip_radius_mm, ram, continuous),
             None => self.contour_error_mm(schedule, tip_radius_mm, continuous),
         };
+        let (between_mm, between_at) = self.between_mm(schedule, tip_radius_mm, back.map(|(_, plan)| plan));
         let gear = schedule.linkage().gear();
         let strokes: Vec<Knot> = (0..schedule.count()).map(|stroke| Knot::of(schedule, stroke as f64)).collect();
         let apart_mm = |a: &Knot, b: &Knot| a.displacement_mm(b, gear, tip_radius_mm);
@@ -106,6 +113,6 @@ impl AxisProgram {
         }
         let missing = (0..made.len()).filter(|&stroke| !made[stroke]).collect();
         let strokes_per_minute = [self.double_strokes_per_minute, asked_per_minute];
-        Judgement { distance_mm, distance_at, missing, doubled, off, strokes_per_minute }
+        Judgement { distance_mm, distance_at, between_mm, between_at, missing, doubled, off, strokes_per_minute }
     }
 }

@@ -21,6 +21,7 @@
 //! Road not taken: one point per stroke. It is exact, and at 4,200 strokes it starves the block buffer of older
 //! controls; straight lines within a micrometre need a tenth.
 
+pub mod between;
 pub mod judge;
 pub mod program;
 pub mod read;

@@ -18,7 +18,10 @@ const SAMPLES_PER_PART: usize = 4;
 /// end of an infeed with the distance: a 64th takes any of them below what is asked for steel.
 const PARTS_OF_A_STROKE: [usize; 4] = [1, 4, 16, 64];
 /// Strokes that differ by less are one: rounding of F.
-const WHOLE_STROKE: f64 = 1e-6;
+pub(super) const WHOLE_STROKE: f64 = 1e-6;
+/// A stroke is made if the ram runs on for this share of it: its cutting half. Dwells are rounded up to milliseconds by
+/// some controls, which is no stroke.
+const CUTTING_HALF: f64 = 0.5;
 /// Shortest block, s: what block buffers of older controls keep up with.
 const SHORTEST_S: f64 = 1e-3;
 
@@ -42,6 +45,13 @@ pub struct AxisProgram {
     pub double_strokes_per_minute: f64,
     /// At least one.
     pub knots: Vec<Knot>,
+    /// Double strokes that the ram makes after the last knot before it stops.
+    pub runs_on: f64,
+}
+
+/// How many strokes a ram makes that stops at a stroke coordinate.
+pub(super) fn strokes_until(stop: f64) -> usize {
+    (stop + 1.0 - CUTTING_HALF + WHOLE_STROKE).floor() as usize
 }
 
 impl Knot {
@@ -155,15 +165,16 @@ impl AxisProgram {
         };
         let mut knots = vec![exact[0].rounded(digits)];
         knots.extend(longest_lines(last, fits).into_iter().map(|end| exact[end * per_part].rounded(digits)));
-        Self { double_strokes_per_minute: 60.0 / schedule.time_s(1.0), knots }
+        // The last stroke is made where the last line ends.
+        Self { double_strokes_per_minute: 60.0 / schedule.time_s(1.0), knots, runs_on: 1.0 }
     }
 
-    /// Strokes from the first to the last knot, both included.
+    /// Strokes that the ram makes until it stops.
     pub fn count(&self) -> usize {
-        (self.last().stroke + 1e-6).floor() as usize + 1
+        strokes_until(self.last().stroke + self.runs_on)
     }
 
-    fn last(&self) -> &Knot {
+    pub(super) fn last(&self) -> &Knot {
         self.knots.last().expect("a program has a first position")
     }
 

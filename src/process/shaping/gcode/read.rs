@@ -1,6 +1,6 @@
 //! Reads a program back into axis positions, or says by line and word what it does not understand.
 
-use super::program::{AxisProgram, Knot};
+use super::program::{AxisProgram, Knot, WHOLE_STROKE as SAME_STROKE, strokes_until};
 use crate::gcode::{Word, blocks};
 use crate::machine::AxisKind;
 use crate::regular_file;
@@ -36,6 +36,8 @@ struct State {
     /// The axes stood still for a while; a knot there is needed if they move on.
     dwelt: bool,
     knots: Vec<Knot>,
+    /// Double strokes between the last knot and the stop of the ram.
+    runs_on: f64,
     ended: bool,
 }
 
@@ -59,7 +61,7 @@ pub fn program(text: &str) -> Result<AxisProgram, String> {
     }
     ended?;
     let double_strokes_per_minute = state.strokes_per_minute.unwrap_or_default();
-    Ok(AxisProgram { double_strokes_per_minute, knots: state.knots })
+    Ok(AxisProgram { double_strokes_per_minute, knots: state.knots, runs_on: state.runs_on })
 }
 
 impl State {
@@ -151,8 +153,8 @@ impl State {
         if start {
             self.start()?;
         }
-        if stop {
-            self.ram_runs = false;
+        if stop || end {
+            self.stop()?;
         }
         self.ended |= end;
         Ok(())
@@ -199,6 +201,27 @@ impl State {
         }
         self.ram_runs = true;
         self.knot();
+        Ok(())
+    }
+
+    /// The ram stops. Where it makes strokes after the one that the axes came for, the axes rest under them.
+    fn stop(&mut self) -> Result<(), String> {
+        if !std::mem::take(&mut self.ram_runs) {
+            return Ok(());
+        }
+        let made = strokes_until(self.stroke);
+        if made == 0 {
+            return Err(
+                "the ram stops (M5, M30 or M2) before it has made a stroke; let it run for one in a dwell (G4 P)"
+                    .to_owned(),
+            );
+        }
+        let last = |knots: &[Knot]| knots.last().map_or(0.0, |knot| knot.stroke);
+        if made as f64 - 1.0 > last(&self.knots) + SAME_STROKE {
+            self.knot();
+        }
+        self.dwelt = false;
+        self.runs_on = self.stroke - last(&self.knots);
         Ok(())
     }
 

@@ -55,7 +55,9 @@ impl AxisProgram {
         let reach_mm = knots.iter().map(|knot| knot.center_distance_mm).fold(0.0, f64::max) + tip_radius_mm;
         let digits = post.digits(contour_error_mm, reach_mm);
         let knots = knots.iter().map(|knot| knot.rounded(digits)).collect();
-        Self { double_strokes_per_minute: 60.0 / schedule.time_s(1.0), knots }
+        // The ram stops where the last return stroke ends.
+        let runs_on = ram.top - ram.return_ends;
+        Self { double_strokes_per_minute: 60.0 / schedule.time_s(1.0), knots, runs_on }
     }
 
     /// Largest displacement from a schedule while the cutter is in the work, mm, and the stroke coordinate.

@@ -93,6 +93,7 @@ pub fn script(
         ram: Some(Ram {
             per_minute: program.double_strokes_per_minute,
             shown: plain(program.double_strokes_per_minute),
+            runs_on: program.runs_on,
         }),
         start: position(&program.knots[0]),
         lines: program.knots.windows(2).map(line).collect(),

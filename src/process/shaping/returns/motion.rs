@@ -34,6 +34,8 @@ pub struct RamTimes {
     pub return_middle: f64,
     /// The return stroke leaves it.
     pub return_ends: f64,
+    /// The return stroke ends, and the next cutting stroke begins.
+    pub top: f64,
     /// The next cutting stroke enters it.
     pub next_begins: f64,
 }
@@ -50,6 +52,7 @@ impl RamTimes {
             return_begins: (TAU - bottom - middle) / TAU,
             return_middle: (TAU - 2.0 * middle) / TAU,
             return_ends: (TAU - top - middle) / TAU,
+            top: (TAU - middle) / TAU,
             next_begins: (TAU + top - middle) / TAU,
         }
     }
