@@ -43,7 +43,7 @@ fn planted(job: &ShapingJob, change: impl Fn(&mut Vec<Knot>)) -> AxisProgram {
     for (stroke, knot) in knots.iter_mut().enumerate() {
         knot.stroke = stroke as f64;
     }
-    AxisProgram { double_strokes_per_minute: 60.0 / schedule.time_s(1.0), knots }
+    AxisProgram { double_strokes_per_minute: 60.0 / schedule.time_s(1.0), knots, runs_on: 1.0 }
 }
 
 #[test]
