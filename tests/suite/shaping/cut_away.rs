@@ -1,6 +1,7 @@
 //! A gear of which flanks are cut away, by an operation or by a program: nothing of the scene's gear stands for it.
 
 use crate::fixtures::command::gearcut;
+use crate::fixtures::own_program::{own_program, renumbered};
 use gearcut::cut::cpu::Cpu;
 use gearcut::findings::Section;
 use gearcut::interrupt::Interrupt;
@@ -28,22 +29,9 @@ fn job(settings: &[&str]) -> ShapingJob {
 
 /// The finishing operation's own strokes with a change.
 fn planted(job: &ShapingJob, change: impl Fn(&mut Vec<Knot>)) -> AxisProgram {
-    let schedule = &job.operations[1].schedule;
-    let knot = |stroke: usize| {
-        let state = schedule.state(stroke as f64);
-        Knot {
-            stroke: stroke as f64,
-            psi_c_rad: state.psi_c_rad,
-            psi_b_rad: state.psi_b_rad,
-            center_distance_mm: state.center_distance_mm,
-        }
-    };
-    let mut knots: Vec<Knot> = (0..schedule.count()).map(knot).collect();
-    change(&mut knots);
-    for (stroke, knot) in knots.iter_mut().enumerate() {
-        knot.stroke = stroke as f64;
-    }
-    AxisProgram { double_strokes_per_minute: 60.0 / schedule.time_s(1.0), knots, runs_on: 1.0 }
+    let mut program = own_program(job);
+    change(&mut program.knots);
+    renumbered(program)
 }
 
 #[test]

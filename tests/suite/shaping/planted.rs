@@ -3,6 +3,7 @@
 //! A program with a knot for every stroke is what a shop would run; each defect is one that a hand, a post-processor or
 //! a wrong table leaves in it. Nothing is cut: the judgement compares axes with the scene's own strokes.
 
+use crate::fixtures::own_program::{own_program, renumbered};
 use gearcut::findings::Severity;
 use gearcut::process::load;
 use gearcut::process::shaping::ShapingJob;
@@ -20,30 +21,6 @@ fn job(more: &[&str]) -> ShapingJob {
     let settings: Vec<String> = settings.iter().chain(more).map(|&setting| setting.to_owned()).collect();
     let scene = load(Path::new(SCENE), &settings).unwrap_or_else(|problems| panic!("{problems}"));
     ShapingJob::new(scene.scene).expect("a gear")
-}
-
-/// The finishing operation's own strokes, a knot each.
-fn own(job: &ShapingJob) -> AxisProgram {
-    let schedule = &job.operations[1].schedule;
-    let knot = |stroke: usize| {
-        let state = schedule.state(stroke as f64);
-        Knot {
-            stroke: stroke as f64,
-            psi_c_rad: state.psi_c_rad,
-            psi_b_rad: state.psi_b_rad,
-            center_distance_mm: state.center_distance_mm,
-        }
-    };
-    let double_strokes_per_minute = 60.0 / schedule.time_s(1.0);
-    AxisProgram { double_strokes_per_minute, knots: (0..schedule.count()).map(knot).collect(), runs_on: 1.0 }
-}
-
-/// The same with strokes numbered anew: what a removed or doubled block leaves.
-fn renumbered(mut program: AxisProgram) -> AxisProgram {
-    for (stroke, knot) in program.knots.iter_mut().enumerate() {
-        knot.stroke = stroke as f64;
-    }
-    program
 }
 
 /// Gravest severity and all sentences on a program.
@@ -196,7 +173,7 @@ fn cases() -> Vec<Case> {
 #[test]
 fn forty_planted_defects_get_their_verdicts() {
     let mut job = job(&[]);
-    let own = own(&job);
+    let own = own_program(&job);
     assert_eq!(own.knots.len(), STROKES);
     assert_eq!(verdict(&mut job, own.clone()), (None, String::new()), "the program itself");
     let cases = cases();
@@ -217,7 +194,7 @@ fn forty_planted_defects_get_their_verdicts() {
 fn a_micrometre_deep_is_within_what_is_asked() {
     let deep = |depth_um: f64, asked: &[&str]| {
         let mut job = job(asked);
-        let mut planted = own(&job);
+        let mut planted = own_program(&job);
         planted.knots[213].center_distance_mm -= 1e-3 * depth_um;
         verdict(&mut job, planted)
     };
@@ -234,7 +211,7 @@ fn a_micrometre_deep_is_within_what_is_asked() {
 fn a_jump_is_judged_against_the_limits_of_the_axes() {
     let limits = ["machine.limits.center_distance_speed_mm_per_s=50"];
     let mut job = job(&limits);
-    let mut jump = own(&job);
+    let mut jump = own_program(&job);
     jump.knots[300].center_distance_mm -= 594.0;
     let strokes_per_s = jump.double_strokes_per_minute / 60.0;
     let (severity, told) = verdict(&mut job, jump);

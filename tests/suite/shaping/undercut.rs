@@ -1,14 +1,14 @@
 //! Flanks into which the cutter's tip corner has cut: where they begin, and how deep the cut goes.
 //!
-//! Round gears are held against the path of the corner and the involute, each written down here from the rolling of two
-//! circles; other gears against the poses of the cutter.
+//! Round gears are compared with the path of the corner and the involute, each written down here from the rolling of
+//! two circles; other gears with the poses of the cutter.
 
 use crate::fixtures::command::{gearcut, read_json};
+use crate::fixtures::own_program::own_program;
 use gearcut::job::CylindricalGear;
 use gearcut::process;
 use gearcut::process::shaping::ShapingJob;
 use gearcut::process::shaping::axes_report::OperationAxes;
-use gearcut::process::shaping::gcode::{AxisProgram, Knot};
 use gearcut::process::shaping::target::FlankEnd;
 use gearcut::process::shaping::warnings;
 use gearcut::terms::Side;
@@ -330,19 +330,9 @@ fn undercut_is_told_of_the_scenes_own_strokes_alone() {
     };
     assert!(tells(&job));
     for (back_mm, told) in [(0.0, true), (0.5, false)] {
-        let schedule = &job.operations[1].schedule;
-        let knot = |stroke: usize| {
-            let state = schedule.state(stroke as f64);
-            Knot {
-                stroke: stroke as f64,
-                psi_c_rad: state.psi_c_rad,
-                psi_b_rad: state.psi_b_rad,
-                center_distance_mm: state.center_distance_mm + back_mm,
-            }
-        };
-        let double_strokes_per_minute = 60.0 / schedule.time_s(1.0);
-        let knots = (0..schedule.count()).map(knot).collect();
-        job.operations[1].program = Some(AxisProgram { double_strokes_per_minute, knots, runs_on: 1.0 });
+        let mut program = own_program(&job);
+        program.knots.iter_mut().for_each(|knot| knot.center_distance_mm += back_mm);
+        job.operations[1].program = Some(program);
         assert_eq!(tells(&job), told, "{back_mm} mm back");
         job.operations[1].program = None;
     }
