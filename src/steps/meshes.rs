@@ -8,9 +8,9 @@ use crate::output::mesh_glb::write_glb;
 use crate::output::mesh_ply::write_ply;
 use crate::output::mesh_stl::write_stl;
 use crate::output::progress::Progress;
-use crate::steps::gear_surfaces;
+use crate::steps::{gear_surfaces, pictures};
 use crate::surface::gear_solid::gear_solid;
-use crate::surface::outline::{Outline, flank_name};
+use crate::surface::outline::{BODY_MM, Outline, flank_name};
 use crate::surface::{BlankMesh, Mesh, SurfaceGrid};
 use gearcut_core::cut::Backend;
 use gearcut_core::cut::CutBlank;
@@ -56,7 +56,15 @@ pub fn write_flank(
     write_ply(&folder.path(format!("mesh/flanks/{name}.ply"))?, &file)
 }
 
-/// A cylindrical gear as a closed body; tips are cut here.
+/// A gear as closed bodies.
+pub struct ClosedBodies {
+    /// As it is written.
+    pub whole: Mesh,
+    /// With those rows along the tooth alone that the scene's pictures can show, where these are fewer.
+    pub pictured: Option<Mesh>,
+}
+
+/// A cylindrical gear as closed bodies; tips are cut here.
 ///
 /// # Errors
 /// The backend's; a bore or a rim that reaches the teeth.
@@ -66,13 +74,16 @@ pub fn gear(
     flanks: Vec<SurfaceGrid>,
     roots: Vec<SurfaceGrid>,
     progress: &Progress,
-) -> Result<Mesh> {
+) -> Result<ClosedBodies> {
     let step = progress.step("tips", u64::from(job.scene().gear.teeth), "teeth");
     let surfaces = gear_surfaces::complete(job, backend, flanks, roots, &|| step.advance(1))?;
-    let outline = Outline::new(&surfaces, job.blank());
-    let solid = gear_solid(&outline, &job.blank().back)?;
+    let outline = Outline::new(&surfaces, job.blank(), BODY_MM);
+    let whole = gear_solid(&outline, &job.blank().back)?;
+    let shown = pictures::rows_within_mm(job).map(|within_mm| Outline::new(&surfaces, job.blank(), within_mm));
+    let fewer = shown.filter(|shown| shown.rows() < outline.rows());
+    let pictured = fewer.map(|shown| gear_solid(&shown, &job.blank().back)).transpose()?;
     step.finish();
-    Ok(solid)
+    Ok(ClosedBodies { whole, pictured })
 }
 
 /// Writes `mesh/blank.ply`: the gear as the rays through the blank have it, whatever its shape, with the pass that left

@@ -35,11 +35,11 @@ use crate::output::flank_maps::OperationMaps;
 use crate::output::folder::OutputFolder;
 use crate::output::progress::Progress;
 use crate::output::text::significant;
-use crate::surface::Mesh;
 use attempts::Attempts;
 use gearcut_core::cut::{Backend, CutStats};
 use gearcut_core::error::{Error, Result};
 use gearcut_core::terms::Side;
+use meshes::ClosedBodies;
 use parts::{Part, Parts};
 use pictures::flank::PicturedFlanks;
 use rayon::prelude::*;
@@ -174,8 +174,8 @@ pub fn needs_surfaces(job: &dyn GearJob, parts: Parts) -> bool {
     parts.has(Part::Meshes) || parts.has(Part::Pictures) && !job.scene().pictures.is_empty()
 }
 
-/// Meshes of the whole gear and the scene's pictures; whether all pictures were drawn or failed. `body` makes the
-/// gear's closed body, [`meshes::gear`] for a cylindrical one, where it has one; a note says why not.
+/// Meshes of the whole gear and the scene's pictures; whether all pictures were drawn or failed. `bodies` makes the
+/// gear's closed bodies, [`meshes::gear`] for a cylindrical one, where it has one; a note says why not.
 ///
 /// # Errors
 /// Ctrl-C while the body is made.
@@ -184,15 +184,15 @@ pub fn write_meshes_and_pictures(
     tools: &Tools,
     attempts: &mut Attempts,
     flanks: &PicturedFlanks,
-    body: impl FnOnce() -> Result<Option<Mesh>>,
+    bodies: impl FnOnce() -> Result<Option<ClosedBodies>>,
 ) -> Result<bool> {
     let Tools { progress, folder, parts, notes, .. } = *tools;
     let asked = if parts.has(Part::Pictures) { job.scene().pictures.len() } else { 0 };
     if asked == 0 && !parts.has(Part::Meshes) {
         return Ok(true);
     }
-    let solid = match body() {
-        Ok(solid) => solid,
+    let bodies = match bodies() {
+        Ok(bodies) => bodies,
         // A gear that has no closed body: flanks that do not meet.
         Err(Error::Refused(refusal)) => {
             let why = refusal.problem;
@@ -201,13 +201,14 @@ pub fn write_meshes_and_pictures(
         }
         Err(other) => attempts.of("the gear's closed body", Err(other))?.flatten(),
     };
-    if let Some(solid) = solid.as_ref().filter(|_| parts.has(Part::Meshes)) {
-        attempts.of("meshes of the gear", meshes::write_gear(job, solid, folder, notes, progress))?;
+    if let Some(ClosedBodies { whole, .. }) = bodies.as_ref().filter(|_| parts.has(Part::Meshes)) {
+        attempts.of("meshes of the gear", meshes::write_gear(job, whole, folder, notes, progress))?;
     }
     if asked == 0 {
         return Ok(true);
     }
-    let drawn = pictures::draw(job, solid.as_ref(), flanks, tools, attempts)?;
+    let solid = bodies.as_ref().map(|bodies| bodies.pictured.as_ref().unwrap_or(&bodies.whole));
+    let drawn = pictures::draw(job, solid, flanks, tools, attempts)?;
     if drawn < asked {
         progress.note(&format!("stopped: {drawn} of {asked} pictures are drawn"));
     }

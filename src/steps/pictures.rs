@@ -28,6 +28,27 @@ use std::f64::consts::PI;
 
 /// Colours run between these quantiles of the values; what lies beyond is marked at the colour bar.
 const SHOWN: [f64; 2] = [0.01, 0.98];
+/// Rows of a body are drawn where leaving them out moves its surface by more than this share of a pixel.
+const PIXEL_SHARE: f64 = 0.1;
+/// Width that a picture of a tooth shows, in transverse pitches.
+const TOOTH_PITCHES: f64 = 3.5;
+
+/// How far the rows of a body may be from its surface so that no picture of the gear or of a tooth shows it, mm; nothing
+/// where one shows how far the surface is from the target, or the pass that left it, or keeps the numbers behind pixels.
+pub fn rows_within_mm(job: &dyn GearJob) -> Option<f64> {
+    let gear = &job.scene().gear;
+    let bodies = job.scene().pictures.iter().filter(|picture| picture.view != PictureView::Flank);
+    let within_mm = |picture: &Picture| {
+        let shows_numbers = picture.exr || matches!(picture.colour, PictureColour::Height | PictureColour::Pass);
+        let width_mm = picture.extent_mm.unwrap_or(match picture.view {
+            PictureView::Tooth => TOOTH_PITCHES * PI * gear.transverse_module_mm(),
+            _ => gear.transverse_module_mm() * f64::from(gear.teeth),
+        });
+        (!shows_numbers).then(|| PIXEL_SHARE * width_mm / f64::from(picture.size_px.0))
+    };
+    bodies.map(within_mm).reduce(|a, b| Some(a?.min(b?))).flatten()
+}
+
 /// Draws all pictures of the scene into `pictures/`, those of the gear and of teeth where there is a `solid`; how many
 /// were finished, failed, or had nothing to show, before Ctrl-C.
 ///
@@ -135,7 +156,7 @@ fn draw_solid(
             // The near end of the tooth is what the viewer looks at.
             let near_mm = 0.5 * job.scene().gear.face_width_mm * picture.elevation_rad.signum();
             let target_mm = frame.place_mm + (near_mm - pitch_mm * picture.elevation_rad.signum()) * frame.along;
-            let camera = Camera::new(target_mm, towards, frame.along, 3.5 * pitch_mm, picture.size_px);
+            let camera = Camera::new(target_mm, towards, frame.along, TOOTH_PITCHES * pitch_mm, picture.size_px);
             (camera, format!("{}: tooth {}", job.scene().name, picture.tooth))
         }
         _ => {

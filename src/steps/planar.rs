@@ -11,6 +11,7 @@ pub mod blank;
 pub mod blank_findings;
 pub mod blank_report;
 mod covered;
+mod rows_between;
 
 use crate::job::{RAY_DEPTH_MODULES, RAY_HEIGHT_MODULES, ROOT_SPACING_MM, TIP_SPACING_MM, rows_z_mm};
 use crate::scene::Scene;
@@ -22,6 +23,7 @@ use gearcut_core::passes::planar::strokes::StrokeLaw;
 use gearcut_core::passes::{CutPlan, StrokeSet};
 use gearcut_core::tool::PlanarTool;
 use glam::DVec2;
+use rows_between::Nodes;
 
 /// Rays of a fillet stay within this share of its radius: further out they would cross each other.
 const FILLET_SHARE: f64 = 0.8;
@@ -180,8 +182,14 @@ impl PlanarGear<'_> {
         self.operations.iter().all(|operation| operation.strokes.law == StrokeLaw::Frozen)
     }
 
+    /// Whether the axes rest while the tool is in the work.
+    pub fn rests(&self) -> bool {
+        self.operations.iter().all(|operation| operation.strokes.law.rests())
+    }
+
     /// Runs all operations over those rows of a field that differ: over the first one where all are alike, since every
-    /// height and pass id is what cutting each of them would give. [`CutField::over_rows`] has them all.
+    /// height and pass id is what cutting each of them would give. [`CutField::over_rows`] has them all. While the axes
+    /// rest, rows that differ follow from a few of them ([`rows_between`]).
     ///
     /// # Errors
     /// The backend's.
@@ -189,8 +197,27 @@ impl PlanarGear<'_> {
         if self.rows_are_alike() {
             field.rows_z_mm.truncate(1);
         }
+        if let Some(nodes) = self.rests().then(|| Nodes::of(&field, self.bend_mm())).flatten() {
+            return nodes.cut(self, backend, field);
+        }
         let (layers, stats) = self.cut_rows(backend, &field)?;
         Ok(CutField { field, layers, stats })
+    }
+
+    /// How far the tool's path bends along a stroke at most, of all operations ([`StrokeSet::bend_mm`]).
+    fn bend_mm(&self) -> f64 {
+        self.operations.iter().map(|operation| operation.strokes.bend_mm()).fold(0.0, f64::max)
+    }
+
+    /// How many of so many rows [`Self::cut_distinct_rows`] cuts, but for columns that ask for all of them.
+    pub fn distinct_rows(&self, rows: usize) -> usize {
+        if self.rows_are_alike() {
+            1
+        } else if self.rests() {
+            Nodes::count(rows, self.bend_mm())
+        } else {
+            rows
+        }
     }
 
     /// Runs all operations over every row of a field.
@@ -198,12 +225,21 @@ impl PlanarGear<'_> {
     /// # Errors
     /// The backend's.
     pub fn cut_rows(&self, backend: &dyn Backend, field: &Field) -> Result<(Vec<Layer>, CutStats)> {
+        self.cut_planned(backend, field, &self.plans(field))
+    }
+
+    /// The passes that every operation visits on a field.
+    fn plans(&self, field: &Field) -> Vec<CutPlan> {
+        self.operations.iter().map(|operation| CutPlan::new(field, operation.strokes, self.tool)).collect()
+    }
+
+    /// Runs all operations over a field, each as its plan says.
+    fn cut_planned(&self, backend: &dyn Backend, field: &Field, plans: &[CutPlan]) -> Result<(Vec<Layer>, CutStats)> {
         let mut layers: Vec<Layer> = Vec::with_capacity(self.operations.len());
         let mut stats = CutStats::default();
-        for operation in &self.operations {
-            let plan = CutPlan::new(field, operation.strokes, self.tool);
+        for (operation, plan) in self.operations.iter().zip(plans) {
             let mut layer = layers.last().cloned().unwrap_or_else(|| field.blank_layer());
-            stats += backend.cut(field, &plan, &mut layer)?;
+            stats += backend.cut(field, plan, &mut layer)?;
             covered::lower(field, operation.strokes, self.tool, &mut layer);
             layers.push(layer);
         }

@@ -64,7 +64,7 @@ impl SurfaceGrid {
         let mut rows: Vec<usize> = spaced(&rows_mm[among], spacing_mm).into_iter().map(|row| first + row).collect();
         let all = rows_mm.len();
         if field.is_straight() {
-            rows = straight_rows(rows_mm, &rows, |from, to, visit| {
+            rows = straight_rows(rows_mm, &rows, STRAIGHT_MM, |from, to, visit| {
                 for &column in &columns {
                     for layer in [Some(last), before].into_iter().flatten() {
                         let heights_mm = layer.column(column, all);
@@ -201,7 +201,7 @@ fn spaced(places_mm: &[f64], spacing_mm: f64) -> Vec<usize> {
     indices
 }
 
-/// Those of the `candidates` between which everything runs straight to [`STRAIGHT_MM`].
+/// Those of the `candidates` between which everything runs straight to `within_mm`.
 ///
 /// `differences(from, to, visit)` visits the differences of all heights between two rows, in the same order at every
 /// call, until `visit` returns false. Each height keeps the window of slopes that its rows so far allow (the cone
@@ -209,6 +209,7 @@ fn spaced(places_mm: &[f64], spacing_mm: f64) -> Vec<usize> {
 pub(super) fn straight_rows(
     rows_z_mm: &[f64],
     candidates: &[usize],
+    within_mm: f64,
     differences: impl Fn(usize, usize, &mut dyn FnMut(f64) -> bool),
 ) -> Vec<usize> {
     let mut kept = vec![candidates[0]];
@@ -219,7 +220,7 @@ pub(super) fn straight_rows(
         let length_mm = rows_z_mm[to] - rows_z_mm[from];
         let mut straight = true;
         let mut index = 0;
-        let tolerance = STRAIGHT_MM / length_mm;
+        let tolerance = within_mm / length_mm;
         differences(from, to, &mut |difference_mm| {
             let slope = difference_mm / length_mm;
             if index == windows.len() {

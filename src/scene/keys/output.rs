@@ -55,9 +55,10 @@ pub(super) static SECTIONS: &[KeySection] = &[
                 default: Default::Number(2.5),
                 example: "2.5",
                 teach: "Largest distance of transverse slices of hobbed gears, and of shaped ones where the feed goes \
-                    on during a stroke, the guide leads the cutter aside or the work wobbles (while the axes rest: \
-                    the face by default, half of it where the guide is bent); else all sections are equal and one \
-                    slice stands for the face.",
+                    on during a stroke, the guide leads the cutter aside or the work wobbles; else all sections are \
+                    equal and one slice stands for the face. While the axes rest, one slice in the middle from twice \
+                    the face on: the default where sections lie within a tenth of spacing_mm of the middle one; \
+                    else the face, or half of it where the guide is bent.",
             },
         ],
         groups: &[],

@@ -12,20 +12,26 @@ use gearcut_core::tool::closed_tooth::ClosedTooth;
 use glam::DVec2;
 
 impl PlanarGear<'_> {
-    /// The uncut blank at the scene's spacing; one section stands for all where all axes rest during the strokes.
+    /// The uncut blank at the scene's spacing; see [`Self::blank_grid`].
     ///
     /// # Errors
     /// A field that does not fit in memory.
     pub fn blank_field(&self) -> Result<BlankField, Refusal> {
-        whole_blank::field(self.scene, self.blank, self.rows_are_alike())
+        whole_blank::field(self.scene, self.blank, self.one_slice())
     }
 
-    /// Where its rays stand.
+    /// Where its rays stand: in one slice, the middle of the face, where all sections are alike, and where the axes
+    /// rest and slices may lie twice the face apart.
     ///
     /// # Errors
     /// A field that does not fit in memory.
     pub fn blank_grid(&self) -> Result<BlankGrid, Refusal> {
-        whole_blank::grid(self.scene, self.blank, self.rows_are_alike())
+        whole_blank::grid(self.scene, self.blank, self.one_slice())
+    }
+
+    fn one_slice(&self) -> bool {
+        let reaches_both_ends = self.scene.fields.blank_slice_spacing_mm >= 2.0 * self.scene.gear.face_width_mm;
+        self.rows_are_alike() || self.rests() && reaches_both_ends
     }
 
     /// The tool's teeth, one for each of its edges, closed through its body down to where no stroke of an operation

@@ -21,7 +21,10 @@ pub fn findings(gear: &PlanarGear, cut: &CutBlank, report: &BlankReport) -> Sect
     };
     let rubbing =
         |stays: bool| -> Vec<Damage> { report.rubbing.iter().filter(|r| r.stays == stays).map(|r| r.damage).collect() };
-    let slices = (cut.field.slices.len(), "transverse sections; one stands for the whole face where all are equal");
+    let slices = (
+        cut.field.slices.len(),
+        "transverse sections; one stands for the whole face where all are equal or lie near the middle one",
+    );
     let volumes = [report.blank_mm3, report.left_mm3];
     whole_blank::findings(gear.blank.kind(), cut.field.grid.spacing_mm(), slices, volumes, &report.operations)
         .with(

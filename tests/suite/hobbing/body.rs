@@ -16,7 +16,7 @@ use gearcut::process::hobbing::{HobCutter, HobbingJob};
 use gearcut::steps::gear_surfaces::complete;
 use gearcut::surface::SurfaceGrid;
 use gearcut::surface::gear_solid::gear_solid;
-use gearcut::surface::outline::Outline;
+use gearcut::surface::outline::{BODY_MM, Outline};
 use gearcut::terms::Side;
 use glam::DVec2;
 use rayon::prelude::*;
@@ -61,7 +61,7 @@ fn outline(cutter: &HobCutter) -> Outline {
     let root = |space| cutter.root_surface(&Cpu::default(), space).expect("a root");
     let roots = (1..=job.scene.gear.teeth).into_par_iter().map(root).collect();
     let surfaces = complete(cutter, &Cpu::default(), flanks, roots, &|| ()).expect("tips");
-    Outline::new(&surfaces, &job.blank)
+    Outline::new(&surfaces, &job.blank, BODY_MM)
 }
 
 /// Lowest and highest of some points over the target, mm.

@@ -9,7 +9,7 @@ use gearcut::process::shaping::ShapingJob;
 use gearcut::process::shaping::section::{CutSection, cutter_solid};
 use gearcut::steps::gear_surfaces::complete;
 use gearcut::surface::gear_solid::gear_solid;
-use gearcut::surface::outline::Outline;
+use gearcut::surface::outline::{BODY_MM, Outline};
 use gearcut::surface::{BlankMesh, Mesh, SurfaceGrid};
 use gearcut::terms::Side;
 use glam::DVec2;
@@ -39,7 +39,7 @@ fn outline_and_solid(job: &ShapingJob) -> (Outline, Mesh) {
     };
     let roots = (1..=job.scene.gear.teeth).map(root).collect();
     let surfaces = complete(job, &backend, flanks, roots, &|| ()).expect("tips");
-    let outline = Outline::new(&surfaces, &job.blank);
+    let outline = Outline::new(&surfaces, &job.blank, BODY_MM);
     let solid = gear_solid(&outline, &job.blank.back).expect("a closed body");
     (outline, solid)
 }

@@ -25,7 +25,7 @@ use gearcut::steps::gear_surfaces::complete;
 use gearcut::steps::planar::blank_report;
 use gearcut::steps::view_mesh::ViewMesh;
 use gearcut::surface::gear_solid::gear_solid;
-use gearcut::surface::outline::Outline;
+use gearcut::surface::outline::{BODY_MM, Outline};
 use gearcut::surface::{BlankMesh, SurfaceGrid};
 use gearcut::terms::Side;
 use gearcut::tool::involute::{Involute, inv};
@@ -347,7 +347,7 @@ fn the_body_of_a_ring_is_closed_and_as_large_as_its_blank() {
     let flanks = sides.map(|(tooth, side)| surface(job.flank_field(job.target_flank(tooth, side)))).collect();
     let roots = (1..=54).map(|space| surface(job.root_field(space))).collect();
     let surfaces = complete(&job, &backend, flanks, roots, &|| ()).expect("tips");
-    let solid = gear_solid(&Outline::new(&surfaces, &job.blank), &job.blank.back).expect("a closed body");
+    let solid = gear_solid(&Outline::new(&surfaces, &job.blank, BODY_MM), &job.blank.back).expect("a closed body");
     assert!(solid.is_closed(), "{:?}", solid.edge_faults());
     assert!(solid.parts.iter().any(|part| part.name == "rim"));
     let volume_mm3 = cut(&job).field.volumes_mm3();

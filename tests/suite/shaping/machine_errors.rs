@@ -368,12 +368,14 @@ fn errors_of_nothing_change_no_byte() {
 }
 
 /// Where the axes rest, slices of the blank stand where a shift along the face is told: both ends, the middle of a bow
-/// as well; as the scene says, if it does. What is left of the blank is that of slices ten times as dense, to a part in
-/// ten thousand, but for the share of the bow.
+/// as well; as the scene says, if it does; one in the middle for all that lies within a tenth of the distance of the
+/// rays. What is left of the blank is that of slices ten times as dense, to a part in ten thousand, but for the share of
+/// the bow.
 #[test]
 fn slices_of_the_blank_follow_the_guide() {
-    let slope = "machine.errors.guide.radial_um_per_100mm=200";
-    let (bow, wobble) = ("machine.errors.guide.radial_bow_um=40", "mounting.wobble_um_per_100mm=100");
+    let slope = "machine.errors.guide.radial_um_per_100mm=520";
+    let (bow, wobble) = ("machine.errors.guide.radial_bow_um=40", "mounting.wobble_um_per_100mm=520");
+    let small = ["machine.errors.guide.radial_um_per_100mm=200", "mounting.wobble_um_per_100mm=100"];
     let left = |settings: &[&str]| {
         let coarse = ["operation.finish.strokes_per_revolution=240", "fields.blank.spacing_mm=0.5"];
         let settings: Vec<String> = coarse.iter().chain(settings).map(|&setting| setting.to_owned()).collect();
@@ -390,7 +392,7 @@ fn slices_of_the_blank_follow_the_guide() {
     let feeds = "operation.finish.feed_during_stroke=true";
     assert_eq!(left(&[feeds, slope]).0, 9, "the feed goes on: every 2.5 mm of 20");
     let dense = "fields.blank.slice_spacing_mm=1";
-    for (errors, slices) in [(&[slope][..], 2), (&[wobble], 2), (&[slope, bow], 3)] {
+    for (errors, slices) in [(&[slope][..], 2), (&[wobble], 2), (&[slope, bow], 3), (&small, 1)] {
         let ((found, few_mm3), (all, many_mm3)) = (left(errors), left(&[errors, &[dense]].concat()));
         assert_eq!((found, all), (slices, 21), "{errors:?}");
         // A bow of b moves sections by b (z / h)^2, 1/3 of it in the mean, where three slices say 1/2.

@@ -12,6 +12,7 @@
 
 use crate::scene::build::stock_or_offset_mm;
 use crate::scene::values::{Checked, Values};
+use gearcut_core::units::UM_PER_MM;
 
 /// Work angle over which the whole depth of the teeth is fed, deg; less depth takes less of it. Found by trial on gears
 /// of module 1 to 8 and 20 to 60 teeth: roughing asks at most 1.25 times the force on the spiral that it asks on the
@@ -24,6 +25,11 @@ const STOCK_MODULES: f64 = 1.0 / 15.0;
 const ROUGHING_STROKES_PER_TOOTH: u32 = 20;
 /// Strokes per tooth of every other operation.
 const STROKES_PER_TOOTH: u32 = 100;
+/// One slice of the blank stands for sections that lie this near to it, in distances of its rays: places between rays
+/// are known no better. Gouges of the ends of the face are found by the flanks, whose rows reach there.
+const SLICE_REACH: f64 = 0.1;
+/// What random errors hardly ever exceed, in standard deviations.
+const LARGEST_NOISE: f64 = 4.0;
 
 /// Puts the defaults in.
 pub(super) fn derive(values: &mut Values) {
@@ -56,30 +62,53 @@ pub(super) fn reach_mm(values: &Values) -> Option<f64> {
 }
 
 /// Distance of the blank's slices where the axes rest during all strokes and guide or clamping shift the cutter along
-/// the face: evenly, so that both ends of the face say all of its sections, or on a parabola, which needs the middle as
-/// well. Every other slice would be cut for a section that lies between those. Where noise goes on in time, sections
-/// differ at random, all of them alike in the mean: three stand for them.
+/// the face: twice the face, which is one slice in its middle, where no section lies further away than
+/// [`SLICE_REACH`]. Else sections shift evenly, so that both ends of the face say all of them, or on a parabola, which
+/// needs the middle as well. Where noise goes on in time, sections differ at random, all of them alike in the mean:
+/// three stand for them.
 fn blank_slices(values: &mut Values) -> Option<()> {
     let feeds = |index: usize| values.view(&format!("operation.{index}")).boolean("feed_during_stroke") == Some(true);
-    let is_there = |section: &str, keys: &[&str]| {
-        keys.iter().any(|key| values.view(section).number(key).is_some_and(|number| number != 0.0))
+    let of = |section: &str, key: &str| values.view(section).number(key).unwrap_or(0.0).abs();
+    let both = |[radial, tangential]: [&str; 2]| {
+        let guide = "machine.errors.guide";
+        of(guide, radial).hypot(of(guide, tangential))
     };
-    let guide = "machine.errors.guide";
-    let bent = is_there(guide, &["radial_bow_um", "tangential_bow_um"]);
-    let leans = is_there(guide, &["radial_um_per_100mm", "tangential_um_per_100mm"])
-        || is_there("mounting", &["wobble_um_per_100mm"]);
-    let axes = ["work", "cutter", "center_distance"].map(|axis| format!("machine.errors.{axis}"));
-    let wanders = axes
-        .iter()
-        .any(|axis| is_there(axis, &["noise_arcsec", "noise_um"]) && is_there(axis, &["noise_bandwidth_hz"]));
-    if !(bent || leans || wanders) || (0..values.count("operation")).any(feeds) {
+    let face_mm = values.view("gear").number("face_width_mm")?;
+    let leaning_um = both(["radial_um_per_100mm", "tangential_um_per_100mm"]) + of("mounting", "wobble_um_per_100mm");
+    let leaning_um = leaning_um * 0.5 * face_mm / 100.0;
+    let bent_um = both(["radial_bow_um", "tangential_bow_um"]);
+    let wandering_um = wandering_um(values)?;
+    if leaning_um + bent_um + wandering_um == 0.0 || (0..values.count("operation")).any(feeds) {
         return None;
     }
-    let face_mm = values.view("gear").number("face_width_mm")?;
-    let slices_mm = if bent || wanders { 0.5 * face_mm } else { face_mm };
+    let rays_um = values.view("fields.blank").number("spacing_mm")? * UM_PER_MM;
+    let slices_mm = if leaning_um + bent_um + wandering_um <= SLICE_REACH * rays_um {
+        2.0 * face_mm
+    } else if bent_um + wandering_um > 0.0 {
+        0.5 * face_mm
+    } else {
+        face_mm
+    };
     let usual_mm = values.view("fields.blank").number("slice_spacing_mm")?;
     values.put_default("fields.blank", "slice_spacing_mm", Checked::Number(slices_mm.max(usual_mm)));
     Some(())
+}
+
+/// How far noise that goes on in time moves the flanks at most, um.
+fn wandering_um(values: &Values) -> Option<f64> {
+    let gear = values.view("gear");
+    let module_mm = gear.number("module_mm")?;
+    let teeth = [gear.whole("teeth")?, values.view("tool.shaper_cutter").whole("teeth")?];
+    let of = |axis: &str, noise: &str| {
+        let axis = format!("machine.errors.{axis}");
+        let goes_on = values.view(&axis).number("noise_bandwidth_hz").is_some();
+        if goes_on { values.view(&axis).number(noise).unwrap_or(0.0).abs() } else { 0.0 }
+    };
+    let turning_um = ["work", "cutter"].into_iter().zip(teeth).map(|(axis, teeth)| {
+        let radius_mm = 0.5 * module_mm * f64::from(teeth);
+        (of(axis, "noise_arcsec") / 3600.0).to_radians() * radius_mm * UM_PER_MM
+    });
+    Some(LARGEST_NOISE * (turning_um.sum::<f64>() + of("center_distance", "noise_um")))
 }
 
 /// Stock and feed of the roughing that stands in for operations that are not written.

@@ -24,7 +24,7 @@ use super::samples::{PassSamples, Sampling};
 use super::upper_bound::BoundHeights;
 use crate::dexel::field::Column;
 use crate::frame::Rigid2;
-use crate::tool::edge::{Segment, SegmentShape};
+use crate::tool::edge::{RayHit, Segment, SegmentShape};
 use arrayvec::ArrayVec;
 use glam::DVec2;
 use std::borrow::Cow;
@@ -83,11 +83,39 @@ impl BladeRay {
         Self { origin_mm: blade_from_work.point(ray.origin_mm), direction: blade_from_work.direction(ray.normal) }
     }
 
-    /// All places of a tile in a pass's blade frame, place by place, phase by phase.
-    pub fn of_pass<'a>(pass: &'a NearPass, places: &'a [Column]) -> impl Iterator<Item = Self> + 'a {
-        places
-            .iter()
-            .flat_map(|ray| pass.blade_from_work.iter().map(|blade_from_work| Self::of_pose(blade_from_work, ray)))
+    /// All places of a tile in a pass's blade frame, place by place, pose by pose of those that are looked at.
+    pub fn of_poses<'a>(poses: &'a [Rigid2], places: &'a [Column]) -> impl Iterator<Item = Self> + 'a {
+        places.iter().flat_map(|ray| poses.iter().map(|blade_from_work| Self::of_pose(blade_from_work, ray)))
+    }
+}
+
+/// Where a ray enters an edge that stands a little beside another one: height, place along the segment, cosine, and
+/// what the height may be off by.
+struct EntryBeside {
+    height_mm: f64,
+    y_mm: f64,
+    cos: f64,
+    error_mm: f64,
+}
+
+impl EntryBeside {
+    /// The entry of the ray that stands `shift_mm` beside the one that enters at `hit`, in the segment's frame. Along
+    /// the normal N the shift e brings the ray N e out of the tangent, and the edge falls back from that by k t^2 / 2
+    /// where the ray comes to a place t further along it: it goes on by (N e + k t^2 / 2) / cos theta. Half of the bend
+    /// is allowed for what the curvature changes on the way.
+    fn new(hit: &RayHit, direction: DVec2, shift_mm: DVec2) -> Self {
+        let cos = -hit.normal.dot(direction);
+        let along = hit.normal.perp();
+        let out_mm = hit.normal.dot(shift_mm);
+        let t_mm = along.dot(shift_mm + out_mm / cos * direction);
+        let bend_mm = 0.5 * hit.curvature_per_mm * t_mm * t_mm;
+        let further_mm = (out_mm + bend_mm) / cos;
+        Self {
+            height_mm: hit.height_mm + further_mm,
+            y_mm: hit.y_mm + shift_mm.y + further_mm * direction.y,
+            cos: cos - (hit.curvature_per_mm * t_mm).abs(),
+            error_mm: 0.5 * bend_mm.abs() / cos,
+        }
     }
 }
 
@@ -176,16 +204,16 @@ impl<'a> SegmentBounds<'a> {
         })
     }
 
-    /// Whether the segment surely meets all rays of the tile above the upper bounds, one for each of `rays`: one
-    /// residual each instead of a root.
+    /// Whether the segment surely meets all rays of the tile above the upper bounds, as many for each of `rays` as there
+    /// are `shifts_mm` from it in the blade's frame: one residual each instead of a root.
     ///
     /// A convex segment lies behind its tangent at the aimed point's y; a ray that still runs towards it there enters
-    /// it further up. Between neighbouring samples the segment can bulge by `k_e L^2 / 8`, and the surface of the upper
+    /// it further up, and so does one beside it that is as far in front of that tangent. Between neighbouring samples the segment can bulge by `k_e L^2 / 8`, and the surface of the upper
     /// bounds by `k_t (1 + 2 s + a k_t) L^2 / 8`, its slope s and height a over a target of curvature k_t included;
     /// `motion_bound` is how far the poses themselves may differ.
     pub fn stays_above(
         &self,
-        rays: &[BladeRay],
+        (rays, shifts_mm): (&[BladeRay], &[DVec2]),
         segment_index: usize,
         sampling: &Sampling,
         upper: &BoundHeights,
@@ -202,8 +230,9 @@ impl<'a> SegmentBounds<'a> {
         // curvature.
         let grazing = GRAZING_COSINE + 2.0 * curvature * motion_bound.distance_mm + motion_bound.turn_rad;
         let slope = upper.climb_mm / sampling.cell_mm.max(1e-9);
-        rays.iter().zip(&upper.heights_mm).all(|(ray, height_mm)| {
-            let aim = ray.origin_mm + height_mm * ray.direction;
+        let middle = shifts_mm.len() / 2;
+        rays.iter().zip(upper.heights_mm.chunks_exact(shifts_mm.len())).all(|(ray, heights_mm)| {
+            let aim = ray.origin_mm + heights_mm[middle] * ray.direction;
             let p = turn.rotate(aim - frame.translation_mm);
             let n = turn.rotate(ray.direction);
             let (residual_mm, normal) = match &segment.shape {
@@ -219,10 +248,15 @@ impl<'a> SegmentBounds<'a> {
             };
             let stretch = normal.length_squared();
             let length = stretch.sqrt();
-            let surface = sampling.turn_per_mm * (1.0 + 2.0 * slope + height_mm.abs() * sampling.turn_per_mm);
-            let bulge_mm = CURVATURE_SAFETY * (curvature * stretch + surface) * reach_mm2 / 8.0;
-            residual_mm > length * (bulge_mm + motion_bound.distance_mm + depth_mm + ROUNDING_MM)
-                && -n.dot(normal) > grazing * length
+            shifts_mm.iter().zip(heights_mm).all(|(&shift_mm, height_mm)| {
+                let beside_mm = turn.rotate(shift_mm) + (height_mm - heights_mm[middle]) * n;
+                let surface = sampling.turn_per_mm * (1.0 + 2.0 * slope + height_mm.abs() * sampling.turn_per_mm);
+                let bulge_mm = CURVATURE_SAFETY * (curvature * stretch + surface) * reach_mm2 / 8.0;
+                let grazing = grazing + 2.0 * curvature * beside_mm.length();
+                residual_mm + normal.dot(beside_mm)
+                    > length * (bulge_mm + motion_bound.distance_mm + depth_mm + ROUNDING_MM)
+                    && -n.dot(normal) > grazing * length
+            })
         })
     }
 
@@ -230,13 +264,15 @@ impl<'a> SegmentBounds<'a> {
     pub fn bound(&self, near: &NearPass, pass: usize, segment_index: usize, sampling: &Sampling) -> Verdict {
         let segment = &self.segments[segment_index];
         let segment_from_blade = segment.blade_from_segment.inverse();
-        let phases = &near.blade_from_work;
-        let samples = sampling.places.len() * phases.len();
+        let (poses, shifts_mm) = near.blade_from_work.looks();
+        let phases = near.blade_from_work.len();
+        let looks = sampling.places.len() * poses.len();
         let (mut heights_mm, mut curvature, mut least_cos) = (ArrayVec::new(), 0.0_f64, 1.0_f64);
+        let mut beside_mm = 0.0_f64;
         let (mut y_low, mut y_high) = (f64::INFINITY, f64::NEG_INFINITY);
         let (mut missed, mut away) = (false, 0);
         for ray in sampling.places {
-            for blade_from_work in phases.iter() {
+            for blade_from_work in poses {
                 let origin = segment_from_blade.point(blade_from_work.point(ray.origin_mm));
                 let direction = segment_from_blade.direction(blade_from_work.direction(ray.normal));
                 let leaves = |slope: f64| direction.x - slope * direction.y > LEAVING_SLOPE;
@@ -250,7 +286,6 @@ impl<'a> SegmentBounds<'a> {
                     continue;
                 };
                 let cos = -hit.normal.dot(direction);
-                least_cos = least_cos.min(cos);
                 let tan2 = 1.0 / (cos * cos) - 1.0;
                 let turn = sampling.turn_per_mm;
                 let stretch = 1.0 + (hit.height_mm * turn).abs();
@@ -265,12 +300,18 @@ impl<'a> SegmentBounds<'a> {
                 };
                 let bound = stretch / (cos * cos) * (edge * stretch / cos + turn) + turn * stretch * tan2;
                 curvature = curvature.max(bound);
-                y_low = y_low.min(hit.y_mm);
-                y_high = y_high.max(hit.y_mm);
-                heights_mm.push(hit.height_mm);
+                for &shift_mm in &shifts_mm {
+                    let entry = EntryBeside::new(&hit, direction, segment_from_blade.direction(shift_mm));
+                    missed |= entry.cos < GRAZING_COSINE;
+                    least_cos = least_cos.min(entry.cos);
+                    beside_mm = beside_mm.max(entry.error_mm);
+                    y_low = y_low.min(entry.y_mm);
+                    y_high = y_high.max(entry.y_mm);
+                    heights_mm.push(entry.height_mm);
+                }
             }
         }
-        if away == samples {
+        if away == looks {
             return Verdict::Clear;
         }
         if missed || away > 0 {
@@ -292,12 +333,12 @@ impl<'a> SegmentBounds<'a> {
         // Along the stroke the middle phase shows the bend: an eighth of the second difference over the half range is
         // the error of a chord.
         let along_stroke_mm = heights_mm
-            .chunks_exact(phases.len())
+            .chunks_exact(phases)
             .filter(|h| h.len() == 3)
             .map(|h| CURVATURE_SAFETY * (h[0] - 2.0 * h[1] + h[2]).abs() / 8.0)
             .fold(0.0, f64::max);
         let certain = y_low - tolerance_mm > y_start && y_high + tolerance_mm < y_end;
-        let error_mm = along_profile_mm + along_stroke_mm + rough_mm + ROUNDING_MM;
+        let error_mm = along_profile_mm + along_stroke_mm + beside_mm + rough_mm + ROUNDING_MM;
         Verdict::Bounded(PassSamples { pass, segment: segment_index, heights_mm, error_mm, certain })
     }
 }

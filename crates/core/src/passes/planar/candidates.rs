@@ -123,6 +123,19 @@ impl CutPlan {
         Self { tiles, records, row_phases, segments: tool.edges().segments().clone() }
     }
 
+    /// The same for some of its columns, in their order, on rows at these phases: a pass is left out for every phase, so
+    /// candidates hold on all rows there are.
+    #[must_use]
+    pub fn of_columns(&self, columns: &[usize], row_phases: Vec<f64>) -> Self {
+        let place = |column: usize| columns.partition_point(|&kept| kept < column);
+        let kept = |tile: &Tile| {
+            let columns = place(tile.columns.start)..place(tile.columns.end);
+            (!columns.is_empty()).then(|| Tile { columns, ..tile.clone() })
+        };
+        let tiles = self.tiles.iter().filter_map(kept).collect();
+        Self { tiles, records: self.records.clone(), row_phases, segments: self.segments.clone() }
+    }
+
     /// (Dexel, pass) pairs that the plan visits.
     pub fn dexel_passes(&self) -> u64 {
         let rows = self.row_phases.len() as u64;
@@ -206,7 +219,8 @@ impl<'a> PassPlanner<'a> {
         seeds.dedup();
         chosen.extend(undecided.into_iter().filter(|&(pass, segment)| {
             let pass = &self.near[pass];
-            let rays: ArrayVec<BladeRay, MAX_PHASES> = BladeRay::of_pass(pass, &[middle]).collect();
+            let rays: ArrayVec<BladeRay, MAX_PHASES> =
+                BladeRay::of_poses(pass.blade_from_work.looks().0, &[middle]).collect();
             let margin_mm = ends_mm + travel_mm(pass, &middle);
             self.bounds.box_meets(&rays, segment, [fine.floor_mm, upper.highest_mm], margin_mm)
         }));
@@ -242,7 +256,14 @@ impl CoarseLook<'_> {
         for segment in members(segments) {
             let (heights_mm, place) = ([self.coarse.floor_mm, self.upper.highest_mm], first + segment);
             if !bounds.box_meets(&[middle], place, heights_mm, margin_mm)
-                || bounds.stays_above(&rays, place, &self.coarse, &self.upper.all_phases, 0.0, interval.motion_bound)
+                || bounds.stays_above(
+                    (&rays, &[DVec2::ZERO]),
+                    place,
+                    &self.coarse,
+                    &self.upper.all_phases,
+                    0.0,
+                    interval.motion_bound,
+                )
             {
                 segments &= !(1 << segment);
             }
@@ -257,19 +278,27 @@ impl CoarseLook<'_> {
         let (edge, first) = (edges.edge_of(pass.blade), edges.segments_of(pass.blade).start);
         let travel_mm = travel_mm(pass, &self.middle);
         let margin_mm = self.ends_mm + travel_mm;
-        let middle: ArrayVec<BladeRay, MAX_PHASES> = BladeRay::of_pass(pass, &[self.middle]).collect();
+        let (poses, shifts_mm) = pass.blade_from_work.looks();
+        let middle: ArrayVec<BladeRay, MAX_PHASES> = BladeRay::of_poses(poses, &[self.middle]).collect();
         // The middle ray against the whole blade's circle before any segment is looked at.
         if middle.iter().all(|ray| passes_by(edge, ray, margin_mm)) {
             return;
         }
         let rays: ArrayVec<BladeRay, { MAX_PLACES * MAX_PHASES }> =
-            BladeRay::of_pass(pass, self.coarse.places).collect();
+            BladeRay::of_poses(poses, self.coarse.places).collect();
         let reach_mm = self.ends_mm - self.coarse.floor_mm + self.upper.highest_mm;
         let motion_bound = MotionBound { distance_mm: pass.bend_mm(self.middle.origin_mm, reach_mm), turn_rad: 0.0 };
         for segment in members(segments).map(|segment| first + segment) {
             let heights_mm = [self.coarse.floor_mm, self.upper.highest_mm];
             if !bounds.box_meets(&middle, segment, heights_mm, margin_mm)
-                || bounds.stays_above(&rays, segment, &self.coarse, &self.upper.by_phase, travel_mm, motion_bound)
+                || bounds.stays_above(
+                    (&rays, &shifts_mm),
+                    segment,
+                    &self.coarse,
+                    &self.upper.by_phase,
+                    travel_mm,
+                    motion_bound,
+                )
             {
                 continue;
             }

@@ -8,6 +8,7 @@ use super::strokes::{StrokePath, StrokeSet};
 use crate::frame::Rigid2;
 use crate::tool::PlanarTool;
 use crate::tool::blade_edges::BladeEdges;
+use arrayvec::ArrayVec;
 use glam::DVec2;
 use std::ops::Deref;
 
@@ -25,6 +26,12 @@ const BEND_SAFETY: f64 = 1.5;
 /// cubic exceeds 1.848 times its largest value at them (the Lebesgue constant, a quarter of the sum of cot((2 k - 1) pi
 /// / 16)). Planning with all passes begins with the same ones: the bound rests on this derivation alone.
 const BETWEEN_NODES: f64 = 2.0;
+
+/// Poses turn by less than this, or are looked at one by one: a point 100 mm away moves by 0.01 nm.
+const SAME_TURN: f64 = 1e-13;
+/// Poses further apart than this are looked at one by one, mm: what an edge bends on so short a way is a small part of
+/// its distance from its tangent.
+const LARGEST_SHIFT_MM: f64 = 0.05;
 
 /// A pass near a region, with its poses at the phases where bounds are taken.
 #[derive(Debug, Clone)]
@@ -57,6 +64,21 @@ impl PhasePoses {
     /// Poses at all phases.
     pub fn moving(poses: [Rigid2; MAX_PHASES]) -> Self {
         Self { poses, count: MAX_PHASES }
+    }
+
+    /// Poses to look at, and how far from what each of them shows the work stands in the blade's frame, phase by phase,
+    /// mm. While the axes rest, a guide or a wobble shifts the work a little and turns it not at all: one look then
+    /// serves all phases.
+    pub fn looks(&self) -> (&[Rigid2], ArrayVec<DVec2, MAX_PHASES>) {
+        let middle = self.poses[1];
+        let shift = |pose: &Rigid2| pose.translation_mm - middle.translation_mm;
+        let is_near = |pose: &Rigid2| {
+            (pose.rotation - middle.rotation).length() < SAME_TURN && shift(pose).length() < LARGEST_SHIFT_MM
+        };
+        if self.count == MAX_PHASES && self.poses.iter().all(is_near) {
+            return (&self.poses[1..2], self.poses.iter().map(shift).collect());
+        }
+        (&self.poses[..self.count], ArrayVec::from_iter([DVec2::ZERO]))
     }
 
     /// The same with every pose mapped to another.

@@ -116,6 +116,10 @@ pub struct StrokeSet {
     pub law: StrokeLaw,
     /// `work_from_tool` of every stroke at the nodes: one pose when frozen, else one for each of [`NODES`].
     poses: Vec<Rigid2>,
+    /// No point of the tool lies further from its axis, mm.
+    tool_reach_mm: f64,
+    /// See [`Self::bend_mm`].
+    bend_mm: f64,
 }
 
 impl StrokeSet {
@@ -157,7 +161,14 @@ impl StrokeSet {
     pub fn displaced(&self, displaced: impl Fn(usize, &Rigid2) -> Rigid2) -> Self {
         let nodes = self.phases().len();
         let poses = self.poses.iter().enumerate().map(|(index, pose)| displaced(index / nodes, pose));
-        Self { poses: poses.collect(), ..*self }
+        Self::of_poses(poses.collect(), self)
+    }
+
+    /// Other poses of the same strokes.
+    fn of_poses(poses: Vec<Rigid2>, &Self { first_pass, blades, law, tool_reach_mm, .. }: &Self) -> Self {
+        let strokes = poses.chunks(Self::node_phases(law).len());
+        let bend_mm = strokes.map(|stroke| StrokePath::through(stroke).bend_mm(tool_reach_mm)).fold(0.0, f64::max);
+        Self { first_pass, blades, law, poses, tool_reach_mm, bend_mm }
     }
 
     fn at_shares(
@@ -172,7 +183,14 @@ impl StrokeSet {
         let moments =
             (0..count).flat_map(|stroke| nodes.iter().map(move |[share, z_mm]| (stroke as f64 + share, *z_mm)));
         let poses = moments.map(|(lambda, z_mm)| work_from_tool(lambda, z_mm)).collect();
-        Self { first_pass, blades: tool.blade_count(), law, poses }
+        let edges = tool.edges();
+        let blade_reach_mm = |blade: u32| {
+            let edge = edges.edge_of(blade);
+            tool.tool_from_blade(blade).point(edge.center_mm).length() + edge.reach_mm
+        };
+        let tool_reach_mm = (0..tool.blade_count()).map(blade_reach_mm).fold(0.0, f64::max);
+        let none = Self { first_pass, blades: tool.blade_count(), law, poses: Vec::new(), tool_reach_mm, bend_mm: 0.0 };
+        Self::of_poses(poses, &none)
     }
 
     fn node_phases(law: StrokeLaw) -> &'static [f64] {
@@ -201,6 +219,12 @@ impl StrokeSet {
     /// How the pose of one stroke runs with the phase: the cubics through its nodes.
     pub fn path(&self, stroke: usize) -> StrokePath {
         StrokePath::through(self.poses(stroke))
+    }
+
+    /// Largest second derivative of the path of any point of the tool in the work with respect to the phase, over all
+    /// strokes, mm: over a step of h the path leaves its chord by h^2 / 8 of this at most.
+    pub fn bend_mm(&self) -> f64 {
+        self.bend_mm
     }
 
     /// Pose of one stroke at phase `tau`.
@@ -255,6 +279,12 @@ impl StrokePath {
             entry(|p| p.translation_mm.x),
             entry(|p| p.translation_mm.y),
         ])
+    }
+
+    /// Largest second derivative between phases -1 and 1 of the path of a point within `reach_mm` of the tool's axis.
+    fn bend_mm(&self, reach_mm: f64) -> f64 {
+        let [c, s, x, y] = self.0.map(|[.., square, cube]| 2.0 * square.abs() + 6.0 * cube.abs());
+        x.hypot(y) + reach_mm * c.hypot(s)
     }
 
     /// Pose at a phase.
