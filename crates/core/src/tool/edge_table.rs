@@ -126,6 +126,13 @@ impl EdgeTable {
         [c0 + t * (c1 + t * (c2 + t * c3)) + (y_mm - inside) * slope, slope]
     }
 
+    /// By how much the slope differs at most between two places, for each mm between them.
+    pub fn largest_bend_per_mm(&self) -> f64 {
+        let width = 1.0 / self.cells_per_mm;
+        let bends = self.cells.iter().flat_map(|[_, _, c2, c3]| [2.0 * c2, 2.0 * c2 + 6.0 * c3 * width]);
+        bends.map(f64::abs).fold(0.0, f64::max)
+    }
+
     /// Curvature of the edge at `y_mm` in 1/mm, positive where the tool is convex; 0 outside.
     pub fn curvature(&self, y_mm: f64) -> f64 {
         let place = (y_mm - self.y_start_mm) * self.cells_per_mm;

@@ -6,13 +6,17 @@
 //! **The law.** The points of one height on the columns' rays lie within a distance a of those on a ray in the middle,
 //! from the lowest place that is looked at up to the blank. Segments that rays within a of the middle one cannot meet
 //! are left out; in front of the others the middle ray must stand further away than the columns differ
-//! ([`Segments::stays_above`]). Of some thousand passes near a flank all but the few dozen whose blades come within a
-//! of the surface are answered for so, once for a group instead of once for a column.
+//! ([`Segments::stays_above`]), or be past one of them ([`Segments::misses`]). Of some thousand passes near a flank all
+//! but the few dozen whose blades come within a of the surface are answered for so, once for a group instead of once
+//! for a column.
 //!
 //! The answer is kept for each pass: the heights that it surely stays above, and the lowest for which this could not be
 //! said. It decides about time alone: a pass that is not answered for is looked at column by column.
 
-use super::segments::{Near, PhaseHeights, Segments};
+use super::near::Near;
+use super::phase_heights::PhaseHeights;
+use super::segments::Segments;
+use super::shared_segment::Beside;
 use gearcut_core::dexel::field::Column;
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -31,6 +35,8 @@ pub(super) struct ColumnGroup {
     middle: Column,
     /// How far points of the columns' rays lie from the point of the same height on the middle one, mm.
     apart_mm: f64,
+    /// How much their directions differ from that of the middle one at most.
+    turned: f64,
     passes: Vec<GroupLook>,
     /// The pass that lies lowest of some, on the column that was looked at last.
     lowest: BTreeMap<(usize, usize), usize>,
@@ -55,10 +61,12 @@ impl ColumnGroup {
         let apart_mm = columns.iter().map(|column| {
             column.origin_mm.distance(middle.origin_mm) + farthest_mm * column.normal.distance(middle.normal)
         });
+        let turned = columns.iter().map(|column| column.normal.distance(middle.normal));
         let [above, open] = [f64::NEG_INFINITY, f64::INFINITY].map(PhaseHeights::even);
         let nothing = GroupLook { above, open };
         Self {
             apart_mm: apart_mm.fold(0.0, f64::max),
+            turned: turned.fold(0.0, f64::max),
             middle,
             passes: vec![nothing; passes],
             lowest: before.map(|group| group.lowest).unwrap_or_default(),
@@ -88,12 +96,13 @@ impl ColumnGroup {
         }
         let heights = heights.raised(SPARE_SHARE * self.apart_mm);
         let set = segments.meeting(near, &self.middle, self.apart_mm);
-        let stays = set == 0 || segments.stays_above(near, &self.middle, set, &heights, self.apart_mm);
-        if stays {
-            look.above = if set == 0 { PhaseHeights::even(f64::INFINITY) } else { heights };
-        } else {
-            look.open = heights;
+        let beside = Beside { apart_mm: self.apart_mm, turned: self.turned };
+        if set == 0 || segments.misses(near, &self.middle, set, beside) {
+            look.above = PhaseHeights::even(f64::INFINITY);
+            return true;
         }
+        let stays = segments.stays_above(near, &self.middle, set, &heights, self.apart_mm);
+        *(if stays { &mut look.above } else { &mut look.open }) = heights;
         stays
     }
 
@@ -111,7 +120,7 @@ impl ColumnGroup {
 #[cfg(test)]
 mod tests {
     use super::super::deciding::{ColumnPasses, deciding};
-    use super::super::segments::passes_near;
+    use super::super::near::passes_near;
     use super::*;
     use crate::process::load;
     use crate::process::shaping::ShapingJob;

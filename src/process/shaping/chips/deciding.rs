@@ -9,11 +9,15 @@
 //! surface that is left, and one look at the edge says of the others that they stay above it. What is left is bounded
 //! first by the pass that lies lowest on the column before and by a pass in sixteen; then each pass is asked once, and
 //! most are answered for by the group of columns ([`super::column_group`]). The chips equal those of all passes bit for
-//! bit (test in [`super::flank`]). Road not taken: halving the rows of a column with bounds of their own. They cost
-//! more than a look at the edge for each row (75 s for 60 s on the paper's gear with the feed going on).
+//! bit (tests in [`super::flank`] and [`super::near`]). Road not taken: halving the rows of a column with bounds of
+//! their own. They cost more than a look at the edge for each row (75 s for 60 s on the paper's gear with the feed
+//! going on).
 
 use super::column_group::ColumnGroup;
-use super::segments::{Near, PhaseHeights, Reaching, SegmentSet, Segments};
+use super::near::Near;
+use super::phase_heights::PhaseHeights;
+use super::segments::{Reaching, SegmentSet, Segments};
+use super::shared_segment::Beside;
 use gearcut_core::dexel::field::Column;
 use std::ops::Range;
 
@@ -64,7 +68,7 @@ impl<'a> ColumnPasses<'a> {
             Look::Above(set, _) => set,
             _ => self.segments.meeting(near, self.ray, 0.0),
         };
-        let (look, reaching) = if set == 0 {
+        let (look, reaching) = if set == 0 || self.segments.misses(near, self.ray, set, Beside::ALONE) {
             (Look::Misses, None)
         } else if self.segments.stays_above(near, self.ray, set, heights, 0.0) {
             (Look::Above(set, *heights), None)

@@ -17,6 +17,7 @@
 //! target (c is four times the height of a scallop, t at most a half on the surface that is left), so thickness runs
 //! from 0 at one end of a facet through c in its middle to 2 c at the other.
 
+use super::along_rows;
 use super::column_group::ColumnGroup;
 use super::deciding::{ColumnPasses, deciding};
 use super::ploughing;
@@ -27,6 +28,9 @@ use crate::output::chip_places::ChipPlaces;
 use crate::process::shaping::ShapingJob;
 use crate::process::shaping::edge_polygon::EdgeSide;
 use gearcut_core::dexel::field::{Column, Field};
+
+/// Rows from which on the courses of passes along the face cost less than looks at each row.
+const ENOUGH_ROWS: usize = 10;
 
 /// Part of the edge as maps have it: 0 for none.
 pub fn side_code(side: Option<EdgeSide>) -> u8 {
@@ -76,7 +80,10 @@ fn last_chips_on_rays(
     wants: impl Fn(usize, [usize; 2]) -> bool,
 ) -> Vec<LastChips> {
     match &job.cutter_spec.edge_rounding {
-        None => last_chips_of(job, field, pairing, deciding, wants),
+        None => {
+            let passes = FieldPasses::of_smooth_edges(job, field, pairing);
+            last_chips_of(&passes, field, deciding, in_rows, wants)
+        }
         Some(rounding) => {
             let ploughed = ploughing::surfaces(job, field, pairing, rounding);
             ploughed.after.iter().map(|surfaces| last_chips_on(surfaces, ploughed.copies)).collect()
@@ -84,16 +91,15 @@ fn last_chips_on_rays(
     }
 }
 
-/// The same of those passes that `choose` takes of a column's, up to one of them.
-fn last_chips_of(
-    job: &ShapingJob,
+/// The same of those passes that `choose` takes of a column's, up to one of them, followed in rows by `follow`.
+pub(super) fn last_chips_of(
+    passes: &FieldPasses,
     field: &Field,
-    pairing: Pairing,
     choose: impl Fn(&mut ColumnPasses, usize) -> Vec<Reaching>,
+    follow: impl Fn(&FieldPasses, &[Chosen], &Column, &[usize]) -> Vec<RaySurface>,
     wants: impl Fn(usize, [usize; 2]) -> bool,
 ) -> Vec<LastChips> {
-    let passes = FieldPasses::of_smooth_edges(job, field, pairing);
-    let mut after: Vec<Vec<RaySurface>> = vec![Vec::new(); job.operations.len()];
+    let mut after: Vec<Vec<RaySurface>> = vec![Vec::new(); passes.operations()];
     let mut before = None;
     for (first, columns) in ColumnGroup::groups(&field.columns) {
         let mut group = passes.group(columns, before.take());
@@ -106,19 +112,33 @@ fn last_chips_of(
                     continue;
                 }
                 let chosen = passes.chosen(choose(&mut column, passes.of_operation(operation).end));
-                let mut likely = chosen.len() / 2;
-                after.extend(rows.map(|row| {
-                    if wants(operation, [index, row]) {
-                        last_cut(&passes, &chosen, row, ray, &mut likely)
-                    } else {
-                        RaySurface::uncut(ray)
-                    }
-                }));
+                let wanted: Vec<usize> = rows.clone().filter(|&row| wants(operation, [index, row])).collect();
+                let mut surfaces = vec![RaySurface::uncut(ray); rows.len()];
+                for (&row, cut) in wanted.iter().zip(follow(passes, &chosen, ray, &wanted)) {
+                    surfaces[row - rows.start] = cut;
+                }
+                after.extend(surfaces);
             }
         }
         before = Some(group);
     }
     after.into_iter().map(|surfaces| last_chips_on(&surfaces, passes.copies)).collect()
+}
+
+/// What some passes leave on a ray in some rows.
+pub(super) fn in_rows(passes: &FieldPasses, chosen: &[Chosen], ray: &Column, rows: &[usize]) -> Vec<RaySurface> {
+    if rows.len() < ENOUGH_ROWS || !passes.rest(chosen) {
+        return in_every_row(passes, chosen, ray, rows);
+    }
+    let mut likely = chosen.len() / 2;
+    let told = along_rows::surfaces(passes, chosen, ray, rows).into_iter().zip(rows);
+    told.map(|(told, &row)| told.unwrap_or_else(|| last_cut(passes, chosen, row, ray, &mut likely))).collect()
+}
+
+/// The same by a look in each of them.
+pub(super) fn in_every_row(passes: &FieldPasses, chosen: &[Chosen], ray: &Column, rows: &[usize]) -> Vec<RaySurface> {
+    let mut likely = chosen.len() / 2;
+    rows.iter().map(|&row| last_cut(passes, chosen, row, ray, &mut likely)).collect()
 }
 
 /// What some passes leave on a ray in a row: the first of those that come lowest, and before it the surface of those
@@ -240,22 +260,23 @@ mod tests {
             let columns: Vec<usize> = (0..field.columns.len()).step_by(31).collect();
             let field = field.at([&columns, &[0, 100, 300, 500, 600]]);
             let chosen = last_chips(&job, &field);
-            let of_all = last_chips_of(&job, &field, Pairing::All, |column, so_far| column.all(0..so_far), |_, _| true);
+            let passes = FieldPasses::of_smooth_edges(&job, &field, Pairing::All);
+            let of_all = last_chips_of(&passes, &field, |column, end| column.all(0..end), in_rows, |_, _| true);
             for (chosen, of_all) in chosen.iter().zip(&of_all) {
                 let bits = |chips: &LastChips| chips.thickness_mm.iter().map(|h| h.to_bits()).collect::<Vec<_>>();
                 assert_eq!((&chosen.passes, bits(chosen)), (&of_all.passes, bits(of_all)));
             }
             let counted = std::cell::Cell::new([0, 0]);
             last_chips_of(
-                &job,
+                &passes,
                 &field,
-                Pairing::All,
                 |column, so_far| {
                     let deciding = deciding(column, so_far);
                     let [a, k] = counted.get();
                     counted.set([a + column.all(0..so_far).len(), k + deciding.len()]);
                     deciding
                 },
+                in_rows,
                 |_, _| true,
             );
             let [a, k] = counted.get();

@@ -14,18 +14,22 @@
 //! chip each place of a flank was cut last. Where edges are rounded, what is left depends on the order of passes, and
 //! is found here as well.
 
+mod along_rows;
 mod column_group;
 mod deciding;
 pub mod deflection;
 mod entry;
 pub mod flank;
 pub mod ledger;
+mod near;
 pub mod oblique;
 mod own_region;
+mod phase_heights;
 mod ploughing;
 mod rays;
 pub mod section;
 mod segments;
+mod shared_segment;
 mod space;
 pub mod stroke;
 

@@ -17,8 +17,9 @@
 
 use super::column_group::ColumnGroup;
 use super::deciding::ColumnPasses;
+use super::phase_heights::PhaseHeights;
 use super::rays::{Chosen, FieldPasses, Pairing, RaySurface};
-use super::segments::{PhaseHeights, Reaching};
+use super::segments::Reaching;
 use crate::process::shaping::ShapingJob;
 use crate::process::shaping::edge_rounding::Meeting;
 use crate::process::shaping::scene::model::EdgeRounding;

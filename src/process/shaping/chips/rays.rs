@@ -6,9 +6,10 @@
 
 use super::column_group::ColumnGroup;
 use super::deciding::ColumnPasses;
-use super::segments::{
-    END_OVERLAP_MM, Near, PhaseHeights, Reaching, SegmentSet, Segments, SharedSegment, passes_near, residual_mm,
-};
+use super::near::{Near, passes_near};
+use super::phase_heights::PhaseHeights;
+use super::segments::{END_OVERLAP_MM, Reaching, SegmentSet, Segments};
+use super::shared_segment::{SharedSegment, front};
 use crate::process::shaping::ShapingJob;
 use crate::process::shaping::edge_polygon::EdgeSide;
 use gearcut_core::dexel::field::{Column, Field, NO_PASS};
@@ -47,6 +48,8 @@ pub(super) struct EdgeEntry {
     pub cosine: f64,
     /// Part of the edge.
     pub side: EdgeSide,
+    /// Place of the segment in the edge.
+    pub segment: usize,
 }
 
 /// A pass that is looked at.
@@ -116,6 +119,13 @@ impl<'a> FieldPasses<'a> {
         ColumnGroup::new(columns, self.near.len(), before)
     }
 
+    /// The same passes, each changed.
+    #[cfg(test)]
+    pub fn with_each(mut self, change: impl Fn(&mut Near)) -> Self {
+        self.near.iter_mut().for_each(change);
+        self
+    }
+
     /// The passes over one column of a group.
     pub fn over<'b>(&'b self, group: &'b mut ColumnGroup, ray: &'b Column) -> ColumnPasses<'b> {
         ColumnPasses::new(&self.segments, &self.near, ray, group)
@@ -127,6 +137,11 @@ impl<'a> FieldPasses<'a> {
             Pairing::Diagonal if self.phases.len() > 1 => column..column + 1,
             _ => 0..self.phases.len(),
         }
+    }
+
+    /// How many operations there are.
+    pub fn operations(&self) -> usize {
+        self.job.operations.len()
     }
 
     /// Places of an operation's passes among those near the field.
@@ -146,12 +161,31 @@ impl<'a> FieldPasses<'a> {
         reaching.into_iter().map(ready).collect()
     }
 
+    /// Phase of a pass in a row.
+    pub fn tau(&self, pass: &Chosen, row: usize) -> f64 {
+        self.phases[row][pass.operation]
+    }
+
+    /// A pass leaves no ray of its column lower than this in a row.
+    pub fn lowest_mm(&self, pass: &Chosen, row: usize) -> f64 {
+        pass.lowest.at_mm(self.tau(pass, row))
+    }
+
+    /// Whether the axes rest during the strokes of some passes.
+    pub fn rest(&self, chosen: &[Chosen]) -> bool {
+        chosen.iter().all(|pass| self.job.operations[pass.operation].strokes.law.rests())
+    }
+
     /// Where a ray in a row enters the tooth of a pass first, if that lies lower than `surface_mm`.
     pub fn entry(&self, pass: &Chosen, row: usize, ray: &Column, surface_mm: f64) -> Option<EdgeEntry> {
-        let tau = self.phases[row][pass.operation];
-        if pass.lowest.at_mm(tau) >= surface_mm {
+        if self.lowest_mm(pass, row) >= surface_mm {
             return None;
         }
+        self.entry_at(pass, self.tau(pass, row), ray, surface_mm)
+    }
+
+    /// The same at a phase of the pass.
+    pub fn entry_at(&self, pass: &Chosen, tau: f64, ray: &Column, surface_mm: f64) -> Option<EdgeEntry> {
         let work_from_tool = pass.path.at(tau);
         let blade_from_work = self.blades[pass.blade as usize].after(&work_from_tool.inverse());
         let (origin, direction) = (blade_from_work.point(ray.origin_mm), blade_from_work.direction(ray.normal));
@@ -163,7 +197,7 @@ impl<'a> FieldPasses<'a> {
             let segment = &edge.segments[index];
             let SharedSegment { segment_from_blade, .. } = part;
             let (o, n) = (segment_from_blade.point(origin), segment_from_blade.direction(direction));
-            if residual_mm(segment, o, n, surface_mm).is_some_and(|residual_mm| residual_mm > 0.0) {
+            if front(segment, o, n, surface_mm).is_some_and(|front| front.residual_mm > 0.0) {
                 if part.holds_smooth_tool() {
                     return None;
                 }
@@ -173,7 +207,7 @@ impl<'a> FieldPasses<'a> {
             let Some(hit) = segment.enter(o, n).filter(|hit| (from..=to).contains(&hit.y_mm)) else { continue };
             if hit.height_mm > below_mm && lowest.is_none_or(|lowest| hit.height_mm < lowest.height_mm) {
                 let (height_mm, cosine) = (hit.height_mm, hit.normal.dot(n).abs());
-                lowest = Some(EdgeEntry { height_mm, cosine, side: EdgeSide::of(segment.name) });
+                lowest = Some(EdgeEntry { height_mm, cosine, side: EdgeSide::of(segment.name), segment: index });
             }
         }
         lowest.filter(|entry| entry.height_mm < surface_mm)

@@ -7,81 +7,18 @@
 //! so that a ray in front of one of these is in front of the tool. Of a corner's arc the circle lies in the tool, not
 //! round it, and says nothing of the rest.
 
-use crate::process::shaping::{PreparedOperation, ShapingJob};
-use arrayvec::ArrayVec;
-use gearcut_core::dexel::field::{Column, Field};
-use gearcut_core::frame::Rigid2;
-use gearcut_core::passes::planar::near::{MAX_PHASES, NearPass, PhasePoses, near_passes};
-use gearcut_core::tool::edge::{Edge, Segment, SegmentShape};
-use glam::DVec2;
+use super::near::Near;
+use super::phase_heights::PhaseHeights;
+use super::shared_segment::{Beside, Entry, SharedSegment, TOLERANCE_MM};
+use gearcut_core::dexel::field::Column;
+use gearcut_core::passes::planar::near::MAX_PHASES;
+use gearcut_core::tool::edge::{Edge, Segment};
 
 /// Hits this far beyond a segment's end still count, as in the kernels, mm.
 pub(super) const END_OVERLAP_MM: f64 = 1e-9;
-/// What the bounds of a pass's heights are widened by, mm.
-const TOLERANCE_MM: f64 = 1e-6;
-
-/// One pass that comes near the field.
-pub(super) struct Near {
-    pub operation: usize,
-    pub stroke: usize,
-    pub blade: u32,
-    /// Poses of the work in the blade frame at both ends and in the middle of its travel along the face, or the only
-    /// one.
-    blade_from_work: PhasePoses,
-    /// How far the blade moves meanwhile, mm.
-    travel_mm: f64,
-}
 
 /// A set of the blade's segments, one bit each.
 pub(super) type SegmentSet = u64;
-
-/// Heights over a column's rays at the phases where passes are looked at, mm: between these they follow a parabola. All
-/// three are equal where strokes are frozen.
-///
-/// Where a guide leads the cutter aside, or the feed goes on, all passes come to other heights at other phases, and
-/// alike: compared phase by phase a few dozen nanometres tell them apart, where their heights anywhere on the column
-/// overlap by micrometres.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct PhaseHeights([f64; MAX_PHASES]);
-
-impl PhaseHeights {
-    /// The same height at every phase.
-    pub fn even(height_mm: f64) -> Self {
-        Self([height_mm; MAX_PHASES])
-    }
-
-    /// Whether it is as high as another or higher at every phase.
-    pub fn covers(&self, other: &Self) -> bool {
-        self.0.iter().zip(&other.0).all(|(own, other)| own >= other)
-    }
-
-    /// Whether it comes as low as another at any phase. Bounds hold between phases as well: what they are widened by
-    /// holds how far parabolas dip there.
-    pub fn reaches(&self, other: &Self) -> bool {
-        self.0.iter().zip(&other.0).any(|(own, other)| own <= other)
-    }
-
-    /// The same, higher by so much.
-    pub fn raised(self, by_mm: f64) -> Self {
-        Self(self.0.map(|height_mm| height_mm + by_mm))
-    }
-
-    /// The highest of its heights at the phases.
-    pub fn highest_mm(&self) -> f64 {
-        self.0.into_iter().fold(f64::NEG_INFINITY, f64::max)
-    }
-
-    /// Whether it lies lower than another in the mean.
-    pub fn is_lower(&self, other: &Self) -> bool {
-        self.0.iter().sum::<f64>() < other.0.iter().sum::<f64>()
-    }
-
-    /// Height at a phase.
-    pub fn at_mm(&self, tau: f64) -> f64 {
-        let [before, middle, after] = self.0;
-        middle + 0.5 * tau * (after - before + tau * (before - 2.0 * middle + after))
-    }
-}
 
 /// A pass whose edge can meet a column's rays.
 #[derive(Debug, Clone, Copy)]
@@ -94,45 +31,6 @@ pub(super) struct Reaching {
     pub lowest: PhaseHeights,
     /// It leaves none higher than this; infinite where it may miss one.
     pub highest: PhaseHeights,
-}
-
-/// A segment of the smooth edge that all blades share.
-pub(super) struct SharedSegment<'a> {
-    segment: &'a Segment,
-    pub segment_from_blade: Rigid2,
-    /// How far blades stay within it along x, mm.
-    depth_mm: f64,
-    /// How much nearer a ray can stand in front of it than another one, as a share of how far they lie apart.
-    nearer: f64,
-}
-
-impl SharedSegment<'_> {
-    /// Whether the whole tool lies inside the segment and the tangents at its ends: not inside a corner's arc, whose
-    /// circle lies in the tool.
-    fn holds_tool(&self) -> bool {
-        matches!(self.segment.shape, SegmentShape::Table(_))
-    }
-
-    /// The same where no blade's edge is rough, so that a ray in front of the segment is in front of every tool.
-    pub fn holds_smooth_tool(&self) -> bool {
-        self.depth_mm == 0.0 && self.holds_tool()
-    }
-
-    /// Whether the segment surely stays behind some heights on a column's rays, and on rays within `apart_mm` of these,
-    /// at every phase of a pass.
-    fn is_behind(&self, pass: &Near, ray: &Column, heights: &PhaseHeights, apart_mm: f64) -> bool {
-        let Self { segment, segment_from_blade, depth_mm, nearer } = self;
-        let mut residuals_mm: ArrayVec<f64, MAX_PHASES> = ArrayVec::new();
-        for (blade_from_work, &height_mm) in pass.blade_from_work.iter().zip(&heights.0) {
-            let o = segment_from_blade.point(blade_from_work.point(ray.origin_mm));
-            let n = segment_from_blade.direction(blade_from_work.direction(ray.normal));
-            let Some(residual_mm) = residual_mm(segment, o, n, height_mm) else { return false };
-            residuals_mm.push(residual_mm);
-        }
-        let bend_mm = if let [a, b, c] = residuals_mm[..] { (a - 2.0 * b + c).abs() } else { 0.0 };
-        let margin_mm = 0.5 * bend_mm + TOLERANCE_MM + depth_mm + apart_mm * nearer;
-        residuals_mm.iter().all(|&residual_mm| residual_mm > margin_mm)
-    }
 }
 
 /// The blades' segments.
@@ -149,9 +47,7 @@ impl<'a> Segments<'a> {
     pub fn new(edge: &'a Edge, of_blades: &[Edge]) -> Self {
         let part = |(index, segment): (usize, &'a Segment)| {
             let depth_mm = of_blades.iter().map(|edge| edge.segments[index].depth_mm()).fold(0.0, f64::max);
-            let steepest = segment.slope_range.map(f64::abs).into_iter().fold(0.0, f64::max);
-            let segment_from_blade = segment.blade_from_segment.inverse();
-            SharedSegment { segment, segment_from_blade, depth_mm, nearer: steepest.hypot(1.0) }
+            SharedSegment::new(segment, depth_mm)
         };
         let parts: Vec<SharedSegment> = edge.segments.iter().enumerate().map(part).collect();
         let depth_mm = parts.iter().map(|part| part.depth_mm).fold(0.0, f64::max);
@@ -168,8 +64,7 @@ impl<'a> Segments<'a> {
     pub fn meeting(&self, pass: &Near, ray: &Column, apart_mm: f64) -> SegmentSet {
         let mut set = 0;
         let around_mm = pass.travel_mm + apart_mm;
-        for blade_from_work in pass.blade_from_work.iter() {
-            let (origin, direction) = (blade_from_work.point(ray.origin_mm), blade_from_work.direction(ray.normal));
+        for [origin, direction] in pass.looks(ray) {
             let reach_mm = self.edge.reach_mm + self.depth_mm + around_mm;
             if direction.perp_dot(self.edge.center_mm - origin).abs() > reach_mm {
                 continue;
@@ -186,29 +81,49 @@ impl<'a> Segments<'a> {
         set
     }
 
+    /// Whether a column's rays, and rays beside them, surely come out of a pass's tool where they begin to count, or
+    /// are past it there: they do not enter it further up. So it is with blades in the space behind the tooth, half of
+    /// all that come near. Asked of passes whose edge is looked at once.
+    pub fn misses(&self, pass: &Near, ray: &Column, segments: SegmentSet, beside: Beside) -> bool {
+        let [pose] = &pass.poses[..] else { return false };
+        let beside = Beside { apart_mm: beside.apart_mm + pass.travel_mm, ..beside };
+        let mut flanks = self.of(segments).filter(|(_, part)| part.holds_tool());
+        flanks.any(|(_, part)| part.is_passed(pose, ray, 2.0 * ray.low_mm, beside))
+    }
+
     /// A pass over a column: which segments can meet its rays, and how high it leaves them.
     ///
     /// The tool lies inside each of its flanks and lands with the tangents at their ends, for its edge is convex: it
     /// enters no lower than the highest of their entries, nor lower than all those of the segments that the rays can
     /// meet (others are not looked at), and just there if that one lies on its segment. Between the phases at which
     /// this is looked at heights follow a parabola nearly, which passes the lines between its samples by an eighth of
-    /// their second difference; half of it is allowed for. Rough edges stay within their depth of the smooth ones.
+    /// their second difference; half of it is allowed for, and what the pass wanders from a parabola itself. Rough
+    /// edges stay within their depth of the smooth ones.
     pub fn reaching(&self, near: usize, pass: &Near, ray: &Column, segments: SegmentSet) -> Option<Reaching> {
-        let at_phases =
-            pass.blade_from_work.iter().map(|blade_from_work| self.entry_mm(blade_from_work, ray, segments));
-        let at_phases: ArrayVec<[f64; 2], MAX_PHASES> = at_phases.collect();
-        let samples: [[f64; 2]; MAX_PHASES] = std::array::from_fn(|phase| at_phases[phase.min(at_phases.len() - 1)]);
+        let mut bounds = [EntryBounds::NONE; MAX_PHASES];
+        for (_, part) in self.of(segments) {
+            let SharedSegment { depth_mm, .. } = part;
+            // The edge as far out as any blade's, and as far in.
+            let outer = part.entries(pass, ray, *depth_mm);
+            let inner = if *depth_mm > 0.0 { part.entries(pass, ray, -depth_mm) } else { outer };
+            for (bounds, (outer, inner)) in bounds.iter_mut().zip(outer.into_iter().zip(inner)) {
+                bounds.add(part, outer, inner, 2.0 * ray.low_mm);
+            }
+        }
+        let samples = bounds.map(|bounds| bounds.heights_mm());
         // Below twice the ray's lowest height nothing is recorded.
         if samples.iter().all(|s| !s[0].is_finite() || s[0] <= 2.0 * ray.low_mm) {
             return None;
         }
         let [entry_mm, sure_mm] = [0, 1].map(|bound| samples.map(|sample| sample[bound]));
-        let margin_mm = |[a, b, c]: [f64; MAX_PHASES]| 0.5 * (a - 2.0 * b + c).abs() + TOLERANCE_MM;
+        let fall = bounds.iter().map(|bounds| bounds.fall).fold(1.0, f64::min);
+        let tolerance_mm = TOLERANCE_MM + pass.wander_mm / fall;
+        let margin_mm = |[a, b, c]: [f64; MAX_PHASES]| 0.5 * (a - 2.0 * b + c).abs() + tolerance_mm;
         // Where it misses the rays at a phase, nothing says how heights run from there to the next one.
         let lowest = if entry_mm.iter().all(|height_mm| height_mm.is_finite()) {
             PhaseHeights(entry_mm).raised(-margin_mm(entry_mm))
         } else {
-            PhaseHeights::even(entry_mm.into_iter().fold(f64::INFINITY, f64::min) - TOLERANCE_MM)
+            PhaseHeights::even(entry_mm.into_iter().fold(f64::INFINITY, f64::min) - tolerance_mm)
         };
         let highest = if sure_mm.iter().all(|height_mm| height_mm.is_finite()) {
             let highest = PhaseHeights(sure_mm).raised(margin_mm(sure_mm));
@@ -244,64 +159,41 @@ impl<'a> Segments<'a> {
         }
         in_front_of_all
     }
+}
 
-    /// Bounds of the height at which a ray enters the tool through one of the given segments: no lower than the first
-    /// (infinite: it does not), and the second if it surely enters.
-    fn entry_mm(&self, blade_from_work: &Rigid2, ray: &Column, set: SegmentSet) -> [f64; 2] {
-        let (origin, direction) = (blade_from_work.point(ray.origin_mm), blade_from_work.direction(ray.normal));
-        let (mut inside_mm, mut lowest_mm, mut sure_mm) = (f64::NEG_INFINITY, f64::INFINITY, f64::INFINITY);
-        for (_, part) in self.of(set) {
-            let SharedSegment { segment, segment_from_blade, depth_mm, .. } = part;
-            let (o, n) = (segment_from_blade.point(origin), segment_from_blade.direction(direction));
-            let [from, to] = segment.y_range_mm;
-            // The edge as far out as any blade's, and as far in.
-            let out = DVec2::new(*depth_mm, 0.0);
-            let Some(hit) = segment.enter(o - out, n) else { continue };
-            let on_segment = (from..=to).contains(&hit.y_mm);
-            if on_segment || part.holds_tool() {
-                inside_mm = inside_mm.max(hit.height_mm);
-            }
-            lowest_mm = lowest_mm.min(hit.height_mm);
-            let deepest = if *depth_mm > 0.0 { segment.enter(o + out, n) } else { Some(hit) };
-            let sure = deepest.filter(|hit| (from..=to).contains(&hit.y_mm) && hit.height_mm > 2.0 * ray.low_mm);
-            sure_mm = sure.map_or(sure_mm, |hit| sure_mm.min(hit.height_mm));
+/// Bounds of the height at which a ray enters the tool through one of some segments.
+#[derive(Debug, Clone, Copy)]
+struct EntryBounds {
+    /// The highest of those through segments in which the tool lies.
+    inside_mm: f64,
+    /// The lowest of all, and the lowest that is sure.
+    lowest_and_sure_mm: [f64; 2],
+    /// The least fall of all.
+    fall: f64,
+}
+
+impl EntryBounds {
+    /// Those of no segment.
+    const NONE: Self = Self { inside_mm: f64::NEG_INFINITY, lowest_and_sure_mm: [f64::INFINITY; 2], fall: 1.0 };
+
+    /// With another segment, as far out as any blade's and as far in; no entry counts below some height.
+    fn add(&mut self, part: &SharedSegment, outer: Option<Entry>, inner: Option<Entry>, below_mm: f64) {
+        let Some(outer) = outer else { return };
+        let [from, to] = part.segment.y_range_mm;
+        let is_on = |entry: &Entry| (from..=to).contains(&entry.y_mm);
+        if is_on(&outer) || part.holds_tool() {
+            self.inside_mm = self.inside_mm.max(outer.height_mm);
         }
-        [lowest_mm.max(inside_mm), sure_mm]
+        self.fall = self.fall.min(outer.fall);
+        let sure = inner.filter(|entry| is_on(entry) && entry.height_mm > below_mm);
+        let [lowest_mm, sure_mm] = &mut self.lowest_and_sure_mm;
+        *lowest_mm = lowest_mm.min(outer.height_mm);
+        *sure_mm = sure.map_or(*sure_mm, |entry| sure_mm.min(entry.height_mm));
     }
-}
 
-/// All passes of all operations near a field, in order of time.
-pub(super) fn passes_near(job: &ShapingJob, field: &Field) -> Vec<Near> {
-    let (center_mm, reach_mm) = Field::circle(&field.columns);
-    let of_operation = |(operation, prepared): (usize, &PreparedOperation)| {
-        let near = near_passes(&prepared.strokes, &job.cutter, center_mm, reach_mm);
-        near.into_iter().map(move |pass| {
-            let middle = *pass.middle();
-            let motion_mm = |pose: &Rigid2| {
-                let turn = (pose.rotation - middle.rotation).length();
-                pose.point(center_mm).distance(middle.point(center_mm)) + turn * reach_mm
-            };
-            let travel_mm = pass.blade_from_work.iter().map(motion_mm).fold(0.0, f64::max);
-            let NearPass { stroke, blade, blade_from_work } = pass;
-            Near { operation, stroke, blade, blade_from_work, travel_mm }
-        })
-    };
-    job.operations.iter().enumerate().flat_map(of_operation).collect()
-}
-
-/// How far a ray stands in front of a segment at a height, mm, if it runs into the segment from there on; negative
-/// behind it. Segments are convex, and so is this in the height: where it is positive the ray enters higher up, if at
-/// all.
-pub(super) fn residual_mm(segment: &Segment, o: DVec2, n: DVec2, height_mm: f64) -> Option<f64> {
-    let at = o + height_mm * n;
-    match segment.shape {
-        SegmentShape::Table(_) => {
-            let [x, slope] = segment.x_and_slope(at.y);
-            (n.x < slope * n.y).then_some(at.x - x)
-        }
-        SegmentShape::Arc { radius_mm } => {
-            let from_center = at + DVec2::new(radius_mm, 0.0);
-            (n.dot(from_center) < 0.0).then(|| from_center.length() - radius_mm)
-        }
+    /// No lower than the first (infinite: it does not enter), and the second if it surely enters.
+    fn heights_mm(&self) -> [f64; 2] {
+        let [lowest_mm, sure_mm] = self.lowest_and_sure_mm;
+        [lowest_mm.max(self.inside_mm), sure_mm]
     }
 }
