@@ -318,6 +318,27 @@ fn candidates_equal_brute_force_on_a_machine_with_errors() {
     }
 }
 
+/// Noise that goes on during a stroke moves the cutter on cubics, with the strokes so close that marks are no deeper than
+/// what the cubics leave parabolas by.
+#[test]
+fn candidates_equal_brute_force_where_axes_wander() {
+    let noise = [
+        "machine.errors.work.noise_arcsec=2",
+        "machine.errors.work.noise_bandwidth_hz=3",
+        "machine.errors.center_distance.noise_um=2",
+        "machine.errors.center_distance.noise_bandwidth_hz=3",
+        "operation.finish.feed_during_stroke=false",
+        "operation.finish.strokes_per_revolution=4200",
+        "fields.flank.lead_spacing_um=1000",
+    ];
+    let wandering = job(ELLIPTICAL, &noise);
+    for (tooth, side) in [(3, Side::Left), (9, Side::Right)] {
+        let field = wandering.flank_field(wandering.target_flank(tooth, side));
+        let (columns, rows): (Vec<usize>, Vec<usize>) = ((300..360).collect(), (0..field.rows()).collect());
+        compare_whole_field(&wandering, &field.at([&columns, &rows]), wandering.finishing());
+    }
+}
+
 /// Each alone and all at once: an axis with one error is worked out another way than one without.
 #[test]
 fn errors_of_nothing_change_no_byte() {
@@ -392,11 +413,15 @@ fn slices_of_the_blank_follow_the_guide() {
     let feeds = "operation.finish.feed_during_stroke=true";
     assert_eq!(left(&[feeds, slope]).0, 9, "the feed goes on: every 2.5 mm of 20");
     let dense = "fields.blank.slice_spacing_mm=1";
-    for (errors, slices) in [(&[slope][..], 2), (&[wobble], 2), (&[slope, bow], 3), (&small, 1)] {
+    for (errors, slices) in [(&[slope][..], 2), (&[wobble], 2), (&[slope, bow], 3)] {
         let ((found, few_mm3), (all, many_mm3)) = (left(errors), left(&[errors, &[dense]].concat()));
         assert_eq!((found, all), (slices, 21), "{errors:?}");
         // A bow of b moves sections by b (z / h)^2, 1/3 of it in the mean, where three slices say 1/2.
         let bent_mm3 = if slices == 3 { (1.0 / 2.0 - 1.0 / 3.0) * 0.040 * TAU * 36.0 * 20.0 } else { 0.0 };
         assert!((few_mm3 - many_mm3).abs() < bent_mm3 + 1e-4 * ideal_mm3, "{errors:?}: {few_mm3}, {many_mm3} mm3");
     }
+    // The middle section is the ideal one; rays half a millimetre apart know its area to two parts in ten thousand.
+    let ((one, few_mm3), (_, many_mm3)) = (left(&small), left(&[&small[..], &[dense]].concat()));
+    assert_eq!((one, few_mm3), (1, ideal_mm3));
+    assert!((few_mm3 - many_mm3).abs() < 2e-4 * ideal_mm3, "{few_mm3}, {many_mm3} mm3");
 }

@@ -13,7 +13,6 @@ use crate::process::shaping::{PreparedOperation, ShapingJob};
 use gearcut_core::dexel::field::{Column, Field};
 use gearcut_core::frame::Rigid2;
 use gearcut_core::passes::planar::near::{MAX_PHASES, NearPass, PhasePoses, near_passes};
-use gearcut_core::passes::planar::strokes::StrokePath;
 use glam::DVec2;
 
 /// A stroke that turns the blade moves no point of the field by more than this if it counts as a shift, mm: rounding.
@@ -37,14 +36,12 @@ pub(super) struct Near {
 
 impl Near {
     /// A pass near a field that lies within `reach_mm` of `center_mm`.
-    fn new(operation: usize, pass: &NearPass, path: &StrokePath, center_mm: DVec2, reach_mm: f64) -> Self {
+    fn new(operation: usize, pass: &NearPass, center_mm: DVec2, reach_mm: f64) -> Self {
         let middle = *pass.middle();
         let shift_mm = |pose: &Rigid2| pose.point(center_mm) - middle.point(center_mm);
         let turn_mm = |pose: &Rigid2| (pose.rotation - middle.rotation).length() * reach_mm;
         let motion_mm = |pose: &Rigid2| shift_mm(pose).length() + turn_mm(pose);
-        let NearPass { stroke, blade, blade_from_work: poses } = *pass;
-        let axis_mm = path.at(0.0).translation_mm;
-        let wander_mm = path.beyond_parabola_mm(axis_mm.distance(center_mm) + reach_mm);
+        let NearPass { stroke, blade, blade_from_work: poses, wander_mm } = *pass;
         let travel_mm = poses.iter().map(motion_mm).fold(0.0, f64::max) + wander_mm;
         let drift_mm = match &poses[..] {
             [before, _, after] if turn_mm(before).max(turn_mm(after)) < TURN_MM => {
@@ -68,8 +65,7 @@ pub(super) fn passes_near(job: &ShapingJob, field: &Field) -> Vec<Near> {
     let of_operation = |(operation, prepared): (usize, &PreparedOperation)| -> Vec<Near> {
         let strokes = &prepared.strokes;
         let near = near_passes(strokes, &job.cutter, center_mm, reach_mm);
-        let ready = |pass: &NearPass| Near::new(operation, pass, &strokes.path(pass.stroke), center_mm, reach_mm);
-        near.iter().map(ready).collect()
+        near.iter().map(|pass| Near::new(operation, pass, center_mm, reach_mm)).collect()
     };
     job.operations.iter().enumerate().flat_map(of_operation).collect()
 }

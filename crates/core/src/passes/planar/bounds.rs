@@ -324,7 +324,8 @@ impl<'a> SegmentBounds<'a> {
         if lowest <= sampling.floor_mm {
             return if highest < sampling.floor_mm - FLOOR_MM { Verdict::Clear } else { Verdict::Undecided };
         }
-        let tolerance_mm = END_SHARE * (y_high - y_low) + END_MM + rough_mm;
+        let wander_mm = near.wander_mm / least_cos;
+        let tolerance_mm = END_SHARE * (y_high - y_low) + END_MM + rough_mm + wander_mm;
         let [y_start, y_end] = segment.y_range_mm;
         if y_low - tolerance_mm > y_end || y_high + tolerance_mm < y_start {
             return Verdict::Clear;
@@ -338,7 +339,7 @@ impl<'a> SegmentBounds<'a> {
             .map(|h| CURVATURE_SAFETY * (h[0] - 2.0 * h[1] + h[2]).abs() / 8.0)
             .fold(0.0, f64::max);
         let certain = y_low - tolerance_mm > y_start && y_high + tolerance_mm < y_end;
-        let error_mm = along_profile_mm + along_stroke_mm + beside_mm + rough_mm + ROUNDING_MM;
+        let error_mm = along_profile_mm + along_stroke_mm + wander_mm + beside_mm + rough_mm + ROUNDING_MM;
         Verdict::Bounded(PassSamples { pass, segment: segment_index, heights_mm, error_mm, certain })
     }
 }

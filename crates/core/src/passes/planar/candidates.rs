@@ -352,5 +352,5 @@ fn sampling(places: &[Column]) -> Sampling<'_> {
 fn travel_mm(pass: &NearPass, ray: &Column) -> f64 {
     let mut places = pass.blade_from_work.iter().map(|blade_from_work| blade_from_work.point(ray.origin_mm));
     let Some(first) = places.next() else { return 0.0 };
-    places.map(|p| p.distance(first)).fold(0.0, f64::max)
+    places.map(|p| p.distance(first)).fold(0.0, f64::max) + pass.wander_mm
 }

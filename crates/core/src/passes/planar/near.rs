@@ -18,8 +18,9 @@ pub const MAX_PHASES: usize = 3;
 const BOUND_PHASES: [f64; MAX_PHASES] = [-1.0, 0.0, 1.0];
 
 /// Safety on the bend of a path that three poses show. A path of second degree leaves its chords by an eighth of the
-/// second difference. Paths are cubics in the phase; that their third derivative adds less than half to the second is
-/// not proved. The comparison with all passes in `tests/suite/shaping/flank_heights.rs` stands for it.
+/// second difference; what its third derivative adds is counted by itself ([`NearPass::wander_mm`]). That the edge turns
+/// no more than this between two poses is not proved: the comparison with all passes in
+/// `tests/suite/shaping/flank_heights.rs` stands for it.
 const BEND_SAFETY: f64 = 1.5;
 /// How far a point of the tool moves from its middle place during a stroke at most, in shares of what the poses at the
 /// nodes show. Poses are cubics through four Chebyshev nodes ([`super::strokes::NODES`]): between and beside these no
@@ -42,6 +43,8 @@ pub struct NearPass {
     pub blade: u32,
     /// Poses of the work in the blade frame: one when frozen, else at tau = -1, 0, 1.
     pub blade_from_work: PhasePoses,
+    /// How far it leaves the parabolas through its places at these phases at most, mm: as noise of the axes lets it.
+    pub wander_mm: f64,
 }
 
 /// Poses at the phases where bounds look at a pass, in their order: one or [`MAX_PHASES`].
@@ -105,7 +108,8 @@ impl NearPass {
     pub fn bend_mm(&self, center_mm: DVec2, reach_mm: f64) -> f64 {
         let [before, middle, after] = &self.blade_from_work[..] else { return 0.0 };
         let bend = |pick: &dyn Fn(&Rigid2) -> DVec2| (pick(before) - 2.0 * pick(middle) + pick(after)).length();
-        BEND_SAFETY / 8.0 * (bend(&|pose| pose.point(center_mm)) + bend(&|pose| pose.rotation) * reach_mm)
+        let parabola_mm = bend(&|pose| pose.point(center_mm)) + bend(&|pose| pose.rotation) * reach_mm;
+        BEND_SAFETY / 8.0 * parabola_mm + self.wander_mm
     }
 }
 
@@ -135,25 +139,27 @@ pub fn near_passes(set: &StrokeSet, tool: &dyn PlanarTool, center_mm: DVec2, rea
         if middle.translation_mm.distance(center_mm) > tool_reach_mm + limit_mm {
             continue;
         }
-        let bounds = bound_poses(poses);
+        let (bounds, wander_mm) = bound_poses(poses, center_mm, reach_mm);
         for (blade, tool_from_blade) in blades.iter().enumerate() {
             if middle.point(centers_mm[blade]).distance(center_mm) > limit_mm {
                 continue;
             }
             let blade_from_work = bounds.map(|pose| pose.after(tool_from_blade).inverse());
-            near.push(NearPass { stroke, blade: blade as u32, blade_from_work });
+            near.push(NearPass { stroke, blade: blade as u32, blade_from_work, wander_mm });
         }
     }
     near
 }
 
-/// Poses at [`BOUND_PHASES`] from those at the nodes.
-fn bound_poses(poses: &[Rigid2]) -> PhasePoses {
+/// Poses at [`BOUND_PHASES`] from those at the nodes, and how far a place within `reach_mm` of `center_mm` in the work
+/// leaves the parabolas through its places at these, mm.
+fn bound_poses(poses: &[Rigid2], center_mm: DVec2, reach_mm: f64) -> (PhasePoses, f64) {
     if let [pose] = poses {
-        return PhasePoses::frozen(*pose);
+        return (PhasePoses::frozen(*pose), 0.0);
     }
     let path = StrokePath::through(poses);
-    PhasePoses::moving(BOUND_PHASES.map(|tau| path.at(tau)))
+    let from_axis_mm = path.at(0.0).translation_mm.distance(center_mm) + reach_mm;
+    (PhasePoses::moving(BOUND_PHASES.map(|tau| path.at(tau))), path.beyond_parabola_mm(from_axis_mm))
 }
 
 /// Height at which the lowest of some passes meets a ray of the gear frame at the middle of the stroke, above `low_mm`;

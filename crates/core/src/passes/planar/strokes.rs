@@ -287,19 +287,17 @@ impl StrokePath {
         x.hypot(y) + reach_mm * c.hypot(s)
     }
 
+    /// How far a point within `reach_mm` of the tool's axis may leave the parabola through its places at tau = -1, 0
+    /// and 1, mm: a cubic leaves it by c (tau^3 - tau), 0.385 c at most.
+    pub fn beyond_parabola_mm(&self, reach_mm: f64) -> f64 {
+        let [cos, sin, x_mm, y_mm] = self.0.map(|entry| entry[3]);
+        0.385 * (x_mm.hypot(y_mm) + reach_mm * cos.hypot(sin))
+    }
+
     /// Pose at a phase.
     pub fn at(&self, tau: f64) -> Rigid2 {
         let [c, s, x, y] = self.0.map(|e| e[0] + tau * (e[1] + tau * (e[2] + tau * e[3])));
         Rigid2 { rotation: DVec2::new(c, s), translation_mm: DVec2::new(x, y) }
-    }
-}
-
-impl StrokePath {
-    /// How far a point that stays within `reach_mm` of the source's origin may leave the parabola through its places at
-    /// tau = -1, 0 and 1, mm: a cubic leaves it by c (tau^3 - tau), 0.385 c at most.
-    pub fn beyond_parabola_mm(&self, reach_mm: f64) -> f64 {
-        let [cos, sin, x_mm, y_mm] = self.0.map(|entry| entry[3]);
-        0.385 * (x_mm.hypot(y_mm) + reach_mm * cos.hypot(sin))
     }
 }
 
