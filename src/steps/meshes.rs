@@ -8,7 +8,8 @@ use crate::output::mesh_glb::write_glb;
 use crate::output::mesh_ply::write_ply;
 use crate::output::mesh_stl::write_stl;
 use crate::output::progress::Progress;
-use crate::steps::{gear_surfaces, pictures};
+use crate::scene::model::{Picture, PictureColour, PictureView};
+use crate::steps::gear_surfaces;
 use crate::surface::gear_solid::gear_solid;
 use crate::surface::outline::{BODY_MM, Outline, flank_name};
 use crate::surface::{BlankMesh, Mesh, SurfaceGrid};
@@ -16,9 +17,15 @@ use gearcut_core::cut::Backend;
 use gearcut_core::cut::CutBlank;
 use gearcut_core::error::Result;
 use gearcut_core::terms::Side;
+use std::f64::consts::PI;
 
 /// Heights shown beside each other on meshes of gears that were cut in one operation, µm: what a good cut leaves.
 const HEIGHT_COLOURS_UM: f32 = 5.0;
+
+/// Rows of a body are drawn where leaving them out moves its surface by more than this share of a pixel.
+const PIXEL_SHARE: f64 = 0.1;
+/// Width that a picture of a tooth shows, in transverse pitches.
+pub const TOOTH_PITCHES: f64 = 3.5;
 
 /// Colours of the stock that the last operation found, the same on maps, meshes and pictures.
 pub fn stock_scale(job: &dyn GearJob) -> ColourScale {
@@ -56,6 +63,23 @@ pub fn write_flank(
     write_ply(&folder.path(format!("mesh/flanks/{name}.ply"))?, &file)
 }
 
+/// How far the rows of a body may be from its surface so that no picture of the gear or of a tooth shows it, mm;
+/// nothing where one shows how far the surface is from the target, or the pass that left it, or keeps the numbers
+/// behind pixels.
+fn rows_within_mm(job: &dyn GearJob) -> Option<f64> {
+    let gear = &job.scene().gear;
+    let bodies = job.scene().pictures.iter().filter(|picture| picture.view != PictureView::Flank);
+    let within_mm = |picture: &Picture| {
+        let shows_numbers = picture.exr || matches!(picture.colour, PictureColour::Height | PictureColour::Pass);
+        let width_mm = picture.extent_mm.unwrap_or(match picture.view {
+            PictureView::Tooth => TOOTH_PITCHES * PI * gear.transverse_module_mm(),
+            _ => gear.transverse_module_mm() * f64::from(gear.teeth),
+        });
+        (!shows_numbers).then(|| PIXEL_SHARE * width_mm / f64::from(picture.size_px.0))
+    };
+    bodies.map(within_mm).reduce(|a, b| Some(a?.min(b?))).flatten()
+}
+
 /// A gear as closed bodies.
 pub struct ClosedBodies {
     /// As it is written.
@@ -79,7 +103,7 @@ pub fn gear(
     let surfaces = gear_surfaces::complete(job, backend, flanks, roots, &|| step.advance(1))?;
     let outline = Outline::new(&surfaces, job.blank(), BODY_MM);
     let whole = gear_solid(&outline, &job.blank().back)?;
-    let shown = pictures::rows_within_mm(job).map(|within_mm| Outline::new(&surfaces, job.blank(), within_mm));
+    let shown = rows_within_mm(job).map(|within_mm| Outline::new(&surfaces, job.blank(), within_mm));
     let fewer = shown.filter(|shown| shown.rows() < outline.rows());
     let pictured = fewer.map(|shown| gear_solid(&shown, &job.blank().back)).transpose()?;
     step.finish();

@@ -60,7 +60,7 @@ pub struct Work {
 }
 
 impl Work {
-    /// Passes that a dexel which was cut met, mean: of those that one row stands for, only that row's count.
+    /// Passes that a dexel which was cut met, mean: of those that other rows stand for or tell of, none count.
     pub fn passes_per_dexel(&self) -> f64 {
         self.stats.dexel_passes as f64 / self.stats.dexels.max(1) as f64
     }
@@ -68,8 +68,13 @@ impl Work {
     /// Number of dexels and passes of each, as the terminal and the page say it.
     pub fn dexels_in_words(&self) -> String {
         let (millions, per_dexel) = (self.dexels as f64 / 1e6, significant(self.passes_per_dexel(), 3));
-        let alike = if self.stats.dexels < self.dexels { "; rows are alike, so one was cut for all" } else { "" };
-        format!("{millions:.1} million, {per_dexel} passes each{alike}")
+        let cut = self.stats.dexels as f64 / self.dexels.max(1) as f64;
+        let few = if cut < 1.0 {
+            format!("; {} % were cut, the others follow from them", significant(100.0 * cut, 2))
+        } else {
+            String::new()
+        };
+        format!("{millions:.1} million, {per_dexel} passes each{few}")
     }
 
     /// What a reader of the results must know of how flanks were cut.

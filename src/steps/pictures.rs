@@ -7,7 +7,7 @@ pub mod flank;
 
 use super::Tools;
 use super::attempts::Attempts;
-use super::meshes::stock_scale;
+use super::meshes::{TOOTH_PITCHES, stock_scale};
 use crate::colormap::ColourScale;
 use crate::interrupt::Interrupt;
 use crate::job::GearJob;
@@ -28,27 +28,6 @@ use std::f64::consts::PI;
 
 /// Colours run between these quantiles of the values; what lies beyond is marked at the colour bar.
 const SHOWN: [f64; 2] = [0.01, 0.98];
-/// Rows of a body are drawn where leaving them out moves its surface by more than this share of a pixel.
-const PIXEL_SHARE: f64 = 0.1;
-/// Width that a picture of a tooth shows, in transverse pitches.
-const TOOTH_PITCHES: f64 = 3.5;
-
-/// How far the rows of a body may be from its surface so that no picture of the gear or of a tooth shows it, mm; nothing
-/// where one shows how far the surface is from the target, or the pass that left it, or keeps the numbers behind pixels.
-pub fn rows_within_mm(job: &dyn GearJob) -> Option<f64> {
-    let gear = &job.scene().gear;
-    let bodies = job.scene().pictures.iter().filter(|picture| picture.view != PictureView::Flank);
-    let within_mm = |picture: &Picture| {
-        let shows_numbers = picture.exr || matches!(picture.colour, PictureColour::Height | PictureColour::Pass);
-        let width_mm = picture.extent_mm.unwrap_or(match picture.view {
-            PictureView::Tooth => TOOTH_PITCHES * PI * gear.transverse_module_mm(),
-            _ => gear.transverse_module_mm() * f64::from(gear.teeth),
-        });
-        (!shows_numbers).then(|| PIXEL_SHARE * width_mm / f64::from(picture.size_px.0))
-    };
-    bodies.map(within_mm).reduce(|a, b| Some(a?.min(b?))).flatten()
-}
-
 /// Draws all pictures of the scene into `pictures/`, those of the gear and of teeth where there is a `solid`; how many
 /// were finished, failed, or had nothing to show, before Ctrl-C.
 ///

@@ -23,7 +23,6 @@ use gearcut_core::passes::planar::strokes::StrokeLaw;
 use gearcut_core::passes::{CutPlan, StrokeSet};
 use gearcut_core::tool::PlanarTool;
 use glam::DVec2;
-use rows_between::Nodes;
 
 /// Rays of a fillet stay within this share of its radius: further out they would cross each other.
 const FILLET_SHARE: f64 = 0.8;
@@ -197,27 +196,11 @@ impl PlanarGear<'_> {
         if self.rows_are_alike() {
             field.rows_z_mm.truncate(1);
         }
-        if let Some(nodes) = self.rests().then(|| Nodes::of(&field, self.bend_mm())).flatten() {
-            return nodes.cut(self, backend, field);
+        if self.rests() {
+            return self.cut_resting(backend, field);
         }
         let (layers, stats) = self.cut_rows(backend, &field)?;
         Ok(CutField { field, layers, stats })
-    }
-
-    /// How far the tool's path bends along a stroke at most, of all operations ([`StrokeSet::bend_mm`]).
-    fn bend_mm(&self) -> f64 {
-        self.operations.iter().map(|operation| operation.strokes.bend_mm()).fold(0.0, f64::max)
-    }
-
-    /// How many of so many rows [`Self::cut_distinct_rows`] cuts, but for columns that ask for all of them.
-    pub fn distinct_rows(&self, rows: usize) -> usize {
-        if self.rows_are_alike() {
-            1
-        } else if self.rests() {
-            Nodes::count(rows, self.bend_mm())
-        } else {
-            rows
-        }
     }
 
     /// Runs all operations over every row of a field.

@@ -2,8 +2,8 @@
 //!
 //! In: the grids of all flanks, roots and tips. Out: [`Outline`]: columns in the order of growing polar angle, each
 //! with one point per row, so that neighbouring rows can be lofted. Rows are left out where straight lines between the
-//! others miss no height of any grid by more than is asked for ([`BODY_MM`] for files), that is no dexel by a tenth of a
-//! micrometre more ([`STRAIGHT_MM`](super::flanks::STRAIGHT_MM)).
+//! others miss no height of any grid by more than is asked for ([`BODY_MM`] for files), that is no dexel by a tenth of
+//! a micrometre more ([`STRAIGHT_MM`](super::flanks::STRAIGHT_MM)).
 //!
 //! The order follows from the gear alone: right flank of a tooth from form point to tip, its tip land, its left flank
 //! down again, the root of the space behind it, and so on. What no pass reached (tip lands, teeth outside a window) is

@@ -37,12 +37,6 @@ const RAKING_SKY_REACH: f64 = 0.02;
 /// show.
 const RAKING_LIGHT: f64 = 1.08;
 
-/// Triangles of a rolled-out flank reach from row to row. Where the flank leans, they are cut into pieces that rise by so
-/// many distances of its columns: the boxes of long ones would be full of others, each of which light asks for.
-const RISE_COLUMNS: f64 = 0.5;
-/// Pieces of one at most.
-const MOST_PIECES: f64 = 8.0;
-
 /// Heights of a flank are averaged over so many pixels: what is narrower would fall on a ray or between two.
 const SHOWN_PX: f64 = 2.0;
 
@@ -99,7 +93,7 @@ pub(super) fn draw_flank(
     let extent_mm = extent_mm(job, picture)?;
     let exaggeration = picture.exaggeration.unwrap_or_else(|| exaggeration(grid));
     let pixel_mm = 1.04 * extent_mm / f64::from(picture.size_px.0);
-    let flat = rolled_out(&in_pieces(grid, exaggeration), exaggeration, SHOWN_PX * pixel_mm);
+    let flat = rolled_out(grid, exaggeration, SHOWN_PX * pixel_mm);
     let (look, legend) = look(job, picture.colour, &flat);
     let towards = Camera::direction(DVec3::NEG_Y, DVec3::X, picture.azimuth_rad, picture.elevation_rad);
     let middle_mm = DVec3::new(0.0, 0.5 * profile_mm, 0.0);
@@ -135,40 +129,6 @@ fn exaggeration(grid: &SurfaceGrid) -> f64 {
     let wanted = (MARK_SLOPE / median.max(1e-12)).clamp(1.0, 1e6);
     let power = 10_f64.powf(wanted.log10().floor());
     [5.0, 2.0, 1.0].into_iter().map(|factor| factor * power).find(|f| *f <= wanted).unwrap_or(1.0)
-}
-
-/// The grid with rows between its own, so that no piece of it rises far.
-fn in_pieces(grid: &SurfaceGrid, exaggeration: f64) -> SurfaceGrid {
-    let (columns, rows) = (grid.columns(), grid.rows());
-    let column_mm = (grid.arcs_mm[columns - 1] - grid.arcs_mm[0]) / (columns - 1).max(1) as f64;
-    let rises_um = grid.height_um.chunks_exact(rows).flat_map(|column| column.windows(2)).map(|h| (h[1] - h[0]).abs());
-    let rise_mm = exaggeration * f64::from(rises_um.fold(0.0, f32::max)) / UM_PER_MM;
-    let pieces = (rise_mm / (RISE_COLUMNS * column_mm)).ceil().clamp(1.0, MOST_PIECES) as usize;
-    // The row before each new one, and how far it lies from there to the next.
-    let places: Vec<(usize, f64)> = (0..=(rows - 1) * pieces)
-        .map(|row| (row / pieces).min(rows - 2))
-        .zip(0..)
-        .map(|(before, row)| (before, (row - before * pieces) as f64 / pieces as f64))
-        .collect();
-    let over_all = |values: &[f32]| -> Vec<f32> {
-        let between = |column: &[f32], (row, share): (usize, f64)| {
-            if share == 1.0 { column[row + 1] } else { column[row] + share as f32 * (column[row + 1] - column[row]) }
-        };
-        values.chunks_exact(rows).flat_map(|column| places.iter().map(move |&place| between(column, place))).collect()
-    };
-    let nearest = |(row, share): (usize, f64)| row + usize::from(share >= 0.5);
-    let of_nearest = |column: usize| places.iter().map(move |&place| column * rows + nearest(place));
-    SurfaceGrid {
-        rows_mm: places
-            .iter()
-            .map(|&(r, share)| grid.rows_mm[r] + share * (grid.rows_mm[r + 1] - grid.rows_mm[r]))
-            .collect(),
-        height_um: over_all(&grid.height_um),
-        stock_mm: grid.stock_mm.as_deref().map(over_all),
-        points_mm: (0..columns).flat_map(of_nearest).map(|i| grid.points_mm[i]).collect(),
-        passes: (0..columns).flat_map(of_nearest).map(|i| grid.passes[i]).collect(),
-        ..grid.clone()
-    }
 }
 
 /// The grid as a plane: x along the tooth, y along the profile, z the height times a factor; heights are means over

@@ -3,11 +3,11 @@
 //! In: a field and the operations over it. Out: its layers, of which some rows are cut, spread over the face
 //! ([`Nodes`]), and all rows of those columns alone whose other rows these do not tell.
 //!
-//! **The law.** While the axes rest, a guide, a wobble or noise of a bandwidth moves the cutter by micrometres along the
-//! face, on a cubic in the place along the tooth. The height h_p(z) at which a pass p leaves a ray is as smooth: the edge
-//! itself bends by picometres over what the cutter moves from node to node, so that h_p leaves its chord from one node
-//! to the next by as much as the cutter's path does. Nodes stand so close that this is [`BEND_MM`] at most. The surface
-//! is the lowest of all h_p, and what the nodes do not show is small or seen:
+//! **The law.** While the axes rest, a guide, a wobble or noise of a bandwidth moves the cutter by micrometres along
+//! the face, on a cubic in the place along the tooth. The height h_p(z) at which a pass p leaves a ray is as smooth:
+//! the edge itself bends by picometres over what the cutter moves from node to node, so that h_p leaves its chord from
+//! one node to the next by as much as the cutter's path does. Nodes stand so close that this is [`BEND_MM`] at most.
+//! The surface is the lowest of all h_p, and what the nodes do not show is small or seen:
 //!
 //! - A pass that lies higher than another at two neighbouring nodes dips under it between these by twice that bend.
 //! - Where the mark of one pass ends and that of the next begins the surface bends. Every node is told from its
@@ -71,7 +71,7 @@ impl Cubic {
 }
 
 /// Rows of a field that are cut for all of it, both ends among them.
-pub struct Nodes {
+struct Nodes {
     /// Their numbers in the field.
     rows: Vec<usize>,
     /// Their places along the tooth, mm.
@@ -87,14 +87,14 @@ impl Nodes {
     /// them where they stand no closer than nodes must.
     ///
     /// [`StrokeSet::bend_mm`]: gearcut_core::passes::StrokeSet::bend_mm
-    pub fn count(rows: usize, bend_mm: f64) -> usize {
+    fn count(rows: usize, bend_mm: f64) -> usize {
         // Phases run from -1 to 1, and the path leaves a chord of h by h^2 / 8 of its second derivative.
         let intervals = (0.5 * bend_mm / BEND_MM).sqrt().ceil() as usize;
         rows.min((intervals + 1).next_multiple_of(ROWS_AT_ONCE))
     }
 
     /// Those of a field; nothing where they are all its rows.
-    pub fn of(field: &Field, bend_mm: f64) -> Option<Self> {
+    fn of(field: &Field, bend_mm: f64) -> Option<Self> {
         let (all, count) = (field.rows(), Self::count(field.rows(), bend_mm));
         if count == all {
             return None;
@@ -114,48 +114,6 @@ impl Nodes {
         });
         let (between, beside) = (between.collect(), beside.collect());
         Some(Self { rows, places_mm, between, beside })
-    }
-
-    /// Cuts a field: its nodes, every row of the columns that these do not tell of, and what lies between.
-    ///
-    /// # Errors
-    /// The backend's.
-    pub fn cut(&self, gear: &PlanarGear, backend: &dyn Backend, field: Field) -> Result<CutField> {
-        self.cut_told(gear, backend, field, |layer, column| self.tell(layer, column))
-    }
-
-    fn cut_told(
-        &self,
-        gear: &PlanarGear,
-        backend: &dyn Backend,
-        field: Field,
-        tell: impl Fn(&Layer, usize) -> bool,
-    ) -> Result<CutField> {
-        let columns: Vec<usize> = (0..field.columns.len()).collect();
-        let at_nodes = field.at([&columns, &self.rows]);
-        let plans = gear.plans(&at_nodes);
-        let (at_nodes, mut stats) = gear.cut_planned(backend, &at_nodes, &plans)?;
-        let untold: Vec<usize> = columns.into_iter().filter(|&c| at_nodes.iter().any(|l| !tell(l, c))).collect();
-        let mut layers: Vec<Layer> = at_nodes.iter().map(|layer| self.filled(layer, &field)).collect();
-        if !untold.is_empty() {
-            let rows = field.rows();
-            let all_rows: Vec<usize> = (0..rows).collect();
-            let over_all_rows = |(plan, operation): (&CutPlan, &PlanarOperation)| {
-                let phases = field.rows_z_mm.iter().map(|&z_mm| operation.strokes.law.tau(z_mm));
-                plan.of_columns(&untold, phases.collect())
-            };
-            let plans: Vec<CutPlan> = plans.iter().zip(&gear.operations).map(over_all_rows).collect();
-            let (row_by_row, more) = gear.cut_planned(backend, &field.at([&untold, &all_rows]), &plans)?;
-            stats += more;
-            let of = |column: usize| column * rows..(column + 1) * rows;
-            for (layer, cut) in layers.iter_mut().zip(&row_by_row) {
-                for (from, &to) in untold.iter().enumerate() {
-                    layer.heights_mm[of(to)].copy_from_slice(&cut.heights_mm[of(from)]);
-                    layer.passes[of(to)].copy_from_slice(&cut.passes[of(from)]);
-                }
-            }
-        }
-        Ok(CutField { field, layers, stats })
     }
 
     /// Whether the nodes of a column tell of the rows between them.
@@ -212,6 +170,73 @@ impl Nodes {
     }
 }
 
+impl PlanarGear<'_> {
+    /// How far the tool's path bends along a stroke at most, of all operations ([`StrokeSet::bend_mm`]).
+    ///
+    /// [`StrokeSet::bend_mm`]: gearcut_core::passes::StrokeSet::bend_mm
+    fn bend_mm(&self) -> f64 {
+        self.operations.iter().map(|operation| operation.strokes.bend_mm()).fold(0.0, f64::max)
+    }
+
+    /// How many of so many rows [`Self::cut_distinct_rows`] cuts, but for columns that ask for all of them.
+    pub fn distinct_rows(&self, rows: usize) -> usize {
+        if self.rows_are_alike() {
+            1
+        } else if self.rests() {
+            Nodes::count(rows, self.bend_mm())
+        } else {
+            rows
+        }
+    }
+
+    /// Cuts a field while the axes rest: its nodes, every row of the columns that these do not tell of, and what lies
+    /// between.
+    ///
+    /// # Errors
+    /// The backend's.
+    pub(super) fn cut_resting(&self, backend: &dyn Backend, field: Field) -> Result<CutField> {
+        self.cut_told(backend, field, Nodes::tell)
+    }
+
+    fn cut_told(
+        &self,
+        backend: &dyn Backend,
+        field: Field,
+        tell: impl Fn(&Nodes, &Layer, usize) -> bool,
+    ) -> Result<CutField> {
+        let Some(nodes) = Nodes::of(&field, self.bend_mm()) else {
+            let (layers, stats) = self.cut_rows(backend, &field)?;
+            return Ok(CutField { field, layers, stats });
+        };
+        let columns: Vec<usize> = (0..field.columns.len()).collect();
+        let at_nodes = field.at([&columns, &nodes.rows]);
+        let plans = self.plans(&at_nodes);
+        let (at_nodes, mut stats) = self.cut_planned(backend, &at_nodes, &plans)?;
+        let is_told = |column: &usize| at_nodes.iter().all(|layer| tell(&nodes, layer, *column));
+        let untold: Vec<usize> = columns.into_iter().filter(|column| !is_told(column)).collect();
+        let mut layers: Vec<Layer> = at_nodes.iter().map(|layer| nodes.filled(layer, &field)).collect();
+        if !untold.is_empty() {
+            let rows = field.rows();
+            let all_rows: Vec<usize> = (0..rows).collect();
+            let over_all_rows = |(plan, operation): (&CutPlan, &PlanarOperation)| {
+                let phases = field.rows_z_mm.iter().map(|&z_mm| operation.strokes.law.tau(z_mm));
+                plan.of_columns(&untold, phases.collect())
+            };
+            let plans: Vec<CutPlan> = plans.iter().zip(&self.operations).map(over_all_rows).collect();
+            let (row_by_row, more) = self.cut_planned(backend, &field.at([&untold, &all_rows]), &plans)?;
+            stats += more;
+            let of = |column: usize| column * rows..(column + 1) * rows;
+            for (layer, cut) in layers.iter_mut().zip(&row_by_row) {
+                for (from, &to) in untold.iter().enumerate() {
+                    layer.heights_mm[of(to)].copy_from_slice(&cut.heights_mm[of(from)]);
+                    layer.passes[of(to)].copy_from_slice(&cut.passes[of(from)]);
+                }
+            }
+        }
+        Ok(CutField { field, layers, stats })
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -262,8 +287,7 @@ mod tests {
     /// Largest miss of what is told on a field, mm, and the share of its dexels whose pass is another one.
     fn missed(job: &ShapingJob, field: &Field, tell: impl Fn(&Nodes, &Layer, usize) -> bool) -> [f64; 2] {
         let (gear, backend) = (job.planar(), Cpu::default());
-        let Some(nodes) = Nodes::of(field, gear.bend_mm()) else { return [0.0; 2] };
-        let told = nodes.cut_told(&gear, &backend, field.clone(), |l, c| tell(&nodes, l, c)).expect("cut");
+        let told = gear.cut_told(&backend, field.clone(), tell).expect("cut");
         let (all, _) = gear.cut_rows(&backend, field).expect("cut");
         let mut missed = [0.0_f64; 2];
         for (told, all) in told.layers.iter().zip(&all) {

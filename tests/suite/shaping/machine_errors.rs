@@ -318,8 +318,8 @@ fn candidates_equal_brute_force_on_a_machine_with_errors() {
     }
 }
 
-/// Noise that goes on during a stroke moves the cutter on cubics, with the strokes so close that marks are no deeper than
-/// what the cubics leave parabolas by.
+/// Noise that goes on during a stroke moves the cutter on cubics, with the strokes so close that marks are no deeper
+/// than what the cubics leave parabolas by.
 #[test]
 fn candidates_equal_brute_force_where_axes_wander() {
     let noise = [
@@ -390,8 +390,8 @@ fn errors_of_nothing_change_no_byte() {
 
 /// Where the axes rest, slices of the blank stand where a shift along the face is told: both ends, the middle of a bow
 /// as well; as the scene says, if it does; one in the middle for all that lies within a tenth of the distance of the
-/// rays. What is left of the blank is that of slices ten times as dense, to a part in ten thousand, but for the share of
-/// the bow.
+/// rays. What is left of the blank is that of slices ten times as dense, to a part in ten thousand, but for the share
+/// of the bow.
 #[test]
 fn slices_of_the_blank_follow_the_guide() {
     let slope = "machine.errors.guide.radial_um_per_100mm=520";

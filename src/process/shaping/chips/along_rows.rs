@@ -28,18 +28,18 @@ const MISSED_COSINE: f64 = 5e-8;
 const CLOSE_MM: f64 = 4.0 * MISSED_MM;
 
 /// A pass over a ray, as cubics in the phase.
-struct Course {
+struct SmoothCourse {
     height_mm: [f64; 4],
     cosine: [f64; 4],
     side: EdgeSide,
 }
 
 /// What looks at a pass show.
-enum Seen {
+enum PassAlongRows {
     /// It does not come to the ray.
     Nowhere,
     /// It comes with one segment of its edge, all along the face.
-    Smooth(Course),
+    Smooth(SmoothCourse),
     /// Neither.
     Uneven,
 }
@@ -61,13 +61,13 @@ fn cubic_at([c0, c1, c2, c3]: &[f64; 4], tau: f64) -> f64 {
 }
 
 /// Looks at a pass over a ray.
-fn seen(passes: &FieldPasses, pass: &Chosen, ray: &Column) -> Seen {
+fn seen(passes: &FieldPasses, pass: &Chosen, ray: &Column) -> PassAlongRows {
     let at = |tau: f64| passes.entry_at(pass, tau, ray, ray.blank_mm);
     let (nodes, ends) = (NODES.map(at), [-1.0, 1.0].map(|tau| (tau, at(tau))));
     if nodes.iter().chain(ends.iter().map(|(_, end)| end)).all(Option::is_none) {
-        return Seen::Nowhere;
+        return PassAlongRows::Nowhere;
     }
-    let [Some(first), Some(second), Some(third), Some(fourth)] = nodes else { return Seen::Uneven };
+    let [Some(first), Some(second), Some(third), Some(fourth)] = nodes else { return PassAlongRows::Uneven };
     let nodes = [first, second, third, fourth];
     // Kernels record the lowest height of a ray for all that is below it.
     let is_like_first = |entry: &EdgeEntry| entry.segment == first.segment && entry.height_mm > ray.low_mm;
@@ -81,9 +81,9 @@ fn seen(passes: &FieldPasses, pass: &Chosen, ray: &Column) -> Seen {
         })
     };
     if nodes.iter().all(is_like_first) && ends.into_iter().all(is_met) {
-        Seen::Smooth(Course { height_mm, cosine, side: first.side })
+        PassAlongRows::Smooth(SmoothCourse { height_mm, cosine, side: first.side })
     } else {
-        Seen::Uneven
+        PassAlongRows::Uneven
     }
 }
 
@@ -96,9 +96,9 @@ pub(super) fn surfaces(
 ) -> Vec<Option<RaySurface>> {
     let uncut = RowSurface { surface_mm: ray.blank_mm, before_mm: ray.blank_mm, last: None, is_close: false };
     let mut found = vec![uncut; rows.len()];
-    let looks: Vec<Seen> = chosen.iter().map(|pass| seen(passes, pass, ray)).collect();
+    let looks: Vec<PassAlongRows> = chosen.iter().map(|pass| seen(passes, pass, ray)).collect();
     for (index, (pass, look)) in chosen.iter().zip(&looks).enumerate() {
-        let Seen::Smooth(course) = look else { continue };
+        let PassAlongRows::Smooth(course) = look else { continue };
         for (found, &row) in found.iter_mut().zip(rows) {
             let height_mm = cubic_at(&course.height_mm, passes.tau(pass, row));
             let lowered_mm = found.surface_mm - height_mm;
@@ -111,7 +111,7 @@ pub(super) fn surfaces(
             }
         }
     }
-    for (pass, _) in chosen.iter().zip(&looks).filter(|(_, look)| matches!(look, Seen::Uneven)) {
+    for (pass, _) in chosen.iter().zip(&looks).filter(|(_, look)| matches!(look, PassAlongRows::Uneven)) {
         for (found, &row) in found.iter_mut().zip(rows) {
             // Below the surface that the last chip was cut from it might be that surface, or the last one itself.
             found.is_close |= passes.lowest_mm(pass, row) < found.before_mm + CLOSE_MM;
@@ -122,7 +122,7 @@ pub(super) fn surfaces(
             return None;
         }
         let last = found.last.map(|index| (&chosen[index], &looks[index]));
-        let Some((pass, Seen::Smooth(course))) = last else { return Some(RaySurface::uncut(ray)) };
+        let Some((pass, PassAlongRows::Smooth(course))) = last else { return Some(RaySurface::uncut(ray)) };
         let thickness_mm = (found.before_mm - found.surface_mm) * cubic_at(&course.cosine, passes.tau(pass, row));
         Some(RaySurface { height_mm: found.surface_mm, thickness_mm, side: Some(course.side), pass: pass.id })
     };

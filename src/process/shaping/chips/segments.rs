@@ -9,7 +9,7 @@
 
 use super::near::Near;
 use super::phase_heights::PhaseHeights;
-use super::shared_segment::{Beside, Entry, SharedSegment, TOLERANCE_MM};
+use super::shared_segment::{Beside, SegmentEntry, SharedSegment, TOLERANCE_MM};
 use gearcut_core::dexel::field::Column;
 use gearcut_core::passes::planar::near::MAX_PHASES;
 use gearcut_core::tool::edge::{Edge, Segment};
@@ -177,10 +177,10 @@ impl EntryBounds {
     const NONE: Self = Self { inside_mm: f64::NEG_INFINITY, lowest_and_sure_mm: [f64::INFINITY; 2], fall: 1.0 };
 
     /// With another segment, as far out as any blade's and as far in; no entry counts below some height.
-    fn add(&mut self, part: &SharedSegment, outer: Option<Entry>, inner: Option<Entry>, below_mm: f64) {
+    fn add(&mut self, part: &SharedSegment, outer: Option<SegmentEntry>, inner: Option<SegmentEntry>, below_mm: f64) {
         let Some(outer) = outer else { return };
         let [from, to] = part.segment.y_range_mm;
-        let is_on = |entry: &Entry| (from..=to).contains(&entry.y_mm);
+        let is_on = |entry: &SegmentEntry| (from..=to).contains(&entry.y_mm);
         if is_on(&outer) || part.holds_tool() {
             self.inside_mm = self.inside_mm.max(outer.height_mm);
         }

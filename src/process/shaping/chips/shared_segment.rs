@@ -115,7 +115,7 @@ impl<'a> SharedSegment<'a> {
 
     /// Where a column's ray enters the segment or its continuation at each phase of a pass, if the edge stood out by so
     /// much along x.
-    pub fn entries(&self, pass: &Near, ray: &Column, out_mm: f64) -> [Option<Entry>; MAX_PHASES] {
+    pub fn entries(&self, pass: &Near, ray: &Column, out_mm: f64) -> [Option<SegmentEntry>; MAX_PHASES] {
         let place = |pose: &Rigid2| {
             let [o, n] = self.ray(pose, ray);
             [o - DVec2::new(out_mm, 0.0), n]
@@ -123,7 +123,7 @@ impl<'a> SharedSegment<'a> {
         let hit = |[o, n]: [DVec2; 2]| self.segment.enter(o, n);
         let entry = |hit: RayHit, n: DVec2| {
             let RayHit { height_mm, y_mm, normal, .. } = hit;
-            Entry { height_mm, y_mm, fall: -normal.dot(n) }
+            SegmentEntry { height_mm, y_mm, fall: -normal.dot(n) }
         };
         let enter = |[o, n]: [DVec2; 2]| hit([o, n]).map(|hit| entry(hit, n));
         match (&pass.poses[..], &pass.drift_mm) {
@@ -166,7 +166,7 @@ impl<'a> SharedSegment<'a> {
 
 /// Where a ray enters a segment or its continuation, mm: along the ray, and along the segment.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Entry {
+pub(super) struct SegmentEntry {
     pub height_mm: f64,
     pub y_mm: f64,
     /// How fast the ray comes nearer there, mm per mm.
@@ -174,7 +174,7 @@ pub(super) struct Entry {
 }
 
 /// Where a ray enters a segment that is shifted by so much against one whose hit is known, if a step of Newton's tells.
-fn entry_beside(segment: &Segment, hit: &RayHit, [o, n]: [DVec2; 2], shift_mm: DVec2) -> Option<Entry> {
+fn entry_beside(segment: &Segment, hit: &RayHit, [o, n]: [DVec2; 2], shift_mm: DVec2) -> Option<SegmentEntry> {
     let fall = -hit.normal.dot(n);
     if fall < STEEP_FALL {
         return None;
@@ -183,7 +183,7 @@ fn entry_beside(segment: &Segment, hit: &RayHit, [o, n]: [DVec2; 2], shift_mm: D
     let Front { residual_mm, gradient } = front(segment, o, n, from_mm)?;
     let step_mm = -residual_mm / gradient.dot(n);
     let height_mm = from_mm + step_mm;
-    (step_mm.abs() < LAST_STEP_MM).then_some(Entry { height_mm, y_mm: o.y + height_mm * n.y, fall })
+    (step_mm.abs() < LAST_STEP_MM).then_some(SegmentEntry { height_mm, y_mm: o.y + height_mm * n.y, fall })
 }
 
 /// A place of a ray in front of a segment.

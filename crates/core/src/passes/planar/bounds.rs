@@ -204,13 +204,14 @@ impl<'a> SegmentBounds<'a> {
         })
     }
 
-    /// Whether the segment surely meets all rays of the tile above the upper bounds, as many for each of `rays` as there
-    /// are `shifts_mm` from it in the blade's frame: one residual each instead of a root.
+    /// Whether the segment surely meets all rays of the tile above the upper bounds, as many for each of `rays` as
+    /// there are `shifts_mm` from it in the blade's frame: one residual each instead of a root.
     ///
     /// A convex segment lies behind its tangent at the aimed point's y; a ray that still runs towards it there enters
-    /// it further up, and so does one beside it that is as far in front of that tangent. Between neighbouring samples the segment can bulge by `k_e L^2 / 8`, and the surface of the upper
-    /// bounds by `k_t (1 + 2 s + a k_t) L^2 / 8`, its slope s and height a over a target of curvature k_t included;
-    /// `motion_bound` is how far the poses themselves may differ.
+    /// it further up, and so does one beside it that is as far in front of that tangent. Between neighbouring samples
+    /// the segment can bulge by `k_e L^2 / 8`, and the surface of the upper bounds by `k_t (1 + 2 s + a k_t) L^2 / 8`,
+    /// its slope s and height a over a target of curvature k_t included; `motion_bound` is how far the poses themselves
+    /// may differ.
     pub fn stays_above(
         &self,
         (rays, shifts_mm): (&[BladeRay], &[DVec2]),

@@ -123,8 +123,8 @@ impl CutPlan {
         Self { tiles, records, row_phases, segments: tool.edges().segments().clone() }
     }
 
-    /// The same for some of its columns, in their order, on rows at these phases: a pass is left out for every phase, so
-    /// candidates hold on all rows there are.
+    /// The same for some of its columns, in their order, on rows at these phases: a pass is left out for every phase,
+    /// so candidates hold on all rows there are.
     #[must_use]
     pub fn of_columns(&self, columns: &[usize], row_phases: Vec<f64>) -> Self {
         let place = |column: usize| columns.partition_point(|&kept| kept < column);

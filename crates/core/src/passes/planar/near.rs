@@ -4,7 +4,7 @@
 //! No assumption about which tooth cuts which space: runout, pitch errors, several turns and plunges need no special
 //! case.
 
-use super::strokes::{StrokePath, StrokeSet};
+use super::strokes::StrokeSet;
 use crate::frame::Rigid2;
 use crate::tool::PlanarTool;
 use crate::tool::blade_edges::BladeEdges;
@@ -18,8 +18,8 @@ pub const MAX_PHASES: usize = 3;
 const BOUND_PHASES: [f64; MAX_PHASES] = [-1.0, 0.0, 1.0];
 
 /// Safety on the bend of a path that three poses show. A path of second degree leaves its chords by an eighth of the
-/// second difference; what its third derivative adds is counted by itself ([`NearPass::wander_mm`]). That the edge turns
-/// no more than this between two poses is not proved: the comparison with all passes in
+/// second difference; what its third derivative adds is counted by itself ([`NearPass::wander_mm`]). That the edge
+/// turns no more than this between two poses is not proved: the comparison with all passes in
 /// `tests/suite/shaping/flank_heights.rs` stands for it.
 const BEND_SAFETY: f64 = 1.5;
 /// How far a point of the tool moves from its middle place during a stroke at most, in shares of what the poses at the
@@ -139,7 +139,7 @@ pub fn near_passes(set: &StrokeSet, tool: &dyn PlanarTool, center_mm: DVec2, rea
         if middle.translation_mm.distance(center_mm) > tool_reach_mm + limit_mm {
             continue;
         }
-        let (bounds, wander_mm) = bound_poses(poses, center_mm, reach_mm);
+        let (bounds, wander_mm) = bound_poses(set, stroke, center_mm, reach_mm);
         for (blade, tool_from_blade) in blades.iter().enumerate() {
             if middle.point(centers_mm[blade]).distance(center_mm) > limit_mm {
                 continue;
@@ -151,13 +151,13 @@ pub fn near_passes(set: &StrokeSet, tool: &dyn PlanarTool, center_mm: DVec2, rea
     near
 }
 
-/// Poses at [`BOUND_PHASES`] from those at the nodes, and how far a place within `reach_mm` of `center_mm` in the work
+/// Poses of a stroke at [`BOUND_PHASES`], and how far a place within `reach_mm` of `center_mm` in the work
 /// leaves the parabolas through its places at these, mm.
-fn bound_poses(poses: &[Rigid2], center_mm: DVec2, reach_mm: f64) -> (PhasePoses, f64) {
-    if let [pose] = poses {
+fn bound_poses(set: &StrokeSet, stroke: usize, center_mm: DVec2, reach_mm: f64) -> (PhasePoses, f64) {
+    if let [pose] = set.poses(stroke) {
         return (PhasePoses::frozen(*pose), 0.0);
     }
-    let path = StrokePath::through(poses);
+    let path = set.path(stroke);
     let from_axis_mm = path.at(0.0).translation_mm.distance(center_mm) + reach_mm;
     (PhasePoses::moving(BOUND_PHASES.map(|tau| path.at(tau))), path.beyond_parabola_mm(from_axis_mm))
 }

@@ -116,6 +116,8 @@ pub struct StrokeSet {
     pub law: StrokeLaw,
     /// `work_from_tool` of every stroke at the nodes: one pose when frozen, else one for each of [`NODES`].
     poses: Vec<Rigid2>,
+    /// The paths through them.
+    paths: Vec<StrokePath>,
     /// No point of the tool lies further from its axis, mm.
     tool_reach_mm: f64,
     /// See [`Self::bend_mm`].
@@ -166,9 +168,9 @@ impl StrokeSet {
 
     /// Other poses of the same strokes.
     fn of_poses(poses: Vec<Rigid2>, &Self { first_pass, blades, law, tool_reach_mm, .. }: &Self) -> Self {
-        let strokes = poses.chunks(Self::node_phases(law).len());
-        let bend_mm = strokes.map(|stroke| StrokePath::through(stroke).bend_mm(tool_reach_mm)).fold(0.0, f64::max);
-        Self { first_pass, blades, law, poses, tool_reach_mm, bend_mm }
+        let paths: Vec<StrokePath> = poses.chunks(Self::node_phases(law).len()).map(StrokePath::through).collect();
+        let bend_mm = paths.iter().map(|path| path.bend_mm(tool_reach_mm)).fold(0.0, f64::max);
+        Self { first_pass, blades, law, poses, paths, tool_reach_mm, bend_mm }
     }
 
     fn at_shares(
@@ -189,7 +191,15 @@ impl StrokeSet {
             tool.tool_from_blade(blade).point(edge.center_mm).length() + edge.reach_mm
         };
         let tool_reach_mm = (0..tool.blade_count()).map(blade_reach_mm).fold(0.0, f64::max);
-        let none = Self { first_pass, blades: tool.blade_count(), law, poses: Vec::new(), tool_reach_mm, bend_mm: 0.0 };
+        let none = Self {
+            first_pass,
+            blades: tool.blade_count(),
+            law,
+            poses: Vec::new(),
+            paths: Vec::new(),
+            tool_reach_mm,
+            bend_mm: 0.0,
+        };
         Self::of_poses(poses, &none)
     }
 
@@ -218,7 +228,7 @@ impl StrokeSet {
 
     /// How the pose of one stroke runs with the phase: the cubics through its nodes.
     pub fn path(&self, stroke: usize) -> StrokePath {
-        StrokePath::through(self.poses(stroke))
+        self.paths[stroke]
     }
 
     /// Largest second derivative of the path of any point of the tool in the work with respect to the phase, over all
