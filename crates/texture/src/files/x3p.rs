@@ -34,6 +34,10 @@ const MOST_CHECKSUM: usize = 4 << 10;
 /// Micrometres in a metre.
 const UM_PER_M: f64 = 1e6;
 
+/// Level of deflate: last bits of heights are noise, and more work on them than this takes twice the time for files
+/// that are 3 % smaller.
+const LEVEL: i64 = 4;
+
 pub(super) fn encode(file: &SurfaceFile) -> Result<Vec<u8>, String> {
     let heights = file.surface.heights_um().iter();
     let data: Vec<u8> = heights.flat_map(|z| (z / UM_PER_M).to_le_bytes()).collect();
@@ -42,6 +46,7 @@ pub(super) fn encode(file: &SurfaceFile) -> Result<Vec<u8>, String> {
     let mut zip = ZipWriter::new(Cursor::new(Vec::new()));
     let options = SimpleFileOptions::default()
         .compression_method(CompressionMethod::Deflated)
+        .compression_level(Some(LEVEL))
         .last_modified_time(DateTime::default())
         .unix_permissions(0o644);
     for (name, bytes) in [(MAIN, main.as_bytes()), (DATA, &data), (CHECKSUM, checksum.as_bytes())] {
