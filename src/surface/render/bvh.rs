@@ -4,24 +4,17 @@
 //! Möller and Trumbore (1997). Everything is f64 and the tree depends on the triangles and nothing else, so that the
 //! same mesh gives the same picture.
 //!
-//! A flank that is rolled out under a microscope is a plane of long strips, and where it leans their boxes would be
-//! full of each other. Boxes of an open surface therefore stand on the plane that it leans along in the mean: they
-//! bound the triangles sheared onto it, and ask rays that are sheared alike. A ray enters a sheared box at the same
-//! distance, and triangles are met as they are.
+//! Boxes of an open surface stand on the plane that it leans along (`levelling`).
 //!
 //! Road not taken: a crate. Those that fit are fast through single precision and SIMD, which this renderer does not
 //! need, or bring a second linear algebra along.
 
+use super::levelling::Levelling;
 use glam::DVec3;
 use rayon::prelude::*;
 
 const BINS: usize = 12;
 const LEAF: usize = 4;
-/// A surface is open where the sum of its triangles' areas as vectors is longer than this share of their sum: of a
-/// closed one it is nothing.
-const OPEN_SHARE: f64 = 0.5;
-/// Sheared boxes are so much larger, mm: what rounding may take from a flat one.
-const SHEARED_MARGIN_MM: f64 = 1e-9;
 /// Nodes over more triangles than this build their halves side by side.
 const SIDE_BY_SIDE: usize = 4096;
 
@@ -57,44 +50,6 @@ pub struct Hit {
     pub weights: [f64; 2],
 }
 
-/// Moves points along an axis by a linear share of the other coordinates.
-#[derive(Debug, Clone, Copy, Default)]
-struct Levelling {
-    axis: DVec3,
-    lean: DVec3,
-}
-
-impl Levelling {
-    /// The one that lays an open surface flat in the mean; none for a closed one.
-    fn of(corners_mm: &[[DVec3; 3]]) -> Self {
-        let areas = corners_mm.iter().map(|[a, b, c]| (b - a).cross(c - a));
-        let (vector, length) =
-            areas.fold((DVec3::ZERO, 0.0), |(vector, length), area| (vector + area, length + area.length()));
-        if vector.length() <= OPEN_SHARE * length {
-            return Self::default();
-        }
-        let steepest = (0..3).max_by(|&i, &j| vector[i].abs().total_cmp(&vector[j].abs())).unwrap_or(2);
-        let mut lean = vector / vector[steepest];
-        lean[steepest] = 0.0;
-        Self { axis: DVec3::AXES[steepest], lean }
-    }
-
-    fn is_none(&self) -> bool {
-        self.lean == DVec3::ZERO
-    }
-
-    fn of_point(&self, p: DVec3) -> DVec3 {
-        p + self.axis * self.lean.dot(p)
-    }
-
-    /// What bounds a triangle.
-    fn bounds(&self, corners_mm: &[DVec3; 3]) -> Bounds {
-        let [a, b, c] = corners_mm.map(|corner| self.of_point(corner));
-        let margin_mm = DVec3::splat(if self.is_none() { 0.0 } else { SHEARED_MARGIN_MM });
-        Bounds { low: a.min(b).min(c) - margin_mm, high: a.max(b).max(c) + margin_mm }
-    }
-}
-
 #[derive(Clone, Copy)]
 struct Bounds {
     low: DVec3,
@@ -122,7 +77,11 @@ impl Bvh {
     /// Tree over triangles given by their corners.
     pub fn new(corners_mm: &[[DVec3; 3]]) -> Self {
         let levelling = Levelling::of(corners_mm);
-        let bounds: Vec<Bounds> = corners_mm.par_iter().map(|corners| levelling.bounds(corners)).collect();
+        let bounds = |corners_mm: &[DVec3; 3]| {
+            let [low, high] = levelling.box_mm(corners_mm);
+            Bounds { low, high }
+        };
+        let bounds: Vec<Bounds> = corners_mm.par_iter().map(bounds).collect();
         let mut order: Vec<u32> = (0..corners_mm.len() as u32).collect();
         let mut nodes = Vec::with_capacity(corners_mm.len());
         if !order.is_empty() {
@@ -160,7 +119,7 @@ impl Bvh {
 
     fn walk(&self, origin_mm: DVec3, direction: DVec3, limit_mm: f64, any: bool) -> Option<Hit> {
         // Never infinite: zero times infinity would lose boxes that the ray runs along.
-        let [sheared_mm, sheared_direction] = [origin_mm, direction].map(|v| self.levelling.of_point(v));
+        let [sheared_mm, sheared_direction] = [origin_mm, direction].map(|v| self.levelling.sheared(v));
         let inverse = sheared_direction.map(|d| if d.abs() < 1e-300 { 1e300 } else { 1.0 / d });
         let mut best: Option<Hit> = None;
         let mut limit_mm = limit_mm;
@@ -406,7 +365,7 @@ mod tests {
         });
         let triangles: Vec<[DVec3; 3]> = strips.collect();
         let tree = Bvh::new(&triangles);
-        assert!(!tree.levelling.is_none() && (tree.levelling.lean - DVec3::new(-0.4, 0.7, 0.0)).length() < 0.1);
+        assert!((tree.levelling.lean - DVec3::new(-0.4, 0.7, 0.0)).length() < 0.1);
         let mut met = 0;
         for _ in 0..2000 {
             let origin = DVec3::new(12.0 * next() - 1.0, 12.0 * next() - 1.0, 12.0 * next() - 6.0);

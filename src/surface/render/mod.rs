@@ -3,6 +3,7 @@
 //! | what | where |
 //! | --- | --- |
 //! | which triangle any ray meets | [`bvh`] |
+//! | boxes of surfaces that lean | `levelling` |
 //! | parallel projection | [`camera`] |
 //! | which triangle each of the camera's rays meets first | [`visible`] |
 //! | bodies, their looks, what a ray finds | [`bodies`] |
@@ -14,6 +15,7 @@
 pub mod bodies;
 pub mod bvh;
 pub mod camera;
+mod levelling;
 pub mod light;
 pub mod visible;
 

@@ -15,9 +15,6 @@ use gearcut_core::frame::Rigid2;
 use gearcut_core::passes::planar::near::{MAX_PHASES, NearPass, PhasePoses, near_passes};
 use glam::DVec2;
 
-/// A stroke that turns the blade moves no point of the field by more than this if it counts as a shift, mm: rounding.
-const TURN_MM: f64 = 1e-9;
-
 /// One pass that comes near the field.
 pub(super) struct Near {
     pub operation: usize,
@@ -43,12 +40,7 @@ impl Near {
         let motion_mm = |pose: &Rigid2| shift_mm(pose).length() + turn_mm(pose);
         let NearPass { stroke, blade, blade_from_work: poses, wander_mm } = *pass;
         let travel_mm = poses.iter().map(motion_mm).fold(0.0, f64::max) + wander_mm;
-        let drift_mm = match &poses[..] {
-            [before, _, after] if turn_mm(before).max(turn_mm(after)) < TURN_MM => {
-                Some([before, &middle, after].map(shift_mm))
-            }
-            _ => None,
-        };
+        let drift_mm = poses.looks().1.into_inner().ok();
         let poses = if drift_mm.is_some() { PhasePoses::frozen(middle) } else { poses };
         Self { operation, stroke, blade, poses, drift_mm, travel_mm, wander_mm }
     }
