@@ -1,11 +1,12 @@
 //! `gearcut texture`: parameters of a surface from any instrument or simulation.
 
+mod lines;
+
 use std::path::Path;
 
 use gearcut::Refusal;
 use gearcut::interrupt::Interrupt;
-use gearcut::measure::topography::parameters::of_profile;
-use gearcut::measure::topography::{Arguments, Chain, Evaluation, Form, Parameter, Profile, Surface};
+use gearcut::measure::topography::{Arguments, Chain, Evaluation, Form, Parameter, Surface};
 use gearcut::output::surface_files::{Format, SurfaceFile, read_surface, write_surface};
 use gearcut::output::text::{Sheet, plain, significant};
 use gearcut::texture::quantities;
@@ -15,12 +16,7 @@ use super::args::{FormChoice, TextureArguments};
 use super::failure::Failure;
 use super::folder::listening;
 use super::print;
-
-/// Profile parameters along one line.
-struct LineProfile {
-    name: String,
-    parameters: Result<Vec<Parameter>, String>,
-}
+use lines::Lines;
 
 /// Runs the command.
 pub fn run(arguments: &TextureArguments) -> Result<(), Failure> {
@@ -65,7 +61,7 @@ pub fn run(arguments: &TextureArguments) -> Result<(), Failure> {
     let more =
         Arguments { heights_um: arguments.at_height_um.clone(), ratios_percent: arguments.at_ratio_percent.clone() };
     let evaluation = Evaluation::of(&surface, &more);
-    let lines = arguments.line.iter().map(|wish| line(wish, &surface)).collect::<Result<Vec<_>, _>>()?;
+    let lines = lines::evaluated(arguments, &file.surface)?;
     interrupt.check()?;
     if arguments.json {
         let document = document(&arguments.file, &file, &surface, &words, &evaluation, &lines);
@@ -83,6 +79,7 @@ fn check(arguments: &TextureArguments) -> Result<(), Refusal> {
     positive("--spacing-um", &arguments.spacing_um)?;
     positive("--s-filter-um", arguments.s_filter_um.as_slice())?;
     positive("--l-filter-um", arguments.l_filter_um.as_slice())?;
+    lines::check(arguments)?;
     if !(arguments.crop_um.is_finite() && arguments.crop_um >= 0.0) {
         let problem = format!("{} um is not a margin", arguments.crop_um);
         return Err(Refusal::new("--crop-um", problem, "give 0 or a positive number"));
@@ -116,30 +113,6 @@ fn format_of(path: &Path) -> Result<Format, Refusal> {
     })
 }
 
-fn line(wish: &str, surface: &Surface) -> Result<LineProfile, Refusal> {
-    let refuse = |problem: String| Refusal::new("--line", problem, "write y=UM for a row or x=UM for a column");
-    let (axis, place) = wish.split_once('=').ok_or_else(|| refuse(format!("`{wish}` names no line")))?;
-    let place_um: f64 = place.parse().map_err(|_| refuse(format!("`{place}` is not a number of um")))?;
-    let (spacing_um, count) = match axis {
-        "y" => (surface.dy_um(), surface.ny()),
-        "x" => (surface.dx_um(), surface.nx()),
-        other => return Err(refuse(format!("`{other}` is neither x nor y"))),
-    };
-    let index = (place_um / spacing_um).round();
-    if !(index >= 0.0 && index < count as f64) {
-        let end_um = spacing_um * (count - 1) as f64;
-        return Err(refuse(format!("{axis} = {place_um} um lies outside the evaluated area, 0 to {end_um} um")));
-    }
-    let index = index as usize;
-    let profile = match axis {
-        "y" => Profile::of(surface.row(index), surface.dx_um()),
-        _ => Profile::of(&surface.column(index), surface.dy_um()),
-    };
-    let along = if axis == "y" { "x" } else { "y" };
-    let name = format!("profile along {along} at {axis} = {} um", plain(index as f64 * spacing_um));
-    Ok(LineProfile { name, parameters: profile.map(|profile| of_profile(&profile)) })
-}
-
 /// Parameters as an object.
 fn by_symbol(parameters: &[Parameter]) -> serde_json::Map<String, Value> {
     quantities(parameters).into_iter().map(|(symbol, quantity)| (symbol, json!(quantity))).collect()
@@ -151,15 +124,9 @@ fn document(
     surface: &Surface,
     chain: &[String],
     evaluation: &Evaluation,
-    lines: &[LineProfile],
+    lines: &[Lines],
 ) -> Value {
-    let lines: Vec<Value> = lines
-        .iter()
-        .map(|line| match &line.parameters {
-            Ok(parameters) => json!({"line": line.name, "parameters": by_symbol(parameters)}),
-            Err(why) => json!({"line": line.name, "parameters": null, "why": why}),
-        })
-        .collect();
+    let lines: Vec<Value> = lines.iter().map(Lines::document).collect();
     let notes: serde_json::Map<String, Value> =
         file.notes.iter().map(|(name, text)| (name.clone(), text.clone().into())).collect();
     json!({
@@ -188,7 +155,7 @@ fn sheet(
     surface: &Surface,
     chain: &[String],
     evaluation: &Evaluation,
-    lines: &[LineProfile],
+    lines: &[Lines],
 ) -> String {
     let mut sheet = Sheet::default();
     let read = &file.surface;
@@ -219,11 +186,7 @@ fn sheet(
     }
     flush(&mut sheet, family, &mut rows);
     for line in lines {
-        sheet.heading(&line.name);
-        match &line.parameters {
-            Ok(parameters) => table(&mut sheet, &parameters.iter().map(row).collect::<Vec<_>>()),
-            Err(why) => sheet.line("none", why),
-        }
+        line.write(&mut sheet);
     }
     sheet.into_text()
 }

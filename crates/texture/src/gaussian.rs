@@ -30,6 +30,8 @@ const TUKEY: f64 = 4.4478;
 /// Rounds at most; five are usual. Nothing proves that the rounds of the robust form settle: one that has not by then
 /// is an error.
 const ROUNDS: usize = 200;
+/// Residuals of this share of the heights are rounding: there is nothing left to weigh.
+const DUST: f64 = 1e-13;
 /// Change of c at which the rounds end.
 const SETTLED: f64 = 1e-4;
 
@@ -40,7 +42,7 @@ const SETTLED: f64 = 1e-4;
 pub fn low_pass(surface: &Surface, index_um: f64) -> Result<Surface, String> {
     let filter = Filter::new(surface, index_um)?;
     let weights = measured(surface);
-    Ok(filter.apply(surface, weights.as_deref()))
+    Ok(surface.with_heights(filter.apply(surface, weights.as_deref())))
 }
 
 /// Robust form of [`low_pass`]; the second value is the number of rounds.
@@ -49,26 +51,39 @@ pub fn low_pass(surface: &Surface, index_um: f64) -> Result<Surface, String> {
 /// As [`low_pass`], and a filter that does not settle.
 pub fn robust_low_pass(surface: &Surface, index_um: f64) -> Result<(Surface, usize), String> {
     let filter = Filter::new(surface, index_um)?;
-    let measured = measured(surface);
-    let mut mean = filter.apply(surface, measured.as_deref());
+    let first = filter.apply(surface, measured(surface).as_deref());
+    let apply = |weights: &[f64]| filter.apply(surface, Some(weights));
+    let (mean, rounds) = settled(index_um, surface.heights_um(), first, apply)?;
+    Ok((surface.with_heights(mean), rounds))
+}
+
+/// Filters again and again from a first mean on, with the weights that its residuals give, until they settle; the
+/// second value is the number of rounds.
+pub(crate) fn settled(
+    index_um: f64,
+    heights_um: &[f64],
+    first_um: Vec<f64>,
+    filter: impl Fn(&[f64]) -> Vec<f64>,
+) -> Result<(Vec<f64>, usize), String> {
+    let mut mean = first_um;
+    let dust = DUST * heights_um.iter().fold(0.0, |most: f64, z| if z.abs() > most { z.abs() } else { most });
     let mut before = f64::INFINITY;
     let mut change = f64::INFINITY;
     for round in 1..=ROUNDS {
-        let residuals: Vec<f64> =
-            surface.heights_um().par_iter().zip(mean.heights_um()).map(|(z, m)| (z - m).abs()).collect();
+        let residuals: Vec<f64> = heights_um.par_iter().zip(&mean).map(|(z, m)| (z - m).abs()).collect();
         let c = TUKEY * median(residuals.iter().copied().filter(|r| !r.is_nan()).collect());
-        if c == 0.0 || (before - c).abs() <= SETTLED * c {
+        if c <= dust || (before - c).abs() <= SETTLED * c {
             return Ok((mean, round));
         }
         change = (before - c).abs() / c;
         before = c;
         let biweight = |r: &f64| if *r < c { (1.0 - (r / c).powi(2)).powi(2) } else { 0.0 };
         let weights: Vec<f64> = residuals.par_iter().map(biweight).collect();
-        mean = filter.apply(surface, Some(&weights));
+        mean = filter(&weights);
     }
     Err(format!(
         "the robust filter of {index_um} um does not settle: after {ROUNDS} rounds c = {before:e} um still changes by \
-         {change:e} of itself; take robust = false, or another l_filter_um"
+         {change:e} of itself; take robust = false, or another nesting index"
     ))
 }
 
@@ -104,7 +119,7 @@ impl Filter {
     }
 
     /// Local planes through `surface` with these weights (`None`: all 1).
-    fn apply(&self, surface: &Surface, weights: Option<&[f64]>) -> Surface {
+    fn apply(&self, surface: &Surface, weights: Option<&[f64]>) -> Vec<f64> {
         let (nx, ny) = (surface.nx(), surface.ny());
         let weighted: Vec<f64> = match weights {
             None => surface.heights_um().to_vec(),
@@ -131,7 +146,7 @@ impl Filter {
                 };
             }
         });
-        surface.with_heights(heights)
+        heights
     }
 
     /// Convolutions along y.
@@ -185,7 +200,7 @@ impl Moments {
 }
 
 /// Weights times powers of the distance (in nesting indices) along one axis, transformed.
-struct LineKernels {
+pub(crate) struct LineKernels {
     count: usize,
     padded: usize,
     forward: Arc<dyn RealToComplex<f64>>,
@@ -195,7 +210,7 @@ struct LineKernels {
 }
 
 impl LineKernels {
-    fn new(count: usize, spacing_um: f64, index_um: f64) -> Self {
+    pub(crate) fn new(count: usize, spacing_um: f64, index_um: f64) -> Self {
         let reach = ((REACH * index_um / spacing_um).ceil() as usize).min(count - 1);
         let padded = fast_length(count + reach);
         let mut planner = RealFftPlanner::new();
@@ -220,7 +235,7 @@ impl LineKernels {
     }
 
     /// Sums over the neighbourhood along each line of `count` values, weighted with the given powers of the distance.
-    fn convolved<const N: usize>(&self, values: &[f64], count: usize, powers: [usize; N]) -> [Vec<f64>; N] {
+    pub(crate) fn convolved<const N: usize>(&self, values: &[f64], count: usize, powers: [usize; N]) -> [Vec<f64>; N] {
         debug_assert_eq!(count, self.count);
         let mut lines: Vec<[Vec<f64>; N]> = Vec::new();
         values
@@ -319,7 +334,8 @@ mod tests {
         let rough = surface(50, 30, |x, y| (0.37 * x).sin() * (0.11 * y * x).cos());
         let filter = Filter::new(&rough, 25.0).expect("a filter");
         let ones = vec![1.0; 1500];
-        assert!(furthest(&filter.apply(&rough, None), &filter.apply(&rough, Some(&ones))) < 1e-9);
+        let apply = |weights| rough.with_heights(filter.apply(&rough, weights));
+        assert!(furthest(&apply(None), &apply(Some(&ones))) < 1e-9);
     }
 
     #[test]

@@ -21,7 +21,13 @@
 //! - [`hybrid`]: Sdq Sdr
 //! - [`ratio`]: Smr Smc Sdc Sxp Vm Vv Vmp Vmc Vvc Vvv
 //! - [`core`]: Sk Spk Svk Smr1 Smr2 Spkx Svkx Sak1 Sak2
-//! - [`profile`]: Ra Rq Rz Rt RSm Rsk Rku Rk Rpk Rvk Mr1 Mr2
+//! - [`trace`]: a line of heights, its holes bridged
+//! - [`line_form`]: the form of a line
+//! - [`line_filter`]: profile S- and L-filter
+//! - `elements`: profile elements and their spacing
+//! - [`profile`]: Ra Rq Rsk Rku Rt Rp Rv Rz Rzx Rdq RSm Rk Rpk Rvk Rmrk1 Rmrk2 Rmr
+//! - [`setting_class`]: cut-offs of ISO 21920-3
+//! - [`profile_chain`]: from traced lines to P-, W- and R-parameters
 //! - `spectrum`: Fourier transforms of a surface
 //! - [`spatial`]: Sal Str Std Ssw
 //! - `watershed`: hills and their pruning
@@ -58,6 +64,24 @@
 //! # Ok::<(), String>(())
 //! ```
 //!
+//! Roughness along a line, by the chain of profiles: 0.8 mm leaves 1 - 2^-(0.8/4)^2 = 2.7 % of a wave of 4 mm, and all
+//! of one of 0.1 mm. The mean of |sin| is 2 / pi.
+//!
+//! ```
+//! use gearcut_texture::profile_chain::{CutOff, ProfileChain};
+//! use gearcut_texture::{Trace, parameters::of_profiles};
+//! use std::f64::consts::{PI, TAU};
+//!
+//! let wave_um = |x: f64, length: f64| (TAU * x / length).sin();
+//! let heights_um = (0..1201).map(|i| f64::from(i) * 5.0).map(|x| 0.5 * wave_um(x, 100.0) + wave_um(x, 4000.0));
+//! let trace = Trace::new(heights_um.collect(), 5.0)?;
+//! let profiles = ProfileChain { cutoff: CutOff::Um(800.0), ..ProfileChain::default() }.evaluate(&[trace])?;
+//! let ra = &of_profiles(&profiles, &[])[0].mean;
+//! println!("{}\n{} {:.3} um", profiles.words.join("\n"), ra.symbol, ra.value.clone()?);
+//! assert!((ra.value.clone()? / (2.0 / PI * 0.5) - 1.0).abs() < 0.01);
+//! # Ok::<(), String>(())
+//! ```
+//!
 //! A file instead of heights: [`files::read_surface`]; `examples/read_x3p.rs` evaluates one.
 //!
 //! # Errors
@@ -76,6 +100,7 @@ pub mod chain;
 pub mod core;
 #[doc(hidden)]
 pub mod disk_steps;
+mod elements;
 mod error;
 pub mod features;
 pub mod files;
@@ -83,13 +108,18 @@ pub mod form;
 pub mod gaussian;
 pub mod height;
 pub mod hybrid;
+pub mod line_filter;
+pub mod line_form;
 pub mod parameters;
 pub mod profile;
+pub mod profile_chain;
 pub mod ratio;
+pub mod setting_class;
 pub mod spatial;
 mod spectrum;
 pub mod surface;
 mod text;
+pub mod trace;
 mod watershed;
 
 pub use chain::Chain;
@@ -97,4 +127,6 @@ pub use error::{Error, Result};
 pub use form::Form;
 pub use parameters::{Arguments, Evaluation, Parameter};
 pub use profile::Profile;
+pub use profile_chain::{ProfileChain, Profiles};
 pub use surface::Surface;
+pub use trace::Trace;

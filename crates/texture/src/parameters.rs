@@ -9,6 +9,7 @@ use super::features::Features;
 use super::height::Heights;
 use super::hybrid::Hybrid;
 use super::profile::Profile;
+use super::profile_chain::{Kind, Profiles};
 use super::ratio::MaterialRatio;
 use super::spatial::Spatial;
 use super::surface::Surface;
@@ -79,35 +80,81 @@ impl Evaluation {
     }
 }
 
-/// The profile set of one line as parameters.
-pub fn of_profile(profile: &Profile) -> Vec<Parameter> {
+/// The profile set of one line as parameters, with Rmr at the mean line and at further heights over it (um).
+pub fn of_profile(kind: Kind, profile: &Profile, heights_um: &[f64]) -> Vec<Parameter> {
     let mut list = List::default();
-    let family = "profile";
-    list.um(family, "Ra", profile.ra, "arithmetical mean height of the profile");
-    list.um(family, "Rq", profile.rq, "root mean square height of the profile");
-    list.um(family, "Rz", profile.rz, "mean of the heights of five sections of the profile");
-    list.um(family, "Rt", profile.rt, "height of the whole profile");
-    list.add(
-        family,
-        "RSm",
-        profile.rsm.clone(),
+    let (family, letter) = ("profile", kind.letter());
+    let mut add = |symbol: &str, value: Result<f64, String>, unit: &'static str, definition: &str| {
+        list.add(family, format!("{letter}{symbol}"), value, unit, definition);
+    };
+    let moment = |value: f64| if value.is_nan() { Err("the line is flat".to_owned()) } else { Ok(value) };
+    add("a", Ok(profile.a), "um", "arithmetical mean height of the profile");
+    add("q", Ok(profile.q), "um", "root mean square height of the profile");
+    if kind != Kind::Primary {
+        add("z", Ok(profile.z), "um", "mean of the heights of the sections");
+    }
+    add("t", Ok(profile.t), "um", "height of the whole profile");
+    let of_sections =
+        |whole: &'static str, sections: &'static str| if kind == Kind::Primary { whole } else { sections };
+    add(
+        "p",
+        Ok(profile.p),
         "um",
-        "mean spacing of profile elements, crossing-the-line segmentation",
+        of_sections("height of the highest peak", "mean of the highest peaks of the sections"),
     );
-    list.moment(family, "Rsk", profile.rsk, "skewness of the profile");
-    list.moment(family, "Rku", profile.rku, "kurtosis of the profile; 3 for Gaussian heights");
+    add("v", Ok(profile.v), "um", of_sections("depth of the deepest pit", "mean of the deepest pits of the sections"));
+    if kind != Kind::Primary {
+        add("zx", Ok(profile.zx), "um", "largest height within one section's length anywhere on the profile");
+    }
+    add("sk", moment(profile.sk), "1", "skewness of the profile");
+    add("ku", moment(profile.ku), "1", "kurtosis of the profile; 3 for Gaussian heights");
+    add("dq", Ok(profile.dq), "1", "root mean square slope of the profile, by seven points");
+    add(
+        "Sm",
+        profile.sm.clone(),
+        "um",
+        "mean spacing of profile elements, crossing-the-line segmentation, mean of both directions of the trace",
+    );
     let core = &profile.core;
-    list.um(
-        family,
-        "Rk",
-        core.sk,
-        "core height of the profile's material ratio curve, least-squares line in the 40 % window",
-    );
-    list.um(family, "Rpk", core.spk, "reduced peak height of the profile");
-    list.um(family, "Rvk", core.svk, "reduced pit depth of the profile");
-    list.add(family, "Mr1", Ok(core.smr1), "%", "material ratio of the profile's peaks above the core");
-    list.add(family, "Mr2", Ok(core.smr2), "%", "material ratio of the profile above its pits");
+    add("k", Ok(core.sk), "um", "core height of the material ratio curve, least-squares line in the 40 % window");
+    add("pk", Ok(core.spk), "um", "reduced peak height of the profile");
+    add("vk", Ok(core.svk), "um", "reduced pit depth of the profile");
+    add("mrk1", Ok(core.smr1), "%", "material ratio of the profile's peaks above the core");
+    add("mrk2", Ok(core.smr2), "%", "material ratio of the profile above its pits");
+    for c in [0.0].iter().chain(heights_um) {
+        let definition = format!("material ratio at {c} um over the mean line");
+        add(&format!("mr({c})"), Ok(profile.curve.smr_percent(*c)), "%", &definition);
+    }
     list.0
+}
+
+/// One parameter over several lines.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Spread {
+    /// The parameter; its value is the mean over the lines that have one.
+    pub mean: Parameter,
+    /// Least and largest value; none where no line has one.
+    pub range: Option<[f64; 2]>,
+    /// Lines that have one.
+    pub lines: usize,
+}
+
+/// The profile set of several lines: mean, least and largest of every parameter.
+pub fn of_profiles(profiles: &Profiles, heights_um: &[f64]) -> Vec<Spread> {
+    let of_lines: Vec<Vec<Parameter>> =
+        profiles.lines.iter().flatten().map(|line| of_profile(profiles.kind, line, heights_um)).collect();
+    let Some(first) = of_lines.first() else { return Vec::new() };
+    let spread = |k: usize| {
+        let values: Vec<f64> = of_lines.iter().filter_map(|line| line[k].value.clone().ok()).collect();
+        let mut mean = first[k].clone();
+        if !values.is_empty() {
+            mean.value = Ok(values.iter().sum::<f64>() / values.len() as f64);
+        }
+        let least = values.iter().copied().reduce(f64::min);
+        let range = least.zip(values.iter().copied().reduce(f64::max)).map(<[f64; 2]>::from);
+        Spread { mean, range, lines: values.len() }
+    };
+    (0..first.len()).map(spread).collect()
 }
 
 #[derive(Default)]

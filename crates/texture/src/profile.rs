@@ -1,124 +1,116 @@
-//! Profile parameters along one line (ISO 21920-2:2021): Ra, Rq, Rz, Rt, RSm, Rsk, Rku, Rk, Rpk, Rvk, Mr1, Mr2.
+//! Profile parameters of a line after its chain (ISO 21920-2:2021): Ra Rq Rsk Rku Rt Rp Rv Rz Rzx Rdq RSm Rk Rpk Rvk
+//! Rmrk1 Rmrk2 Rmr(c), and the same of a primary or a waviness profile.
 //!
-//! The line is taken from the surface after its chain, about its own mean line. Evaluation length: the whole line. Rz
-//! is the mean of the heights of five sections of equal length; all others are of the whole length. RSm: spacing of
-//! profile elements by the crossing-the-line segmentation; an element counts when its peak and its pit rise over and
-//! under the mean line by a tenth of Rz and both are wider than a hundredth of a section (ISO 4287:1997, 4.3.1, whose
-//! limits ISO 21920 keeps as a choice).
+//! In: heights about the reference line, which the chain made the line z = 0, and how the line is divided into sections.
+//!
+//! - Ra, Rq, Rsk, Rku, Rt, Rdq, RSm and what is read from the material ratio curve belong to the evaluation length.
+//! - Rp, Rv and Rz are means over the sections of their highest peak, their deepest pit, and both together.
+//! - Rzx is the largest height within one section's length anywhere on the line, moved point by point.
+//! - Rdq: slopes by seven points, `(z[3] - 9 z[2] + 45 z[1] - 45 z[-1] + 9 z[-2] - z[-3]) / 60 dx` (ISO 4287, 4.4.1).
+//! - RSm: [`crate::elements`].
+//! - Rk and its kin: the construction of [`crate::core`] on the line's heights.
 
 use super::core::Core;
+use super::elements::spacing;
 use super::ratio::MaterialRatio;
-use super::surface::check_heights;
+use std::collections::VecDeque;
 
-/// Sections for Rz.
-const SECTIONS: usize = 5;
-/// Height that a peak or pit needs to count, as a share of Rz.
-const HEIGHT_SHARE: f64 = 0.1;
-/// Width that it needs, as a share of a section.
-const WIDTH_SHARE: f64 = 0.01;
-
-/// Profile parameters; um, per cent for Mr1 and Mr2.
+/// Profile parameters; heights in um, ratios in per cent.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Profile {
-    /// Evaluation length, mm.
-    pub length_mm: f64,
     /// Arithmetical mean height.
-    pub ra: f64,
+    pub a: f64,
     /// Root mean square height.
-    pub rq: f64,
-    /// Mean of the heights of five sections.
-    pub rz: f64,
-    /// Height of the whole profile.
-    pub rt: f64,
-    /// Mean spacing of profile elements.
-    pub rsm: Result<f64, String>,
+    pub q: f64,
     /// Skewness; NaN on a flat line.
-    pub rsk: f64,
+    pub sk: f64,
     /// Kurtosis; NaN on a flat line.
-    pub rku: f64,
-    /// Core: Rk, Rpk, Rvk, Mr1, Mr2.
+    pub ku: f64,
+    /// Height of the whole line.
+    pub t: f64,
+    /// Mean of the highest peaks of the sections.
+    pub p: f64,
+    /// Mean of the deepest pits of the sections.
+    pub v: f64,
+    /// Mean of the heights of the sections.
+    pub z: f64,
+    /// Largest height within a section's length anywhere.
+    pub zx: f64,
+    /// Root mean square slope, 1.
+    pub dq: f64,
+    /// Mean spacing of profile elements, um, or why there is none.
+    pub sm: Result<f64, String>,
+    /// Core: Rk, Rpk, Rvk, Rmrk1, Rmrk2.
     pub core: Core,
+    /// Material ratio curve about the reference line.
+    pub curve: MaterialRatio,
 }
 
 impl Profile {
-    /// Of heights (um) at equal distances.
-    ///
-    /// # Errors
-    /// Holes on the line, heights beyond [`crate::surface::LARGEST_HEIGHT_UM`], or too few points for five sections.
-    pub fn of(heights_um: &[f64], spacing_um: f64) -> Result<Self, String> {
-        let n = heights_um.len();
-        if n < 2 * SECTIONS {
-            return Err(format!("a line of {n} points has no five sections"));
+    /// Of heights over the reference line, which are divided into so many sections of equal length.
+    pub(crate) fn of(z: &[f64], spacing_um: f64, sections: usize) -> Self {
+        let n = z.len();
+        let mean_of = |f: &dyn Fn(f64) -> f64| z.iter().map(|&z| f(z)).sum::<f64>() / n as f64;
+        let q = mean_of(&|z| z * z).sqrt();
+        let [low, high] = ends(z);
+        let t = high - low;
+        // Neighbouring sections share the point on their border, so that both directions have the same ones.
+        let section = (n - 1) as f64 / sections as f64;
+        let border = |i: usize| (i as f64 * section).round() as usize;
+        let parts: Vec<[f64; 2]> = (0..sections).map(|i| ends(&z[border(i)..=border(i + 1)])).collect();
+        let mean = |f: &dyn Fn([f64; 2]) -> f64| parts.iter().map(|&part| f(part)).sum::<f64>() / sections as f64;
+        let height = mean(&|[low, high]| high - low);
+        let over = |power: i32| if t == 0.0 { f64::NAN } else { mean_of(&|z| z.powi(power)) / q.powi(power) };
+        let curve = MaterialRatio::of_heights(z);
+        Self {
+            a: mean_of(&f64::abs),
+            q,
+            sk: over(3),
+            ku: over(4),
+            t,
+            p: mean(&|[_, high]| high),
+            v: mean(&|[low, _]| -low),
+            z: height,
+            zx: moving_height(z, section as usize + 1),
+            dq: slope(z) / spacing_um,
+            sm: spacing(z, spacing_um, section, height),
+            core: Core::of(&curve),
+            curve,
         }
-        let holes = heights_um.iter().filter(|z| z.is_nan()).count();
-        if holes > 0 {
-            return Err(format!("the line crosses {holes} holes"));
-        }
-        check_heights(heights_um).map_err(|(i, reason)| format!("the height of point {} {reason}", i + 1))?;
-        let count = n as f64;
-        let mean = heights_um.iter().sum::<f64>() / count;
-        let z: Vec<f64> = heights_um.iter().map(|z| z - mean).collect();
-        let moment = |power: i32| z.iter().map(|z| z.powi(power)).sum::<f64>() / count;
-        let rq = moment(2).sqrt();
-        let range = |part: &[f64]| {
-            let (low, high) = part.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), &z| (l.min(z), h.max(z)));
-            high - low
-        };
-        let rt = range(&z);
-        let rz =
-            (0..SECTIONS).map(|i| range(&z[i * n / SECTIONS..(i + 1) * n / SECTIONS])).sum::<f64>() / SECTIONS as f64;
-        let over = |moment: f64, power: i32| if rt == 0.0 { f64::NAN } else { moment / rq.powi(power) };
-        Ok(Self {
-            length_mm: (count - 1.0) * spacing_um * 1e-3,
-            ra: z.iter().map(|z| z.abs()).sum::<f64>() / count,
-            rq,
-            rz,
-            rt,
-            rsm: spacing(&z, spacing_um, rz),
-            rsk: over(moment(3), 3),
-            rku: over(moment(4), 4),
-            core: Core::of(&MaterialRatio::of_heights(&z)),
-        })
     }
 }
 
-/// RSm, um: mean distance between the upward crossings of significant peaks and pits.
-fn spacing(z: &[f64], spacing_um: f64, rz: f64) -> Result<f64, String> {
-    let (least_height, least_width) = (HEIGHT_SHARE * rz, WIDTH_SHARE * z.len() as f64 / SECTIONS as f64);
-    // Runs above and below the mean line; where they cross it, between points.
-    let mut runs: Vec<(bool, f64, f64, f64)> = Vec::new(); // above, start, end, extreme
-    let mut start = 0.0;
-    let mut extreme = 0.0_f64;
+fn ends(z: &[f64]) -> [f64; 2] {
+    z.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], &z| [low.min(z), high.max(z)])
+}
+
+/// Largest difference between two of so many neighbouring points.
+fn moving_height(z: &[f64], points: usize) -> f64 {
+    // Places that can still be the highest or the lowest of the window, the best first.
+    let mut kept: [VecDeque<usize>; 2] = [VecDeque::new(), VecDeque::new()];
+    let mut largest = 0.0_f64;
     for i in 0..z.len() {
-        extreme = extreme.max(z[i].abs());
-        let ends = i + 1 == z.len();
-        if ends || (z[i] > 0.0) != (z[i + 1] > 0.0) {
-            let end = if ends { i as f64 } else { i as f64 + z[i] / (z[i] - z[i + 1]) };
-            runs.push((z[i] > 0.0, start, end, extreme));
-            (start, extreme) = (end, 0.0);
-        }
-    }
-    // What is too low or too narrow goes to its neighbours; equal neighbours join.
-    let mut kept: Vec<(bool, f64, f64, f64)> = Vec::new();
-    for run in runs {
-        let counts = run.3 >= least_height && run.2 - run.1 >= least_width;
-        match kept.last_mut() {
-            Some(last) if !counts || last.0 == run.0 => {
-                last.2 = run.2;
-                if last.0 == run.0 {
-                    last.3 = last.3.max(run.3);
-                }
+        for (places, sign) in kept.iter_mut().zip([1.0, -1.0]) {
+            while places.back().is_some_and(|&last| sign * z[last] <= sign * z[i]) {
+                places.pop_back();
             }
-            _ if counts => kept.push(run),
-            _ => {}
+            places.push_back(i);
+            if places[0] + points <= i {
+                places.pop_front();
+            }
         }
+        largest = largest.max(z[kept[0][0]] - z[kept[1][0]]);
     }
-    // The first and the last run are cut off by the ends of the line: elements are counted between upward crossings.
-    let upward: Vec<f64> = kept.windows(2).filter(|pair| !pair[0].0 && pair[1].0).map(|pair| pair[1].1).collect();
-    match upward[..] {
-        [first, .., last] => Ok((last - first) / (upward.len() - 1) as f64 * spacing_um),
-        _ => Err("the line holds no whole profile element".to_owned()),
-    }
+    largest
+}
+
+/// Root mean square slope per point.
+fn slope(z: &[f64]) -> f64 {
+    let squares = z.windows(7).map(|w| {
+        let slope = (w[6] - 9.0 * w[5] + 45.0 * w[4] - 45.0 * w[2] + 9.0 * w[1] - w[0]) / 60.0;
+        slope * slope
+    });
+    (squares.sum::<f64>() / (z.len() - 6) as f64).sqrt()
 }
 
 #[cfg(test)]
@@ -126,38 +118,96 @@ mod tests {
     use super::*;
     use std::f64::consts::{PI, TAU};
 
+    fn near(value: f64, closed: f64, share: f64) {
+        assert!((value - closed).abs() <= share * closed.abs(), "{value} is not {closed}");
+    }
+
     #[test]
     fn a_sine_has_its_closed_forms() {
-        // 20 waves of 50 points, amplitude 2 um, 0.5 um apart.
-        let heights: Vec<f64> = (0..1000).map(|i| 7.0 + 2.0 * (TAU * (f64::from(i) + 0.3) / 50.0).sin()).collect();
-        let profile = Profile::of(&heights, 0.5).expect("a good line");
-        let near = |value: f64, closed: f64, share: f64| {
-            assert!((value - closed).abs() <= share * closed, "{value} is not {closed}");
+        // 20 waves of 500 points, amplitude 2 um, 0.05 um apart.
+        let line: Vec<f64> = (0..10_000).map(|i| 2.0 * (TAU * (f64::from(i) + 0.3) / 500.0).sin()).collect();
+        let profile = Profile::of(&line, 0.05, 5);
+        near(profile.a, 4.0 / PI, 1e-5);
+        near(profile.q, 2_f64.sqrt(), 1e-9);
+        near(profile.ku, 1.5, 1e-9);
+        // Three points at either end have no slope.
+        near(profile.dq, 2_f64.sqrt() * TAU / 25.0, 5e-4);
+        near(profile.sm.expect("whole waves"), 25.0, 1e-9);
+        near(profile.core.sk, 1.7747 * 2.0, 1e-3);
+        for (height, closed) in
+            [(profile.z, 4.0), (profile.zx, 4.0), (profile.t, 4.0), (profile.p, 2.0), (profile.v, 2.0)]
+        {
+            near(height, closed, 1e-4);
+        }
+        // Material at or above half the amplitude: a third.
+        near(profile.curve.smr_percent(1.0), 100.0 / 3.0, 3e-3);
+        assert!(profile.sk.abs() < 1e-9);
+    }
+
+    /// A triangle of height 3 um: uniform heights, whose curve is a straight line.
+    #[test]
+    fn a_triangle_has_its_closed_forms() {
+        let at = |i: i32| 1.5 - 3.0 * (f64::from((2 * i + 1) % 2000) / 1000.0 - 1.0).abs();
+        let line: Vec<f64> = (0..20_000).map(at).collect();
+        let profile = Profile::of(&line, 0.1, 5);
+        near(profile.a, 0.75, 1e-5);
+        near(profile.q, 3_f64.sqrt() / 2.0, 1e-5);
+        near(profile.ku, 1.8, 1e-5);
+        near(profile.dq, 3.0 / 50.0, 2e-3);
+        near(profile.sm.expect("whole waves"), 100.0, 1e-9);
+        near(profile.core.sk, 3.0, 1e-3);
+        near(profile.z, 3.0, 2e-3);
+        assert!(profile.core.spk < 1e-3 && profile.core.svk < 1e-3 && profile.sk.abs() < 1e-9);
+    }
+
+    /// Gaussian heights in a shuffled order: Rk 2.57396, Rpk and Rvk 0.94503, Rmrk1 9.905 % and Ra 0.79788 of Rq.
+    #[test]
+    fn random_heights_have_the_known_core() {
+        let n = 20_011_u64;
+        let quantile = |p: f64| {
+            // Bisection of the error function's integral by its series.
+            let phi = |x: f64| {
+                let (mut term, mut sum) = (x, x);
+                for k in 1..200 {
+                    term *= -x * x / (2.0 * f64::from(k));
+                    sum += term / f64::from(2 * k + 1);
+                }
+                0.5 + sum / TAU.sqrt()
+            };
+            let (mut low, mut high) = (-6.0, 6.0);
+            for _ in 0..60 {
+                let middle = 0.5 * (low + high);
+                if phi(middle) < p { low = middle } else { high = middle }
+            }
+            low
         };
-        near(profile.ra, 4.0 / PI, 1e-3);
-        near(profile.rq, 2_f64.sqrt(), 1e-3);
-        near(profile.rz, 4.0, 2e-3);
-        near(profile.rt, 4.0, 2e-3);
-        near(profile.rku, 1.5, 1e-3);
-        near(profile.rsm.expect("whole waves"), 25.0, 1e-3);
-        near(profile.core.sk, 1.7747 * 2.0, 5e-3);
-        assert!(profile.rsk.abs() < 1e-6);
+        let line: Vec<f64> = (0..n).map(|i| quantile(((i * 7919 % n) as f64 + 0.5) / n as f64)).collect();
+        let profile = Profile::of(&line, 1.0, 5);
+        near(profile.a, 0.797_88, 1e-3);
+        near(profile.core.sk, 2.573_96, 2e-3);
+        near(profile.core.spk, 0.945_03, 5e-3);
+        near(profile.core.svk, 0.945_03, 5e-3);
+        near(profile.core.smr1, 9.905, 5e-3);
+        near(profile.core.smr2, 90.095, 1e-3);
+    }
+
+    /// A peak before and a pit behind the border of two sections: no section has the whole height, the moving one does.
+    #[test]
+    fn the_largest_height_is_found_across_the_borders_of_sections() {
+        let mut line = vec![0.0; 100];
+        (line[19], line[21]) = (3.0, -4.0);
+        let profile = Profile::of(&line, 1.0, 5);
+        assert_eq!((profile.zx, profile.t), (7.0, 7.0));
+        assert_eq!((profile.z, profile.p, profile.v), (7.0 / 5.0, 3.0 / 5.0, 4.0 / 5.0));
+        // Further apart than a section they are never seen together.
+        let mut far = vec![0.0; 100];
+        (far[10], far[30]) = (3.0, -4.0);
+        assert_eq!(Profile::of(&far, 1.0, 5).zx, 4.0);
     }
 
     #[test]
-    fn small_ripples_are_no_elements() {
-        let heights: Vec<f64> =
-            (0..1000).map(|i| (TAU * f64::from(i) / 200.0).sin() + 0.03 * (TAU * f64::from(i) / 7.0).sin()).collect();
-        let rsm = Profile::of(&heights, 1.0).expect("a good line").rsm.expect("whole waves");
-        assert!((rsm - 200.0).abs() < 3.0, "{rsm}");
-    }
-
-    #[test]
-    fn what_cannot_be_evaluated_says_why() {
-        assert!(Profile::of(&[0.0; 5], 1.0).expect_err("short").contains("five sections"));
-        let mut line = vec![1.0; 50];
-        assert!(Profile::of(&line, 1.0).expect("flat").rsm.is_err());
-        line[7] = f64::NAN;
-        assert!(Profile::of(&line, 1.0).expect_err("a hole").contains("1 holes"));
+    fn a_flat_line_has_no_skewness() {
+        let flat = Profile::of(&[0.0; 50], 1.0, 5);
+        assert!(flat.sk.is_nan() && flat.ku.is_nan() && flat.sm.is_err() && flat.a == 0.0);
     }
 }

@@ -19,5 +19,6 @@ mod stopped;
 #[cfg(target_os = "linux")]
 mod terminal;
 mod texture;
+mod texture_lines;
 mod usage;
 mod warnings;
