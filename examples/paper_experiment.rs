@@ -19,7 +19,7 @@ use gearcut::output::table::write_table;
 use gearcut::process::shaping::ShapingJob;
 use gearcut::process::shaping::chips::deflections;
 use gearcut::process::shaping::measure::unevenness::{CrossedSurface, allowances, crossings, summarise};
-use gearcut::scene::model::{TextureWindow, WindowSides};
+use gearcut::scene::model::{TextureFilters, TextureWindow, WindowSides};
 use gearcut::texture::{cut_window, windows};
 use rayon::prelude::*;
 use std::error::Error;
@@ -211,6 +211,7 @@ fn cut(linkage: &str, settings: &[String]) -> Found<Gear> {
             profile_spacing_mm: Some(0.0025),
             lead_spacing_mm: Some(0.25),
             form: Form::Poly2,
+            filters: TextureFilters::default(),
         })
         .collect();
     let mut job = ShapingJob::new(scene)?;

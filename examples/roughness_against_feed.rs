@@ -14,7 +14,7 @@ use gearcut::output::table::write_table;
 use gearcut::process::load;
 use gearcut::process::shaping::ShapingJob;
 use gearcut::process::shaping::scene::model::{Feed, Shaping};
-use gearcut::scene::model::{TextureWindow, WindowSides};
+use gearcut::scene::model::{TextureFilters, TextureWindow, WindowSides};
 use gearcut::terms::Side;
 use gearcut::texture::{cut_window, windows};
 use std::error::Error;
@@ -53,6 +53,7 @@ fn measured(scene: &str, feed: Feed, rows: &mut Vec<Row>) -> Result<(), Box<dyn 
         profile_spacing_mm: Some(0.002),
         lead_spacing_mm: Some(0.1),
         form: Form::Poly2,
+        filters: TextureFilters::default(),
     };
     let probe = ShapingJob::new(scene.clone())?;
     let mut about_pitch_curve = Vec::new();

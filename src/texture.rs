@@ -18,21 +18,25 @@
 mod chart;
 mod files;
 mod findings;
+mod roughness;
 mod sampling;
+mod traces;
 mod window;
 
 pub use files::{NamedWindow, SURFACE_NOTE, named_windows, write};
 pub use findings::{findings, foreseen, quantities, warnings};
+pub use roughness::{ROUGHNESS, roughness, roughness_path};
 pub use sampling::{SampledWindow, sampled};
+pub use traces::{Direction, Traced, of_surface};
 pub use window::{Window, windows};
 
 use crate::findings::Severity;
 use crate::interrupt::Interrupt;
 use crate::job::{GearJob, RAY_DEPTH_MODULES};
-use crate::measure::topography::{Arguments, Chain, Evaluation, Surface};
+use crate::measure::topography::{Arguments, Evaluation, Surface};
 use crate::output::progress::Progress;
 use gearcut_core::cut::Backend;
-use gearcut_core::dexel::NO_PASS;
+use gearcut_core::dexel::{Layer, NO_PASS};
 use gearcut_core::error::Result;
 use gearcut_core::units::UM_PER_MM;
 use rayon::prelude::*;
@@ -64,6 +68,8 @@ pub struct WindowTexture {
     pub points_per_mark: [Option<f64>; 2],
     /// What was evaluated, or why nothing could be.
     pub evaluated: Result<Evaluated, String>,
+    /// Lines along profile and tooth; none of windows that are cut for their surface alone.
+    pub traces: Vec<Traced>,
 }
 
 /// A window after its chain.
@@ -185,7 +191,11 @@ pub fn measure(
     let textures: Vec<Option<WindowTexture>> = windows
         .par_iter()
         .map(|window| {
-            let done = if interrupt.is_raised() { Ok(None) } else { cut_sampled(job, backend, window).map(Some) };
+            let cut = || -> Result<WindowTexture> {
+                let traces = traces::traced(job, backend, &window.window)?;
+                Ok(WindowTexture { traces, ..cut_sampled(job, backend, window)? })
+            };
+            let done = if interrupt.is_raised() { Ok(None) } else { cut().map(Some) };
             step.advance(1);
             done
         })
@@ -194,8 +204,8 @@ pub fn measure(
     Ok(textures.into_iter().flatten().collect())
 }
 
-/// Cuts one window, as finely as its marks ask for, through all operations and evaluates what the one that it shows
-/// left.
+/// Cuts one window, as finely as its marks ask for, through all operations and evaluates the surface that the one that
+/// it shows left.
 ///
 /// # Errors
 /// Geometry and the backend.
@@ -208,23 +218,34 @@ fn cut_sampled(job: &dyn GearJob, backend: &dyn Backend, sampled: &SampledWindow
     let arcs_mm: Vec<f64> = window.arcs_mm().collect();
     let layers = job.cut_flank(backend, window.tooth, window.side, &arcs_mm, &window.rows_z_mm())?;
     let ([rows, columns], layer) = (window.count, &layers[window.operation]);
-    // Where a ray ends inside a cut, its end is no surface: a flank that is gone has no texture.
-    let ends_mm = -ENDS_SHARE * RAY_DEPTH_MODULES * job.scene().gear.module_mm;
-    let height = |i: usize| {
-        let height_mm = f64::from(layer.heights_mm[i]);
-        let is_surface = layer.passes[i] != NO_PASS && height_mm > ends_mm;
-        if is_surface { height_mm * UM_PER_MM } else { f64::NAN }
-    };
-    let heights_um: Vec<f64> = (0..columns * rows).map(height).collect();
     let [dx, dy] = window.spacing_mm().map(|mm| mm * UM_PER_MM);
-    let heights = Surface::new(rows, columns, dx, dy, heights_um);
+    let heights = Surface::new(rows, columns, dx, dy, heights_um(job, layer));
     let evaluated = heights.as_ref().map_err(Clone::clone).and_then(|heights| evaluate(heights, window));
     let (marks, points_per_mark) = (marks.count, marks.points);
-    Ok(WindowTexture { window: window.clone(), heights: heights.ok(), marks, points_per_mark, evaluated })
+    Ok(WindowTexture {
+        window: window.clone(),
+        heights: heights.ok(),
+        marks,
+        points_per_mark,
+        evaluated,
+        traces: Vec::new(),
+    })
+}
+
+/// Heights over the target, um; NaN where there is no surface: where no pass came, and where a ray ends inside a cut (a
+/// flank that is gone has no texture).
+fn heights_um(job: &dyn GearJob, layer: &Layer) -> Vec<f64> {
+    let ends_mm = -ENDS_SHARE * RAY_DEPTH_MODULES * job.scene().gear.module_mm;
+    let cut = layer.heights_mm.iter().zip(&layer.passes);
+    cut.map(|(&height_mm, &pass)| match f64::from(height_mm) {
+        height_mm if pass != NO_PASS && height_mm > ends_mm => height_mm * UM_PER_MM,
+        _ => f64::NAN,
+    })
+    .collect()
 }
 
 fn evaluate(heights: &Surface, window: &Window) -> Result<Evaluated, String> {
-    let (surface, chain) = Chain::of_form(window.form).apply(heights)?;
+    let (surface, chain) = window.chain.apply(heights)?;
     let evaluation = Evaluation::of(&surface, &Arguments::default());
     Ok(Evaluated { surface, chain, evaluation })
 }

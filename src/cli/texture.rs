@@ -6,6 +6,7 @@ use std::path::Path;
 
 use gearcut::Refusal;
 use gearcut::interrupt::Interrupt;
+use gearcut::measure::topography::height_steps::coarse_step_um;
 use gearcut::measure::topography::{Arguments, Chain, Evaluation, Form, Parameter, Surface};
 use gearcut::output::surface_files::{Format, SurfaceFile, read_surface, write_surface};
 use gearcut::output::text::{Sheet, plain, significant};
@@ -142,6 +143,7 @@ fn document(
             "holes": file.surface.holes(),
         },
         "evaluated": {"nx": surface.nx(), "ny": surface.ny(), "holes": surface.holes()},
+        "warnings": warnings(file),
         "angles": "counter-clockwise from +x (along a row) towards +y (from row to row)",
         "chain": chain,
         "parameters": by_symbol(&evaluation.parameters),
@@ -169,6 +171,9 @@ fn sheet(
     if read.holes() > 0 {
         sheet.line("holes", read.holes().to_string());
     }
+    for warning in warnings(file) {
+        sheet.line("warning", warning);
+    }
     for step in chain {
         let (name, what) = step.split_once(": ").unwrap_or((step, ""));
         sheet.line(name, what);
@@ -189,6 +194,18 @@ fn sheet(
         line.write(&mut sheet);
     }
     sheet.into_text()
+}
+
+/// What a reader must know of the heights as they were read.
+fn warnings(file: &SurfaceFile) -> Vec<String> {
+    let coarse = |step: f64| {
+        format!(
+            "heights go in steps of {} um, more than a tenth of their root mean square height: slopes, peaks and the \
+             ends of curves are those of the steps",
+            significant(step, 3)
+        )
+    };
+    coarse_step_um(&file.surface).map(coarse).into_iter().collect()
 }
 
 /// Symbol, value with unit, definition.

@@ -20,8 +20,6 @@ use std::collections::BTreeMap;
 /// Paths with numbers and their units.
 pub type Numbers = BTreeMap<String, (f64, String)>;
 
-/// Beginning of the paths of what texture windows say.
-pub const TEXTURE: &str = "texture.";
 /// Key of the first column of tables whose rows are named figures.
 const FIGURE: &str = "figure";
 
@@ -61,11 +59,24 @@ pub fn texture_numbers(
         let windows = texture::sampled(gear, &windows)?;
         let textures = texture::measure(gear, &windows, choice.backend.as_ref(), &quiet, interrupt)?;
         interrupt.check()?;
-        let section = texture::findings(gear, &textures);
-        section.walk(&section.key, &mut |path, section| add_section(&mut numbers, path, section));
+        for section in [texture::findings(gear, &textures), texture::roughness(gear, &textures)] {
+            section.walk(&section.key, &mut |path, section| add_section(&mut numbers, path, section));
+        }
         Ok(())
     })?;
     Ok(numbers)
+}
+
+/// The window that the number of a path belongs to (such as `finish.tooth_03_left`) and its symbol, if it is one of a
+/// window's surface or of the lines across it.
+pub fn of_window(quantity: &str) -> Option<(&str, &str)> {
+    let (path, symbol) = quantity.rsplit_once('.')?;
+    if let Some(window) = path.strip_prefix("texture.") {
+        return Some((window.strip_suffix(".parameters").unwrap_or(window), symbol));
+    }
+    let lines = path.strip_prefix(texture::ROUGHNESS)?.strip_prefix('.')?;
+    let window = texture::Direction::BOTH.into_iter().find_map(|way| lines.strip_suffix(way.key())?.strip_suffix('_'));
+    Some((window?, symbol))
 }
 
 fn add(numbers: &mut Numbers, path: String, quantity: &Quantity) {

@@ -30,9 +30,9 @@ pub struct SkConstruction {
     pub line_um: [f64; 2],
     /// First and last ratio of the 40 % window, percent.
     pub window_percent: [f64; 2],
-    /// Smr1, percent.
+    /// Smrk1, percent.
     pub smr1_percent: f64,
-    /// Smr2, percent.
+    /// Smrk2, percent.
     pub smr2_percent: f64,
     /// Spk, um.
     pub spk_um: f64,
@@ -54,7 +54,7 @@ impl SkConstruction {
             LegendEntry { sample: Sample::Line(1), words: format!("equivalent line, Sk {sk}, 40 % window thick") },
             LegendEntry {
                 sample: Sample::Area(1),
-                words: format!("Spk {} on Smr1 {}", um(self.spk_um), percent(self.smr1_percent)),
+                words: format!("Spk {} on Smrk1 {}", um(self.spk_um), percent(self.smr1_percent)),
             },
             LegendEntry {
                 sample: Sample::Area(2),
@@ -143,8 +143,8 @@ fn construction(sk: &SkConstruction, frame: &PlotFrame) -> Markup {
             (frame.across("limit", height))
             (frame.upright("limit", x(percent)))
         }
-        text class="label" x=(px(x(sk.smr1_percent) + 4.0)) y="24" { "Smr1" }
-        text class="label end" x=(px(x(sk.smr2_percent) - 4.0)) y="24" { "Smr2" }
+        text class="label" x=(px(x(sk.smr1_percent) + 4.0)) y="24" { "Smrk1" }
+        text class="label end" x=(px(x(sk.smr2_percent) - 4.0)) y="24" { "Smrk2" }
         path class="curve s1" d=(path(&[0.0, 100.0].map(|p| (x(p), y(sk.line_at_um(p)))))) {}
         path class="window s1" d=(path(&sk.window_percent.map(|p| (x(p), y(sk.line_at_um(p)))))) {}
         line class="dimension" x1=(px(beside)) x2=(px(beside)) y1=(px(y(top))) y2=(px(y(base))) {}

@@ -16,7 +16,7 @@ use crate::measure::topography::Form;
 use crate::output::growing::RowValues;
 use crate::process;
 use crate::scene::Scene;
-use crate::scene::model::{TextureWindow, WindowSides};
+use crate::scene::model::{TextureFilters, TextureWindow, WindowSides};
 use crate::texture::{cut_window, windows};
 use gearcut_core::cut::Backend;
 use gearcut_core::dexel::{Layer, NO_PASS};
@@ -110,6 +110,7 @@ pub fn measure(scene: &Scene, flank: FlankWish, backend: &dyn Backend) -> Result
         profile_spacing_mm: Some(WINDOW_MM / WINDOW_STEPS[0]),
         lead_spacing_mm: Some(WINDOW_MM / WINDOW_STEPS[1]),
         form: Form::Poly2,
+        filters: TextureFilters::default(),
     }];
     let mut values = Values::new();
     process::prepare(&scene)?.with_gear(&mut |gear| {

@@ -6,8 +6,8 @@
 use std::path::{Path, PathBuf};
 
 use super::model::{
-    DrawnLimits, Fields, Gear, Measure, Output, Picture, PictureColour, PictureView, Post, Scene, TextureWindow,
-    WindowSides,
+    DrawnLimits, Fields, Gear, Measure, Output, Picture, PictureColour, PictureView, Post, Scene, TextureFilters,
+    TextureWindow, WindowSides,
 };
 use super::process::SceneProcess;
 use super::values::{Values, View};
@@ -73,6 +73,8 @@ fn drawn_limits(limits: View<'_>) -> DrawnLimits {
         single_pitch_um: limits.number("single_pitch_um"),
         total_pitch_um: limits.number("total_pitch_um"),
         runout_um: limits.number("runout_um"),
+        ra_um: limits.number("ra_um"),
+        rz_um: limits.number("rz_um"),
     }
 }
 
@@ -198,6 +200,12 @@ fn texture(window: View<'_>) -> Option<TextureWindow> {
             "poly2" => Form::Poly2,
             "poly2-plus-cylinder" => Form::Poly2PlusCylinder,
             _ => return None,
+        },
+        filters: TextureFilters {
+            s_filter_um: window.number("s_filter_um"),
+            l_filter_um: window.number("l_filter_um"),
+            robust: window.boolean("robust")?,
+            cutoff_um: window.number("cutoff_um"),
         },
     })
 }

@@ -145,6 +145,10 @@ pub struct DrawnLimits {
     pub total_pitch_um: Option<f64>,
     /// F_r.
     pub runout_um: Option<f64>,
+    /// Ra of lines on flanks.
+    pub ra_um: Option<f64>,
+    /// Rz of lines on flanks.
+    pub rz_um: Option<f64>,
 }
 
 impl Measure {
@@ -183,6 +187,21 @@ pub struct TextureWindow {
     pub lead_spacing_mm: Option<f64>,
     /// F-operator.
     pub form: Form,
+    /// What follows it.
+    pub filters: TextureFilters,
+}
+
+/// Filters of a window's surface and of the lines across it; um, `None`: no filter.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct TextureFilters {
+    /// Areal S-filter.
+    pub s_filter_um: Option<f64>,
+    /// Areal L-filter.
+    pub l_filter_um: Option<f64>,
+    /// L-filter and cut-off are robust ones.
+    pub robust: bool,
+    /// Cut-off of lines; `None`: by ISO 21920-3.
+    pub cutoff_um: Option<f64>,
 }
 
 /// Flanks that a window lies on.

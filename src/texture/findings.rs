@@ -42,7 +42,7 @@ pub fn warnings(job: &dyn GearJob, textures: &[WindowTexture]) -> Vec<Warning> {
         let of = StemmedWindow { window: &texture.window, stem };
         texture.notes().into_iter().map(move |note| (of, note))
     });
-    told(job, noted)
+    told(job, noted).into_iter().chain(super::roughness::judged(job, textures)).collect()
 }
 
 /// The same as far as marks tell it, which are known before anything is cut.
@@ -92,7 +92,7 @@ fn told<'a>(job: &dyn GearJob, noted: impl Iterator<Item = (StemmedWindow<'a>, W
 }
 
 /// Key of a window's section: the last part of its stem.
-fn key_of(stem: &str) -> &str {
+pub(super) fn key_of(stem: &str) -> &str {
     stem.rsplit('/').next().unwrap_or(stem)
 }
 

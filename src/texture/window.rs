@@ -7,11 +7,12 @@
 //! window of a scene that names another operation shows that one.
 
 use crate::job::GearJob;
-use crate::measure::topography::Form;
+use crate::measure::topography::{Chain, Form};
 use crate::output::surface_files::MOST_POINTS;
-use crate::scene::model::{TextureWindow, WindowSides};
+use crate::scene::model::{TextureFilters, TextureWindow, WindowSides};
 use gearcut_core::error::{Refusal, Result};
 use gearcut_core::terms::Side;
+use gearcut_core::units::UM_PER_MM;
 
 /// Tooth that the paper measured.
 const PAPER_TOOTH: u32 = 3;
@@ -35,8 +36,10 @@ pub struct Window {
     span_mm: [[f64; 2]; 2],
     /// Whether the scene leaves the distance of points along the tooth and along the profile open.
     pub(super) open_step: [bool; 2],
-    /// F-operator.
-    pub form: Form,
+    /// F-operator and areal filters.
+    pub chain: Chain,
+    /// Cut-off of lines, um; none: by ISO 21920-3.
+    pub cutoff_um: Option<f64>,
     /// Index of the operation that left what it shows.
     pub operation: usize,
 }
@@ -128,6 +131,7 @@ fn default_windows(job: &dyn GearJob) -> Vec<TextureWindow> {
         profile_spacing_mm: None,
         lead_spacing_mm: None,
         form: Form::Poly2,
+        filters: TextureFilters::default(),
     };
     chosen.into_iter().map(window).collect()
 }
@@ -203,10 +207,31 @@ fn resolve(job: &dyn GearJob, index: usize, spec: &TextureWindow, side: Side) ->
         count: [0; 2],
         span_mm: [along_tooth, profile],
         open_step: [spec.lead_spacing_mm.is_none(), spec.profile_spacing_mm.is_none()],
-        form: spec.form,
+        chain: Chain {
+            s_filter_um: spec.filters.s_filter_um,
+            l_filter_um: spec.filters.l_filter_um,
+            robust: spec.filters.robust,
+            ..Chain::of_form(spec.form)
+        },
+        cutoff_um: spec.filters.cutoff_um,
         operation,
     };
     window.lay();
+    if let Some(l_um) = spec.filters.l_filter_um {
+        let longest_um = UM_PER_MM * length[0].max(length[1]);
+        if l_um > longest_um {
+            return refuse(
+                "l_filter_um",
+                format!("{l_um} um is longer than the window on {where_}, which is {longest_um:.1} um long at most"),
+                "use a shorter L-filter or a longer window",
+            );
+        }
+        if let Some(s_um) = spec.filters.s_filter_um.filter(|s_um| *s_um >= l_um) {
+            return refuse("s_filter_um", format!("{s_um} um is not below l_filter_um, {l_um} um"), "make it shorter");
+        }
+    } else if spec.filters.robust {
+        return refuse("robust", "there is no L-filter that it could be of".to_owned(), "give l_filter_um as well");
+    }
     let count = window.count;
     for (k, name) in ["lead_spacing_um", "profile_spacing_um"].into_iter().enumerate() {
         if count[k] < 2 {

@@ -22,12 +22,12 @@ FAMILIES = {
     "gradient": ["Sdq"],
     "area": ["Sdr"],
     "ratio": ["Smr", "Smc", "Sdc", "Sxp"],
-    "core": ["Sk", "Spk", "Svk", "Smr1", "Smr2", "Spkx", "Svkx", "Sak1", "Sak2"],
+    "core": ["Sk", "Spk", "Svk", "Smrk1", "Smrk2", "Spkx", "Svkx", "Sak1", "Sak2"],
     "volume": ["Vm", "Vv", "Vmp", "Vmc", "Vvc", "Vvv"],
     "correlation": ["Sal", "Str"],
     "direction": ["Std"],
     "wavelength": ["Ssw"],
-    "feature": ["Spd", "Spc", "S10z", "S5p", "S5v"],
+    "feature": ["Spd", "Spc", "Sha", "Svd", "Svc", "Sda", "S10z", "S5p", "S5v"],
 }
 ARGUMENTS = {"Smr": (0.0,), "Smc": (10,), "Sdc": (10, 80), "Vm": (10,), "Vv": (10,)}
 ROUNDS = 3

@@ -3,13 +3,15 @@
 use crate::fixtures::paper::{NORMAL, TRADITIONAL, operation, paper_scene};
 use gearcut::cut::cpu::Cpu;
 use gearcut::gear::{PitchCurveShape, TableScaling};
+use gearcut::interrupt::Interrupt;
 use gearcut::measure::scallop::cusps;
 use gearcut::measure::topography::Form;
+use gearcut::output::progress::{Progress, ProgressMode};
 use gearcut::process::shaping::ShapingJob;
 use gearcut::process::shaping::scene::model::{Feed, Shaping, StrokeSpacing};
-use gearcut::scene::model::{Scene, TextureWindow, WindowSides};
+use gearcut::scene::model::{Scene, TextureFilters, TextureWindow, WindowSides};
 use gearcut::terms::Side;
-use gearcut::texture::{WindowTexture, cut_window, windows};
+use gearcut::texture::{Direction, WindowTexture, cut_window, measure, roughness, sampled, warnings, windows};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 
@@ -158,6 +160,7 @@ fn window(
         profile_spacing_mm: Some(spacing_mm),
         lead_spacing_mm: Some(0.1),
         form,
+        filters: TextureFilters::default(),
     }
 }
 
@@ -255,8 +258,8 @@ fn a_cut_scallop_surface_has_the_fingerprint_of_its_shape() {
         ("Ssk", 0.6389, 1.0),
         ("Sku", 2.1429, 1.0),
         ("Sz", highest_um, h),
-        ("Smr1", 38.90, 100.0),
-        ("Smr2", 100.0, 100.0),
+        ("Smrk1", 38.90, 100.0),
+        ("Smrk2", 100.0, 100.0),
         ("Sal", 0.20537 * (to - from) * 100.0, 100.0),
     ] {
         let value = evaluation.value(symbol).expect("defined");
@@ -264,6 +267,42 @@ fn a_cut_scallop_surface_has_the_fingerprint_of_its_shape() {
         assert!((value - closed).abs() <= allowed, "{symbol} is {value}, not {closed} (h = {h} um)");
     }
     assert_eq!(evaluation.value("Str"), None, "marks without end have no longest decay");
+}
+
+/// Lines across ten parabolic marks of 0.1 mm, with a cut-off that leaves 1 - 2^-6.25 of their first wave: Ra 0.2566 h
+/// and Rz h. Along the tooth, where the axes rest, nothing. Both limits of the drawing are judged by the largest line.
+#[test]
+fn lines_across_a_cut_surface_have_the_roughness_of_its_marks() {
+    let mut scene = finishing_scene(2.0, 1000, 300, PitchCurveShape::Circle, 0.3);
+    let probe = ShapingJob::new(scene.clone()).expect("a job");
+    let flank = probe.target_flank(7, Side::Left);
+    let cut = probe.cut(&Cpu::default(), probe.flank_field(flank)).expect("cut");
+    let all = cusps(&cut.field, &cut.layers[0], 0);
+    let marks = &all[all.len() / 2 - 8..=all.len() / 2 + 8];
+    let (from, to) = (marks[0].arc_mm, marks[16].arc_mm);
+    let middle = 1e3 * marks[4..=12].iter().map(|c| c.height_mm).sum::<f64>() / 9.0;
+    let mut wanted = window(7, WindowSides::Left, Some(0.5 * (from + to)), Some(to - from), 1e-3, Form::None);
+    wanted.filters.cutoff_um = Some(250.0);
+    scene.textures = vec![wanted];
+    scene.measure.limits.ra_um = Some(0.3 * middle);
+    scene.measure.limits.rz_um = Some(0.5 * middle);
+    let job = ShapingJob::new(scene).expect("a job");
+    let windows = sampled(&job, &windows(&job).expect("windows")).expect("sampled");
+    let quiet = Progress::new(ProgressMode::Quiet);
+    let textures = measure(&job, &windows, &Cpu::default(), &quiet, &Interrupt::default()).expect("cut");
+    let [profile, tooth] = textures[0].traces.as_slice() else { panic!("both directions") };
+    assert_eq!((profile.direction, tooth.direction), (Direction::Profile, Direction::Tooth));
+    let of = |symbol| profile.of(symbol).unwrap_or_else(|| panic!("{symbol}: {:?}", profile.profiles)).mean_um;
+    assert!((of("Ra") / (0.256_60 * middle) - 1.0).abs() < 0.03, "{} of {middle}", of("Ra"));
+    assert!((of("Rz") / middle - 1.0).abs() < 0.05, "{} of {middle}", of("Rz"));
+    assert!(tooth.of("Ra").is_none_or(|ra| ra.largest_um < 1e-3 * middle), "{:?}", tooth.of("Ra"));
+    let section = roughness(&job, &textures);
+    let lines = section.find("finish.tooth_07_left_along_profile").expect("a section of its own");
+    assert_eq!(lines.number("cutoff"), Some(0.25));
+    assert_eq!((lines.words("Ra_limit"), lines.words("Rz_limit")), ("kept", "exceeded"));
+    let told: Vec<String> = warnings(&job, &textures).into_iter().map(|warning| warning.text).collect();
+    assert!(told.iter().any(|text| text.starts_with("Rz of tooth 7 left along the profile is up to")), "{told:?}");
+    assert!(!told.iter().any(|text| text.starts_with("Ra of tooth 7 left along the profile")), "{told:?}");
 }
 
 /// With no offset both linkages move the cutter alike: what they leave is the same surface, and its roughness has the

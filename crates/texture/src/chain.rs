@@ -41,6 +41,13 @@ impl Chain {
         {
             return Err(format!("the S-filter ({s} um) must be shorter than the L-filter ({l} um)"));
         }
+        let longest_um = 1e3 * surface.size_mm()[0].max(surface.size_mm()[1]);
+        if let Some(l) = self.l_filter_um.filter(|l| *l > longest_um * (1.0 + 1e-9)) {
+            return Err(format!(
+                "the L-filter ({l} um) is longer than the surface ({longest_um:.1} um): ISO 25178-3 wants an area at \
+                 least as long, and less than a plane of it would be filtered; take a shorter one, or none"
+            ));
+        }
         let (mut surface, note) = form::remove(surface, self.form)?;
         let mut words = vec![match note {
             Some(note) => format!("F-operator: {} ({note})", self.form.name()),
@@ -63,7 +70,17 @@ impl Chain {
                 };
                 let rest = surface.heights_um().iter().zip(mean.heights_um()).map(|(z, m)| z - m).collect();
                 surface = surface.with_heights(rest);
-                words.push(format!("L-filter: {what}"));
+                let [x_um, y_um] = surface.size_mm().map(|mm| 1e3 * mm);
+                let short = if index_um > x_um.min(y_um) * (1.0 + 1e-9) {
+                    format!(
+                        "; the surface is only {:.1} um long along {}",
+                        x_um.min(y_um),
+                        if x_um < y_um { "x" } else { "y" }
+                    )
+                } else {
+                    String::new()
+                };
+                words.push(format!("L-filter: {what}{short}"));
             }
             None => words.push("L-filter: none".to_owned()),
         }
@@ -74,5 +91,23 @@ impl Chain {
             words.push("crop: none".to_owned());
         }
         Ok((surface, words))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_l_filter_longer_than_the_surface_is_refused_and_one_longer_than_a_side_is_said() {
+        let heights = (0..101 * 21).map(|i| f64::from(i % 7)).collect();
+        let surface = Surface::new(101, 21, 4.0, 4.0, heights).expect("a grid");
+        let of = |l: f64| Chain { l_filter_um: Some(l), ..Chain::of_form(Form::Plane) }.apply(&surface);
+        let refused = of(50_000.0).expect_err("too long");
+        assert!(refused.contains("50000 um) is longer than the surface (400.0 um)"), "{refused}");
+        let (_, words) = of(200.0).expect("a filter");
+        assert!(words[2].contains("only 80.0 um long along y"), "{words:?}");
+        let (_, words) = of(80.0).expect("a filter");
+        assert!(!words[2].contains("only"), "{words:?}");
     }
 }

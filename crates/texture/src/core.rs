@@ -4,8 +4,9 @@
 //! 1. Of all windows 40 % of the ratio wide, the one in which the curve drops least; the first of several.
 //! 2. The **least-squares** straight line of the curve inside that window, continued to 0 % and 100 %: heights y_u and
 //!    y_l. The secant of the window instead, as some codes take it, makes Sk of Gaussian heights 1.9 % too large.
-//! 3. Sk = y_u - y_l; Smr1 and Smr2 are where the curve meets those heights.
-//! 4. Hills above y_u and dales below y_l as right-angled triangles of the same area on Smr1 and 100 - Smr2: Spk and
+//! 3. Sk = y_u - y_l; Smrk1 and Smrk2 (Smr1 and Smr2 before the edition of 2021) are where the curve meets those
+//!    heights.
+//! 4. Hills above y_u and dales below y_l as right-angled triangles of the same area on Smrk1 and 100 - Smrk2: Spk and
 //!    Svk; 0 where the region is empty.
 
 use super::ratio::MaterialRatio;

@@ -3,8 +3,8 @@
 //! In: heights about the mean line. Law: hills and dales are what lies between two crossings of the mean line. One that
 //! is too low or too narrow to count goes to its neighbours; neighbours of the same kind then are one. Where several
 //! crossings lie between a hill and a dale that count, their border is the middle between the first and the last. An
-//! element is a hill with a dale beside it; spacings are counted from dale to hill and from hill to dale, over the whole
-//! line, and their mean is the parameter. A line that is read backwards, or upside down, so has the same spacing.
+//! element is a hill with a dale beside it; spacings are counted from dale to hill and from hill to dale, over the
+//! whole line, and their mean is the parameter. A line that is read backwards, or upside down, so has the same spacing.
 //!
 //! Road not taken: going along the line and giving what is too small to what came before. The spacing then depends on
 //! the direction of the trace (P. J. Scott, Meas. Sci. Technol. 17 (2006) 559).

@@ -14,13 +14,14 @@
 //! - `disk_steps`: the steps on the disk by which files come to be, where tests may refuse them
 //! - [`atomic`]: files that are complete or absent
 //! - [`surface`]: heights on a grid with holes
+//! - [`height_steps`]: how coarse the steps of an instrument's heights are
 //! - [`form`]: the F-operator
 //! - [`gaussian`]: S- and L-filter
 //! - [`chain`]: form removal, filters and crop, one after the other
 //! - [`height`]: Sa Sq Ssk Sku Sp Sv Sz
 //! - [`hybrid`]: Sdq Sdr
 //! - [`ratio`]: Smr Smc Sdc Sxp Vm Vv Vmp Vmc Vvc Vvv
-//! - [`core`]: Sk Spk Svk Smr1 Smr2 Spkx Svkx Sak1 Sak2
+//! - [`core`]: Sk Spk Svk Smrk1 Smrk2 Spkx Svkx Sak1 Sak2
 //! - [`trace`]: a line of heights, its holes bridged
 //! - [`line_form`]: the form of a line
 //! - [`line_filter`]: profile S- and L-filter
@@ -29,9 +30,10 @@
 //! - [`setting_class`]: cut-offs of ISO 21920-3
 //! - [`profile_chain`]: from traced lines to P-, W- and R-parameters
 //! - `spectrum`: Fourier transforms of a surface
-//! - [`spatial`]: Sal Str Std Ssw
+//! - `direction`: Std
+//! - [`spatial`]: Sal Str Ssw, and Std with them
 //! - `watershed`: hills and their pruning
-//! - [`features`]: Spd Spc S10z S5p S5v
+//! - [`features`]: Spd Spc Sha Svd Svc Sda S10z S5p S5v
 //! - [`parameters`]: all of them, with units and definitions
 //! - [`files`]: X3P, SDF, SUR, NPY, CSV and EXR maps, read and written
 //!
@@ -98,6 +100,7 @@
 pub mod atomic;
 pub mod chain;
 pub mod core;
+mod direction;
 #[doc(hidden)]
 pub mod disk_steps;
 mod elements;
@@ -107,6 +110,7 @@ pub mod files;
 pub mod form;
 pub mod gaussian;
 pub mod height;
+pub mod height_steps;
 pub mod hybrid;
 pub mod line_filter;
 pub mod line_form;

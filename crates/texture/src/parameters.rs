@@ -2,8 +2,6 @@
 //!
 //! One list serves `results.json`, the `texture` command and the report, so that none of them can lack a definition.
 
-use rayon::join;
-
 use super::core::Core;
 use super::features::Features;
 use super::height::Heights;
@@ -58,10 +56,12 @@ impl Evaluation {
         let centred = surface.centred();
         let heights = Heights::of(&centred);
         let sz = heights.sp + heights.sv;
-        let ((hybrid, curve), (spatial, features)) = join(
-            || (Hybrid::of(&centred), MaterialRatio::of(&centred)),
-            || join(|| Spatial::of(&centred, sz == 0.0), || Features::of(&centred, sz)),
-        );
+        // One after the other: each is shared out over the cores by itself, and what it needs of memory is given back
+        // before the next one begins.
+        let hybrid = Hybrid::of(&centred);
+        let spatial = Spatial::of(&centred, sz == 0.0);
+        let features = Features::of(&centred, sz);
+        let curve = MaterialRatio::of(&centred);
         let core = Core::of(&curve);
         let mut list = List::default();
         list.heights(&heights);
@@ -247,25 +247,31 @@ impl List {
             family,
             "Spk",
             c.spk,
-            "reduced peak height: triangle on Smr1 with the area of the hills above the core",
+            "reduced peak height: triangle on Smrk1 with the area of the hills above the core",
         );
         self.um(
             family,
             "Svk",
             c.svk,
-            "reduced dale height: triangle on 100 - Smr2 with the area of the dales below the core",
+            "reduced dale height: triangle on 100 - Smrk2 with the area of the dales below the core",
         );
-        self.add(family, "Smr1", guarded(c.smr1), "%", "material ratio at the upper end of the core");
-        self.add(family, "Smr2", guarded(c.smr2), "%", "material ratio at the lower end of the core");
+        self.add(family, "Smrk1", guarded(c.smr1), "%", "material ratio at the upper end of the core");
+        self.add(family, "Smrk2", guarded(c.smr2), "%", "material ratio at the lower end of the core");
         self.um(family, "Spkx", c.spkx, "height of the highest point over the core");
         self.um(family, "Svkx", c.svkx, "depth of the lowest point under the core");
-        self.add(family, "Sak1", Ok(c.sak1), "um^3/um^2", "hills above the core, volume per unit area: Spk Smr1 / 200");
+        self.add(
+            family,
+            "Sak1",
+            Ok(c.sak1),
+            "um^3/um^2",
+            "hills above the core, volume per unit area: Spk Smrk1 / 200",
+        );
         self.add(
             family,
             "Sak2",
             Ok(c.sak2),
             "um^3/um^2",
-            "dales below the core, volume per unit area: Svk (100 - Smr2) / 200",
+            "dales below the core, volume per unit area: Svk (100 - Smrk2) / 200",
         );
     }
 
@@ -307,6 +313,11 @@ impl List {
         let hills = "hills that rise 5 % of Sz (Wolf pruning) and lie wholly inside the window";
         self.add(family, "Spd", f.spd.clone(), "1/um^2", format!("density of peaks: {hills}"));
         self.add(family, "Spc", f.spc.clone(), "1/um", format!("mean curvature of the peaks of {hills}"));
+        self.add(family, "Sha", f.sha.clone(), "um^2", format!("mean area of {hills}"));
+        let dales = "dales that fall 5 % of Sz (Wolf pruning) and lie wholly inside the window";
+        self.add(family, "Svd", f.svd.clone(), "1/um^2", format!("density of pits: {dales}"));
+        self.add(family, "Svc", f.svc.clone(), "1/um", format!("mean curvature of the pits of {dales}"));
+        self.add(family, "Sda", f.sda.clone(), "um^2", format!("mean area of {dales}"));
         self.add(family, "S10z", f.s10z.clone(), "um", "ten point height S5p + S5v");
         self.add(family, "S5p", f.s5p.clone(), "um", format!("mean height of the five highest peaks of {hills}"));
         self.add(family, "S5v", f.s5v.clone(), "um", "mean depth of the five deepest pits of dales of the same kind");

@@ -1,7 +1,8 @@
 //! Profile parameters of a line after its chain (ISO 21920-2:2021): Ra Rq Rsk Rku Rt Rp Rv Rz Rzx Rdq RSm Rk Rpk Rvk
 //! Rmrk1 Rmrk2 Rmr(c), and the same of a primary or a waviness profile.
 //!
-//! In: heights about the reference line, which the chain made the line z = 0, and how the line is divided into sections.
+//! In: heights about the reference line, which the chain made the line z = 0, and how the line is divided into
+//! sections.
 //!
 //! - Ra, Rq, Rsk, Rku, Rt, Rdq, RSm and what is read from the material ratio curve belong to the evaluation length.
 //! - Rp, Rv and Rz are means over the sections of their highest peak, their deepest pit, and both together.

@@ -1,9 +1,9 @@
 //! The chain of profiles (ISO 21920): from traced lines to P-, W- and R-parameters.
 //!
-//! In: one or more [`Trace`]s of equal spacing, as they were measured or cut, and a [`ProfileChain`]. Out: [`Profiles`],
-//! a [`Profile`] for each line, and in words what was done to them. A line never comes from a surface that was filtered:
-//! an areal L-filter keeps the long waves of a trace wherever short ones cross it (feed marks that lean), and is no
-//! cut-off.
+//! In: one or more [`Trace`]s of equal spacing, as they were measured or cut, and a [`ProfileChain`]. Out:
+//! [`Profiles`], a [`Profile`] for each line, and in words what was done to them. A line never comes from a surface
+//! that was filtered: an areal L-filter keeps the long waves of a trace wherever short ones cross it (feed marks that
+//! lean), and is no cut-off.
 //!
 //! 1. Holes are bridged up to a length and counted.
 //! 2. Form: a straight line, unless another one is chosen.

@@ -5,21 +5,16 @@
 //! reaches the edge of the field (feed marks do, along the lay) has no longest distance: Str is undefined there, which
 //! is not 0.
 //!
-//! Std is the direction of the **wave vector** with the largest angular amplitude, counted counter-clockwise from +x
-//! towards +y; the lay runs across it. Ssw is the wavelength of the largest Fourier component of the window, as fine as
+//! Std is in [`crate::direction`]. Ssw is the wavelength of the largest Fourier component of the window, as fine as
 //! whole waves in the window can tell.
 
+use super::direction::{NO_WAVES, direction_deg};
 use super::spectrum::{PowerSpectrum, Products, power, products};
 use super::surface::Surface;
 use rayon::prelude::*;
 
 /// Share of the value at lag 0 to which the autocorrelation decays.
 const DECAY: f64 = 0.2;
-/// Width of the classes of direction, deg.
-const CLASS_DEG: f64 = 0.5;
-/// Columns of the spectrum that are sorted into classes at a time; fixed, so that the number of threads never changes a
-/// digit.
-const COLUMNS: usize = 32;
 
 /// Spatial parameters, each with the reason where it is undefined.
 #[derive(Debug, Clone, PartialEq)]
@@ -203,9 +198,6 @@ fn distance_to_segment(p: [f64; 2], q: [f64; 2]) -> f64 {
     (p[0] + along * dx).hypot(p[1] + along * dy)
 }
 
-/// Reason where no wave is left.
-const NO_WAVES: &str = "the spectrum is empty";
-
 /// Frequencies of a value of the spectrum along x and y, 1/um.
 fn frequency(spectrum: &PowerSpectrum, surface: &Surface, index: usize) -> [f64; 2] {
     let ny = spectrum.ny;
@@ -224,42 +216,4 @@ fn wavelength_um(spectrum: &PowerSpectrum, surface: &Surface) -> Result<f64, Str
     }
     let [x, y] = frequency(spectrum, surface, largest.0);
     Ok(1.0 / x.hypot(y))
-}
-
-/// Std.
-fn direction_deg(spectrum: &PowerSpectrum, surface: &Surface) -> Result<f64, String> {
-    // Corners of the frequency plane beyond the circle would favour diagonals.
-    let reach = 0.5 / surface.dx_um().max(surface.dy_um());
-    let classes = (180.0 / CLASS_DEG) as usize;
-    // Amplitude, and amplitude times direction, of every class.
-    let parts: Vec<Vec<[f64; 2]>> = spectrum
-        .power
-        .par_chunks(COLUMNS * spectrum.ny)
-        .enumerate()
-        .map(|(part, columns)| {
-            let mut sums = vec![[0.0; 2]; classes];
-            for (index, &power) in columns.iter().enumerate() {
-                let [x, y] = frequency(spectrum, surface, part * COLUMNS * spectrum.ny + index);
-                // On fx = 0, opposite frequencies are both in the half-plane: one is enough.
-                if (x == 0.0 && y <= 0.0) || x * x + y * y > reach * reach {
-                    continue;
-                }
-                let degrees = y.atan2(x).to_degrees().rem_euclid(180.0);
-                let class = &mut sums[((degrees / CLASS_DEG) as usize).min(classes - 1)];
-                let amplitude = power.sqrt();
-                class[0] += amplitude;
-                class[1] += amplitude * degrees;
-            }
-            sums
-        })
-        .collect();
-    let mut sums = vec![[0.0; 2]; classes];
-    for part in parts {
-        for (sum, part) in sums.iter_mut().zip(part) {
-            sum[0] += part[0];
-            sum[1] += part[1];
-        }
-    }
-    let best = sums.iter().fold([0.0; 2], |best, class| if class[0] > best[0] { *class } else { best });
-    if best[0] > 0.0 { Ok(best[1] / best[0]) } else { Err(NO_WAVES.to_owned()) }
 }

@@ -23,6 +23,8 @@ pub(crate) struct Hill {
     pub peak: usize,
     /// Whether the hill reaches the edge of the map or a hole.
     pub open: bool,
+    /// Points that belong to it, those of pruned neighbours included.
+    pub points: usize,
 }
 
 /// A place where two hills meet.
@@ -38,6 +40,10 @@ pub(crate) fn hills(surface: &Surface, sign: f64, threshold_um: f64) -> Vec<Hill
     let (hill_of, peaks) = grid.climb();
     let open = grid.open(&hill_of, peaks.len());
     let mut saddles = grid.saddles(&hill_of);
+    let mut points = vec![0_usize; peaks.len()];
+    for &hill in hill_of.iter().filter(|&&hill| hill != HOLE) {
+        points[hill as usize] += 1;
+    }
     drop(hill_of);
     saddles.par_sort_unstable_by(|a, b| b.height.total_cmp(&a.height).then(a.hills.cmp(&b.hills)));
     // Islands: what has met already, each with its highest peak as the root. Merged: hills given to a neighbour.
@@ -57,14 +63,17 @@ pub(crate) fn hills(surface: &Surface, sign: f64, threshold_um: f64) -> Vec<Hill
             merged.0[loser as usize] = into;
         }
     }
-    let mut is_open = vec![false; peaks.len()];
-    for (hill, open) in open.into_iter().enumerate() {
+    let mut is_open = open;
+    for hill in 0..peaks.len() {
         let root = merged.root(hill as u32) as usize;
-        is_open[root] |= open;
+        if root != hill {
+            is_open[root] |= is_open[hill];
+            points[root] += points[hill];
+        }
     }
     (0..peaks.len())
         .filter(|&hill| merged.0[hill] as usize == hill)
-        .map(|hill| Hill { peak: grid.index_in_surface(peaks[hill]), open: is_open[hill] })
+        .map(|hill| Hill { peak: grid.index_in_surface(peaks[hill]), open: is_open[hill], points: points[hill] })
         .collect()
 }
 
@@ -254,7 +263,7 @@ mod tests {
         let heights: Vec<f64> = (0..121).map(|i| cone(f64::from(i % 11), f64::from(i / 11))).collect();
         // One hill fills the map: it reaches the edge.
         let alone = Surface::new(11, 11, 1.0, 1.0, heights.clone()).expect("a grid");
-        assert_eq!(hills(&alone, 1.0, 0.1), [Hill { peak: 60, open: true }]);
+        assert_eq!(hills(&alone, 1.0, 0.1), [Hill { peak: 60, open: true, points: 121 }]);
         // A rim round it takes the edge.
         let mut rimmed = heights;
         for (i, z) in rimmed.iter_mut().enumerate() {

@@ -16,6 +16,9 @@ fn data(name: &str) -> PathBuf {
 fn symbol(name: &str) -> String {
     match name {
         "wavevector_deg" => "Std".to_owned(),
+        // Names of the edition of 2021.
+        "Smr1" => "Smrk1".to_owned(),
+        "Smr2" => "Smrk2".to_owned(),
         _ => name.strip_prefix("Smc_").map_or_else(|| name.to_owned(), |p| format!("Smc({p})")),
     }
 }

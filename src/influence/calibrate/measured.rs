@@ -3,7 +3,7 @@
 //! In: values with their uncertainties. Out: [`MeasuredGear`]. Files fill it (`files.rs`).
 
 use crate::influence::charts::MeasuredLine;
-use crate::influence::numbers::TEXTURE;
+use crate::influence::numbers::of_window;
 use std::collections::BTreeMap;
 
 /// A measured number.
@@ -53,9 +53,8 @@ impl MeasuredGear {
     /// correlations are, for no eigenvalue of n numbers' correlation matrix is above n.
     pub fn of_one_surface(&self) -> BTreeMap<&str, Vec<&str>> {
         let mut surfaces: BTreeMap<&str, Vec<&str>> = BTreeMap::new();
-        let numbers = self.numbers.iter().filter_map(|number| number.quantity.strip_prefix(TEXTURE)?.rsplit_once('.'));
-        for (path, symbol) in numbers {
-            surfaces.entry(path.strip_suffix(".parameters").unwrap_or(path)).or_default().push(symbol);
+        for (window, symbol) in self.numbers.iter().filter_map(|number| of_window(&number.quantity)) {
+            surfaces.entry(window).or_default().push(symbol);
         }
         surfaces.retain(|_, symbols| symbols.len() > 1);
         surfaces

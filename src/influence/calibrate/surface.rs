@@ -2,25 +2,28 @@
 //!
 //! In: a surface file, the windows of the scene, symbols of ISO 25178-2. Out: numbers by their paths in `results.json`.
 //! The window is the one that the file names in its notes (gearcut's own do), the scene's only one, or the one behind
-//! `@`. Its F-operator is applied; windows have no filters, so that none is applied to the surface either. The stated
-//! share is the uncertainty of each number, of heights at least that of Sa: what is nearly nothing (Svk of feed marks)
-//! is not known any better.
+//! `@`. Its F-operator and its filters are applied; lines go through the same chain of profiles. The stated share is
+//! the uncertainty of each number, of heights at least that of Sa: what is nearly nothing (Svk of feed marks) is not
+//! known any better.
 //!
 //! Road not taken: heights point by point. Nobody finds a window again to a micrometre, and noise makes other heights
 //! in every window of equal numbers.
 
 use super::measured::{MeasuredNumber, MeasuredWish};
 use crate::job::GearJob;
-use crate::measure::topography::{Arguments, Chain, Evaluation};
+use crate::measure::topography::{Arguments, Evaluation, Parameter};
 use crate::output::atomic::file_error;
 use crate::output::surface_files::{SurfaceFile, read_surface};
 use crate::output::text::significant;
-use crate::texture::{NamedWindow, SURFACE_NOTE, named_windows};
+use crate::texture::{Direction, NamedWindow, SURFACE_NOTE, named_windows, of_surface, roughness_path};
 use gearcut_core::error::{Error, Refusal, Result};
+use gearcut_core::units::UM_PER_MM;
 use std::path::Path;
 
 /// Windows whose lengths differ by less than this share are one: a step at either end of a hundred.
 const SAME_LENGTH: f64 = 0.02;
+/// Spacings whose ratio is below this are one.
+const SAME_SPACING: f64 = 1.25;
 
 /// Numbers of a surface, and a note where it is larger or smaller than its window.
 ///
@@ -43,36 +46,62 @@ pub(super) fn read(
     let file = read_surface(Path::new(path), None).map_err(file_error)?;
     let found = window_of(&named_windows(gear)?, &file, path, window)?;
     let unreadable = |reason: String| Error::Unreadable { path: path.into(), reason };
-    let (surface, _) = Chain::of_form(found.window.form).apply(&file.surface).map_err(unreadable)?;
+    let (surface, _) = found.window.chain.apply(&file.surface).map_err(unreadable)?;
     let evaluation = Evaluation::of(&surface, &Arguments::default());
     let number = |symbol: &String| {
-        let parameter =
-            evaluation.parameters.iter().find(|parameter| parameter.symbol == *symbol).ok_or_else(|| {
-                let all: Vec<&str> = evaluation.parameters.iter().map(|of| of.symbol.as_str()).collect();
-                let problem = format!("`{symbol}` is no parameter of surfaces");
-                Refusal::new("--surface-numbers", problem, format!("choose among {}", all.join(", ")))
-            })?;
+        let way =
+            Direction::BOTH.into_iter().find_map(|way| Some((way, symbol.strip_prefix(way.key())?.strip_prefix('.')?)));
+        let (quantity, parameter) = match way {
+            Some((way, symbol)) => {
+                let lines = of_surface(gear, &found.window, &file.surface, way).map_err(unreadable)?;
+                (format!("{}.{symbol}", roughness_path(&found.path, way)), parameter_of(&lines, symbol)?.clone())
+            }
+            None => {
+                (format!("{}.parameters.{symbol}", found.path), parameter_of(&evaluation.parameters, symbol)?.clone())
+            }
+        };
         let value = parameter.value.clone().map_err(|why| unreadable(format!("it has no {symbol}: {why}")))?;
         let least = if parameter.unit == "um" { evaluation.value("Sa").unwrap_or_default() } else { 0.0 };
         let uncertainty = 0.01 * percent * value.abs().max(least);
         if uncertainty == 0.0 {
             return Err(unreadable(format!("{symbol} is 0, and so would be its uncertainty")));
         }
-        Ok(MeasuredNumber { quantity: format!("{}.parameters.{symbol}", found.path), value, uncertainty })
+        Ok(MeasuredNumber { quantity, value, uncertainty })
     };
     let numbers = wish.symbols.iter().map(number).collect::<Result<Vec<_>>>()?;
     let size_mm = file.surface.size_mm();
     let own_mm = found.window.length_mm();
     let differs = (0..2).any(|k| (size_mm[k] - own_mm[k]).abs() > SAME_LENGTH * own_mm[k]);
     let words = |[x, y]: [f64; 2]| format!("{} x {} mm", significant(x, 3), significant(y, 3));
-    let note = differs.then(|| {
-        format!(
+    let mut notes = Vec::new();
+    if differs {
+        notes.push(format!(
             "{path} is {} large, its window {} along tooth and profile: numbers of surfaces depend on that",
             words(size_mm),
             words(own_mm)
-        )
-    });
-    Ok((numbers, note))
+        ));
+    }
+    let points_um = [file.surface.dx_um(), file.surface.dy_um()];
+    let own_um = found.window.spacing_mm().map(|mm| mm * UM_PER_MM);
+    if (0..2).any(|k| !(1.0 / SAME_SPACING..=SAME_SPACING).contains(&(points_um[k] / own_um[k]))) {
+        let words = |[x, y]: [f64; 2]| format!("{} x {} um", significant(x, 3), significant(y, 3));
+        notes.push(format!(
+            "points of {path} are {} apart, those of its window {} or closer along tooth and profile: short waves and \
+             noise count in one and not in the other unless both have the same s_filter_um",
+            words(points_um),
+            words(own_um)
+        ));
+    }
+    Ok((numbers, (!notes.is_empty()).then(|| notes.join("; "))))
+}
+
+fn parameter_of<'a>(parameters: &'a [Parameter], symbol: &str) -> Result<&'a Parameter, Refusal> {
+    parameters.iter().find(|parameter| parameter.symbol == *symbol).ok_or_else(|| {
+        let all: Vec<&str> = parameters.iter().map(|of| of.symbol.as_str()).collect();
+        let problem =
+            format!("`{symbol}` is no parameter of surfaces, nor of lines behind along_profile. or along_tooth.");
+        Refusal::new("--surface-numbers", problem, format!("choose among {}", all.join(", ")))
+    })
 }
 
 /// The window of a surface.

@@ -10,7 +10,7 @@ use crate::backend::Choice;
 use crate::influence::charts::LaidCharts;
 use crate::influence::derivative::read;
 use crate::influence::known_cuts::{KnownCuts, digest};
-use crate::influence::numbers::{Numbers, TEXTURE, numbers, texture_numbers};
+use crate::influence::numbers::{Numbers, numbers, of_window, texture_numbers};
 use crate::interrupt::Interrupt;
 use crate::output::progress::ProgressStep;
 use crate::process::{self, ProcessJob};
@@ -158,7 +158,7 @@ impl<'a> Trial<'a> {
 
 /// The flank of a texture window by the path of one of its numbers.
 fn flank_of(quantity: &str) -> Option<(u32, Side)> {
-    let window = quantity.strip_prefix(TEXTURE)?.split('.').nth(1)?;
+    let window = of_window(quantity)?.0.split('.').nth(1)?;
     let mut parts = window.strip_prefix("tooth_")?.split('_');
     let tooth = parts.next()?.parse().ok()?;
     let side = parts.next()?;

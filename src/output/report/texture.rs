@@ -37,8 +37,8 @@ pub struct ParameterRow {
 
 /// Parameters that are shown at once; the rest is folded away.
 const FIRST: [&str; 18] = [
-    "Sa", "Sq", "Sz", "Sp", "Sv", "Ssk", "Sku", "Sk", "Spk", "Svk", "Smr1", "Smr2", "Sal", "Str", "Std", "Ssw", "Sdq",
-    "Sdr",
+    "Sa", "Sq", "Sz", "Sp", "Sv", "Ssk", "Sku", "Sk", "Spk", "Svk", "Smrk1", "Smrk2", "Sal", "Str", "Std", "Ssw",
+    "Sdq", "Sdr",
 ];
 
 /// One window.

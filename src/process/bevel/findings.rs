@@ -70,7 +70,7 @@ pub fn findings(job: &BevelJob, gear: &BevelGear, measured: &BevelMeasured) -> R
     if let Some((blank, ledger)) = whole {
         sections.extend([whole::blank(job, blank), whole::chips(job, ledger)]);
     }
-    sections.push(texture::findings(job, textures));
+    sections.extend([texture::findings(job, textures), texture::roughness(job, textures)]);
     sections.push(Section::new("work", "Work of cutting").with("candidates", candidates));
     Ok(Findings {
         program_version: env!("CARGO_PKG_VERSION").to_owned(),

@@ -50,7 +50,7 @@ pub(super) fn run(job: &ShapingJob, tools: &Tools, frames: Option<u32>) -> Resul
     let other_gear = findings::program::not_of_the_cut_gear(job, &motion, &gear.report);
     sections.extend(inspected.sections(&job.scene.measure, other_gear.as_deref()));
     sections.extend(whole.as_ref().map(|(cut, report)| blank_findings::findings(&job.planar(), cut, report)));
-    sections.push(texture::findings(job, &textures));
+    sections.extend([texture::findings(job, &textures), texture::roughness(job, &textures)]);
     let mut list = foreseen.warnings;
     let blank_report = whole.as_ref().map(|(_, report)| report);
     list.extend(warnings::after(job, &gear.report, &gear.chips, &gear.work, blank_report));

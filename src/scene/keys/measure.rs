@@ -64,6 +64,22 @@ pub(super) static SECTIONS: &[KeySection] = &[
             Key::drawn_limit("single_pitch_um", "Largest single pitch deviation f_p, either sign."),
             Key::drawn_limit("total_pitch_um", "Largest total pitch deviation F_p."),
             Key::drawn_limit("runout_um", "Largest runout F_r."),
+            Key::optional(
+                "ra_um",
+                "um",
+                Range::above(0.0, 100.0),
+                "not judged",
+                "0.8",
+                "Largest Ra of lines along profile and tooth on texture windows; gives their cut-off (ISO 21920-3).",
+            ),
+            Key::optional(
+                "rz_um",
+                "um",
+                Range::above(0.0, 1000.0),
+                "not judged",
+                "4.0",
+                "Largest Rz of the same lines; gives the cut-off where Ra has no limit.",
+            ),
         ],
         groups: &[],
         teach: "Limits of the drawing. On a round gear they go before those of the class; other gears have no class, \

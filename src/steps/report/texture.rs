@@ -6,6 +6,7 @@ use crate::output::ratio_chart::{RatioChart, SkConstruction};
 use crate::output::report::texture::{ParameterRow, TextureBlock};
 use crate::output::report::{Block, PageSection, PageTable};
 use crate::output::text::significant;
+use crate::texture;
 use gearcut_core::error::{Error, Result};
 
 /// The section; none if no window was evaluated. Pictures are those that the folder holds.
@@ -16,6 +17,7 @@ pub fn section(found: &Findings, folder: &OutputFolder) -> Result<Option<PageSec
     let operations = found.parts("texture");
     let Some((last, earlier)) = operations.split_last() else { return Ok(None) };
     let mut blocks = vec![overview(last, earlier)];
+    blocks.extend(profiles(found, last));
     let path = format!("texture.{}", last.key);
     let of_several = found.warnings.iter().filter(|warning| warning.section.as_ref() == Some(&path));
     blocks.extend(of_several.map(|warning| Block::Note(warning.with_signs().text)));
@@ -75,8 +77,8 @@ fn texture_window(window: &findings::Section, warnings: Vec<String>, folder: &Ou
         Some(SkConstruction {
             line_um: [curve.number("upper_um")?, curve.number("lower_um")?],
             window_percent: [from_percent, from_percent + 40.0],
-            smr1_percent: um("Smr1")?,
-            smr2_percent: um("Smr2")?,
+            smr1_percent: um("Smrk1")?,
+            smr2_percent: um("Smrk2")?,
             spk_um: um("Spk")?,
             svk_um: um("Svk")?,
         })
@@ -137,6 +139,38 @@ fn overview(last: &findings::Section, earlier: &[findings::Section]) -> Block {
         columns: std::iter::once("Window, after".to_owned()).chain(heads).collect(),
         rows: rows.collect(),
     })
+}
+
+/// Ra and Rz of the finished windows along both directions, with their cut-offs, beside Sa.
+fn profiles(found: &Findings, finished: &findings::Section) -> Option<Block> {
+    let operation = found.parts(texture::ROUGHNESS).iter().find(|operation| operation.key == finished.key)?;
+    let row = |lines: &findings::Section| {
+        let number = |key: &str| lines.number(key).map_or_else(|| "–".to_owned(), |value| digits(value, 3));
+        let window = finished.sections.iter().find(|window| window.key == lines.words("window"));
+        let sa = window.and_then(|window| window.number("parameters.Sa"));
+        let verdict = |key: &str| match lines.words(key) {
+            "" => "–".to_owned(),
+            words => words.to_owned(),
+        };
+        vec![
+            lines.title.clone(),
+            sa.map_or_else(|| "–".to_owned(), |value| digits(value, 3)),
+            number("Ra"),
+            number("Ra_largest"),
+            verdict("Ra_limit"),
+            number("Rz"),
+            number("Rz_largest"),
+            verdict("Rz_limit"),
+            number("cutoff"),
+        ]
+    };
+    let columns = ["Lines", "Sa [µm]", "Ra [µm]", "at most", "limit", "Rz [µm]", "at most", "limit", "Cut-off [mm]"]
+        .map(str::to_owned);
+    Some(Block::Table(PageTable {
+        caption: "Roughness of profiles (ISO 21920), mean of three lines".to_owned(),
+        columns: columns.to_vec(),
+        rows: operation.sections.iter().map(row).collect(),
+    }))
 }
 
 /// A number with so many digits; as a power of ten where a plain number would be mostly zeros.

@@ -241,7 +241,8 @@ fn the_ratio_curve_has_its_construction_and_its_numbers() {
     ratio().write_svg(&path).expect("a sound chart");
     let text = read(&path);
     assert_complete(&text, &ratio().title);
-    for words in ["material ratio [%]", "height [µm]", "Sk 0.4000 µm", "Spk 0.5760 µm on Smr1 38.90 %", "Svk 0.0000 µm"]
+    for words in
+        ["material ratio [%]", "height [µm]", "Sk 0.4000 µm", "Spk 0.5760 µm on Smrk1 38.90 %", "Svk 0.0000 µm"]
     {
         assert!(text.contains(words), "no {words:?} in the SVG");
     }

@@ -33,8 +33,8 @@ fn wave(x: f64, length: f64) -> f64 {
     (TAU * x / length).sin()
 }
 
-/// Grooves along the trace whose depth waves: 2 mm is waviness for 0.8 mm, of which 1 - 2^-0.16 is left. An areal filter
-/// of 0.8 mm lets all of it through, because the grooves across are short.
+/// Grooves along the trace whose depth waves: 2 mm is waviness for 0.8 mm, of which 1 - 2^-0.16 is left. An areal
+/// filter of 0.8 mm lets all of it through, because the grooves across are short.
 #[test]
 fn a_wave_along_the_trace_is_filtered_however_short_the_waves_across_are() {
     let grooves = |x: f64, y: f64| (TAU * x / 2000.0).cos() * (TAU * y / 20.0).cos();

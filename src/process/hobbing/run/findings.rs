@@ -67,6 +67,7 @@ pub fn findings(cutter: &HobCutter, gear: &HobbedGear, measured: &Measured) -> R
             ))
             .parts((1..=job.scene.gear.teeth).map(|number| tooth(gear, number))),
         texture::findings(cutter, measured.textures),
+        texture::roughness(cutter, measured.textures),
         Section::new("work", "Work of cutting").with(
             "candidates",
             Quantity::number(

@@ -1,0 +1,213 @@
+//! Std: the direction of the **wave vector** with the largest power per angle, counter-clockwise from +x towards +y;
+//! the lay runs across it.
+//!
+//! In: the power of a surface's waves, one value for each pair of frequencies. Law: power per angle is a density over
+//! the plane of frequencies, and a value stands for a whole cell of it, not for a point. Within 45 deg of the x axis
+//! the cells of one frequency along x are the segments of a line across the directions; near the y axis those of one
+//! frequency along y are. What such a line gives to a class of half a degree is what it carries between the two
+//! directions. Std is the mean direction of the cells in the class that has most, by the squares of their power, so
+//! that noise beside a wave does not pull.
+//!
+//! Road not taken: giving each value to the class of its own direction. On a long window hundreds of frequencies along
+//! it have the very same one, its axis, and their noise adds up there until it outweighs any wave.
+
+use rayon::prelude::*;
+
+use super::spectrum::PowerSpectrum;
+use super::surface::Surface;
+
+/// Reason where no wave is left.
+pub(crate) const NO_WAVES: &str = "the spectrum is empty";
+/// Classes in a degree.
+const PER_DEG: f64 = 2.0;
+/// Classes within 45 deg of an axis on both sides.
+const CLASSES: usize = 180;
+/// Lines taken at a time; fixed, so that the number of threads never changes a digit.
+const LINES: usize = 32;
+
+/// Lines across the directions near one axis.
+struct Fan<'a> {
+    spectrum: &'a PowerSpectrum,
+    /// Frequencies from 0 along x.
+    half: usize,
+    /// Steps of frequency from line to line, and from cell to cell along a line, 1/um.
+    steps: [f64; 2],
+    /// Lines of this fan, the first with frequency 1.
+    lines: usize,
+    /// Cells on either side of the axis.
+    cells: usize,
+    /// Largest frequency, 1/um: corners of the plane beyond the circle would favour diagonals.
+    reach: f64,
+    /// The axis is that of y.
+    along_y: bool,
+}
+
+impl Fan<'_> {
+    /// Power of the cells of a line, from one end to the other, and how many lie on either side of the axis.
+    fn line(&self, number: usize) -> (Vec<f64>, usize) {
+        let [across, along] = self.steps;
+        let distance = number as f64 * across;
+        let side = ((distance / along) as usize + 1).min(self.cells);
+        let ny = self.spectrum.ny;
+        let value = |offset: i64| {
+            let place = offset as f64 * along;
+            if distance * distance + place * place > self.reach * self.reach {
+                return 0.0;
+            }
+            // Opposite frequencies are one wave.
+            let (fx, fy) = if self.along_y { (offset, number as i64) } else { (number as i64, offset) };
+            let (fx, fy) = if fx < 0 { (-fx, -fy) } else { (fx, fy) };
+            if fx as usize >= self.half {
+                return 0.0;
+            }
+            self.spectrum.power[fx as usize * ny + fy.rem_euclid(ny as i64) as usize]
+        };
+        ((-(side as i64)..=side as i64).map(value).collect(), side)
+    }
+
+    /// Where the directions that part the classes cross a line, in cells from its beginning.
+    fn crossing(&self, number: usize, side: usize, class: usize) -> f64 {
+        let [across, along] = self.steps;
+        let tangent = (class as f64 / PER_DEG - 45.0).to_radians().tan();
+        (tangent * number as f64 * across / along + side as f64 + 0.5).clamp(0.0, (2 * side + 1) as f64)
+    }
+
+    /// Power of all classes.
+    fn classes(&self) -> Vec<f64> {
+        let numbers: Vec<usize> = (1..=self.lines).collect();
+        let parts: Vec<Vec<f64>> = numbers
+            .par_chunks(LINES)
+            .map(|numbers| {
+                let mut sums = vec![0.0; CLASSES];
+                for &number in numbers {
+                    let (line, side) = self.line(number);
+                    let mut below = Vec::with_capacity(line.len() + 1);
+                    below.push(0.0);
+                    line.iter().fold(0.0, |sum, power| {
+                        below.push(sum + power);
+                        sum + power
+                    });
+                    let up_to = |class: usize| {
+                        let place = self.crossing(number, side, class);
+                        let cell = (place as usize).min(line.len() - 1);
+                        below[cell] + (place - cell as f64) * line[cell]
+                    };
+                    let mut before = up_to(0);
+                    for (class, sum) in sums.iter_mut().enumerate() {
+                        let here = up_to(class + 1);
+                        *sum += here - before;
+                        before = here;
+                    }
+                }
+                sums
+            })
+            .collect();
+        let mut sums = vec![0.0; CLASSES];
+        for part in parts {
+            for (sum, part) in sums.iter_mut().zip(part) {
+                *sum += part;
+            }
+        }
+        sums
+    }
+
+    /// Mean direction of the cells in a class by the squares of their power, deg.
+    fn mean_deg(&self, class: usize) -> f64 {
+        let [across, along] = self.steps;
+        let (mut power, mut turned) = (0.0, 0.0);
+        for number in 1..=self.lines {
+            let (line, side) = self.line(number);
+            let [from, to] = [class, class + 1].map(|class| self.crossing(number, side, class));
+            for (cell, &value) in line.iter().enumerate().take(to.ceil() as usize).skip(from as usize) {
+                let share = (to.min(cell as f64 + 1.0) - from.max(cell as f64)).max(0.0) * value * value;
+                let offset = (cell as f64 - side as f64) * along;
+                power += share;
+                turned += share * offset.atan2(number as f64 * across).to_degrees();
+            }
+        }
+        let angle = turned / power;
+        if self.along_y { 90.0 - angle } else { angle.rem_euclid(180.0) }
+    }
+}
+
+/// Std, deg, 0 to 180.
+///
+/// # Errors
+/// No wave at all.
+pub(crate) fn direction_deg(spectrum: &PowerSpectrum, surface: &Surface) -> Result<f64, String> {
+    let (half, ny) = (surface.nx() / 2 + 1, spectrum.ny);
+    let [x, y] = [surface.nx() as f64 * surface.dx_um(), ny as f64 * surface.dy_um()].map(|length_um| 1.0 / length_um);
+    let reach = 0.5 / surface.dx_um().max(surface.dy_um());
+    let middle = (ny - 1) / 2;
+    let near_x = Fan { spectrum, half, steps: [x, y], lines: half - 1, cells: ny / 2, reach, along_y: false };
+    let near_y = Fan { spectrum, half, steps: [y, x], lines: middle.max(1), cells: half - 1, reach, along_y: true };
+    let fans = [&near_x, &near_y];
+    let classes = fans.map(Fan::classes);
+    let mut best = (0.0, None);
+    for (fan, sums) in fans.into_iter().zip(&classes) {
+        for (class, &sum) in sums.iter().enumerate() {
+            if sum > best.0 {
+                best = (sum, Some((fan, class)));
+            }
+        }
+    }
+    best.1.map(|(fan, class)| fan.mean_deg(class)).ok_or_else(|| NO_WAVES.to_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::spectrum::power;
+    use std::f64::consts::TAU;
+
+    /// Noise of standard deviation 0.6 um, the same in every run.
+    fn noise(i: usize) -> f64 {
+        let mut state = i as u64 ^ 0x9e37_79b9_7f4a_7c15;
+        let mut next = || {
+            state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
+            let z = (state ^ (state >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+            let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+            ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
+        };
+        0.6 * (12.0_f64 / 4.0).sqrt() * ((next() + next() + next() + next()) - 2.0)
+    }
+
+    fn std_deg(size: [usize; 2], spacing: [f64; 2], height: impl Fn(usize, usize) -> f64) -> f64 {
+        let heights = (0..size[0] * size[1]).map(|i| height(i % size[0], i / size[0])).collect();
+        let surface = Surface::new(size[0], size[1], spacing[0], spacing[1], heights).expect("a grid").centred();
+        direction_deg(&power(&surface), &surface).expect("waves")
+    }
+
+    /// One wave in noise on windows twenty times as long as wide, in all directions.
+    #[test]
+    fn noise_on_a_long_window_does_not_turn_the_direction() {
+        for (kx, ky) in [(60, 3), (30, -2), (100, 5), (7, 1), (40, 0), (0, 4), (25, -6)] {
+            for turned in [false, true] {
+                let wave = |x: usize, y: usize| {
+                    let turns = f64::from(kx) * x as f64 / 600.0 + f64::from(ky) * y as f64 / 30.0;
+                    (TAU * turns).sin() + noise(y * 600 + x)
+                };
+                let closed = (f64::from(ky) / 60.0).atan2(f64::from(kx) / 1200.0).to_degrees();
+                let (found, closed) = if turned {
+                    (std_deg([30, 600], [2.0, 2.0], |x, y| wave(y, x)), 90.0 - closed)
+                } else {
+                    (std_deg([600, 30], [2.0, 2.0], wave), closed)
+                };
+                let off = (found - closed + 90.0).rem_euclid(180.0) - 90.0;
+                assert!(off.abs() < 0.5, "{kx} {ky} {turned}: {found} is not {closed}");
+            }
+        }
+    }
+
+    /// Without noise the direction is that of the wave to rounding, on points that are no squares.
+    #[test]
+    fn a_wave_alone_has_its_own_direction() {
+        for (kx, ky) in [(5, 3), (3, 8), (6, -2), (2, -9), (4, 4)] {
+            let wave =
+                |x: usize, y: usize| (TAU * (f64::from(kx) * x as f64 / 120.0 + f64::from(ky) * y as f64 / 90.0)).cos();
+            let closed = (f64::from(ky) / (90.0 * 3.0)).atan2(f64::from(kx) / (120.0 * 2.0)).to_degrees();
+            let found = std_deg([120, 90], [2.0, 3.0], wave);
+            assert!(((found - closed + 90.0).rem_euclid(180.0) - 90.0).abs() < 1e-6, "{kx} {ky}: {found}, {closed}");
+        }
+    }
+}
