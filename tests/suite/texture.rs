@@ -177,7 +177,7 @@ fn without_windows_the_extreme_teeth_and_tooth_3_are_taken_whole() {
     let flanks: Vec<_> = windows.iter().map(|w| (w.tooth, w.side)).collect();
     assert_eq!(flanks, [1, 3, 7].map(|tooth| [(tooth, Side::Left), (tooth, Side::Right)]).concat());
     for window in &windows {
-        assert_eq!(window.form, Form::Poly2);
+        assert_eq!(window.chain.form, Form::Poly2);
         let [along_tooth, along_profile] = window.length_mm();
         assert!((along_tooth - 30.0).abs() < 0.61 && (4.0..7.0).contains(&along_profile), "{window:?}");
         // Equal steps of arc, not of roll angle.

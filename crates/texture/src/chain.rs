@@ -45,7 +45,7 @@ impl Chain {
         if let Some(l) = self.l_filter_um.filter(|l| *l > longest_um * (1.0 + 1e-9)) {
             return Err(format!(
                 "the L-filter ({l} um) is longer than the surface ({longest_um:.1} um): ISO 25178-3 wants an area at \
-                 least as long, and less than a plane of it would be filtered; take a shorter one, or none"
+                 least as long, and such a filter only takes a plane off; take a shorter one, or none"
             ));
         }
         let (mut surface, note) = form::remove(surface, self.form)?;

@@ -217,7 +217,7 @@ impl List {
             "Std",
             s.std.clone(),
             "deg",
-            "direction of the wave vector with the largest angular amplitude, \
+            "direction of the wave vector with the largest power per angle, \
              counter-clockwise from +x towards +y, 0 to 180; the lay runs across it",
         );
         self.add(family, "Ssw", s.ssw.clone(), "um", "wavelength of the largest Fourier component of the window");
