@@ -99,7 +99,7 @@ fn what_cannot_be_done_is_refused_with_a_way_out() {
     with(&["--robust"]).failed(1, &["--l-filter-um"]);
     with(&["--lines", "z", "3"]).failed(1, &["neither x nor y"]);
     with(&["--lines", "y", "1"]).failed(1, &["no number of lines from 2 to"]);
-    with(&["--line", "y=0", "--cutoff-um", "-1"]).failed(1, &["--cutoff-um", "above 0"]);
+    with(&["--line", "y=0", "--cutoff-um", "0"]).failed(1, &["--cutoff-um", "above 0"]);
     with(&["--line", "y=0", "--profile", "p", "--cutoff-um", "8"]).failed(1, &["primary profile has no cut-off"]);
     with(&["--line", "y=0", "--profile", "w", "--ra-limit-um", "1"]).failed(1, &["judged on roughness"]);
     // A line that does not suit its chain is none, with the reason; the areal numbers are there.
