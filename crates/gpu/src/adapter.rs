@@ -4,14 +4,9 @@
 //! under several interfaces (Vulkan and DirectX 12 on Windows).
 
 use super::problem::GpuProblem;
+use gearcut_shaders::{STORAGE_BUFFERS, WORKGROUP_THREADS};
 use serde::Serialize;
 use std::fmt;
-
-/// Threads of a workgroup: at least one wave on every GPU, and small enough for any.
-pub const WORKGROUP_THREADS: u32 = 64;
-
-/// Storage buffers that a stage binds.
-const STORAGE_BUFFERS: u32 = 8;
 
 /// What an adapter is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]

@@ -4,11 +4,11 @@
 //! Dexels of a batch stay on the device through its rounds, which run in order, so that a tile with more records than
 //! one launch may have is cut like any other.
 
-use super::adapter::WORKGROUP_THREADS;
 use super::problem::GpuProblem;
-use super::{compose, pipeline, records};
+use super::{compose, records};
 use gearcut_core::dexel::Field;
 use gearcut_core::passes::CutPlan;
+use gearcut_shaders::{QUAD_ROWS, Rows, WORKGROUP_THREADS, planar_variant};
 use std::ops::Range;
 
 /// Dexels of a batch at most: 32 MB of heights and ids; the next batch is composed while one is cut.
@@ -19,7 +19,7 @@ const LAUNCH_PAIRS: u64 = 1 << 29;
 /// Workgroups in one dimension: what every WebGPU device has.
 const WORKGROUPS: usize = 65535;
 /// Records of a launch.
-const ROUND_RECORDS: usize = pipeline::ROUND_RECORDS as usize;
+const ROUND_RECORDS: usize = gearcut_shaders::ROUND_RECORDS as usize;
 /// Bytes of their buffer.
 const ROUND_BYTES: u64 = (ROUND_RECORDS * size_of::<records::FlankPass>()) as u64;
 
@@ -60,7 +60,7 @@ pub fn batch_bytes(rows: usize, columns: usize, records: usize) -> u64 {
 
 /// Rows of a column filled up to whole quads.
 pub fn padded(rows: usize) -> usize {
-    rows.next_multiple_of(pipeline::QUAD_ROWS)
+    rows.next_multiple_of(QUAD_ROWS)
 }
 
 /// Batches of a plan, covering all columns once. Records of a batch keep to half of its memory, unless a single tile
@@ -68,14 +68,14 @@ pub fn padded(rows: usize) -> usize {
 ///
 /// # Errors
 /// Not even a single column with a round of records fits.
-pub fn batches(plan: &CutPlan, allowance: Allowance) -> Result<Vec<Batch>, GpuProblem> {
+pub fn batches(plan: &CutPlan, allowance: Allowance, rows_per_thread: Rows) -> Result<Vec<Batch>, GpuProblem> {
     let rows = plan.row_phases.len();
     if rows == 0 {
         return Ok(Vec::new());
     }
     let dexels = (allowance.buffer_bytes / 4).min(allowance.batch_bytes / 32).min(BATCH_DEXELS as u64);
     // Columns that fit the memory and, as one tile, one dispatch.
-    let dispatch_columns = WORKGROUPS * WORKGROUP_THREADS as usize / pipeline::threads_per_column(rows);
+    let dispatch_columns = WORKGROUPS * WORKGROUP_THREADS as usize / rows_per_thread.threads_per_column(rows);
     // A column longer than the usual batch is a batch of its own as long as the memory allows it.
     let column_fits = batch_bytes(rows, 1, 1) <= allowance.batch_bytes
         && padded(rows) as u64 * 4 <= allowance.buffer_bytes
@@ -165,7 +165,7 @@ impl Round {
 
     /// Variant of the shader that serves.
     pub fn variant(&self) -> usize {
-        pipeline::planar_variant(self.is_frozen(), self.records.iter().any(|record| record.is_arc == 1))
+        planar_variant(self.is_frozen(), self.records.iter().any(|record| record.is_arc == 1))
     }
 
     /// Records of a tile of so many dexels that the launch still takes; one at least if it is empty.

@@ -2,8 +2,7 @@
 //!
 //! In: tiles with what is left on their rays and their passes in order of time, every curve split into [`BlankPart`]s.
 //! Out: what is left then, what every pass took of every tile, and the pieces of material that it took, where they are
-//! asked for. Cutter teeth in their strokes ([`super::blank`]) and sections of a hob tooth's sweep
-//! ([`super::blank_sweeps`]) are the same from here on.
+//! asked for. The curves are sections of a hob tooth's sweep ([`super::blank_sweeps`]).
 //!
 //! No list has a fixed capacity: a ray without room stops, and the tiles in work are begun again with room for what it
 //! needed. Tiles that do not fit the device together go one half after the other.
@@ -13,18 +12,18 @@ mod parts;
 mod round;
 mod spans;
 
+pub use launch::{filled, roomy};
 pub use parts::parts;
+pub use spans::{from_record, to_record};
 
-use super::adapter::WORKGROUP_THREADS;
 use super::context::Gpu;
 use super::problem::GpuProblem;
 use super::records::{BlankLaunch, BlankPart, BlankPiece, BlankSpan};
 use gearcut_core::dexel::blank_field::RayMaterial;
 use gearcut_core::dexel::intervals::Span;
 use gearcut_core::math::planar_rays::Family;
-use launch::{filled, roomy};
+use gearcut_shaders::WORKGROUP_THREADS;
 use round::PassRound;
-use spans::{from_record, to_record};
 use wgpu::BufferUsages as Use;
 
 /// Bytes of parts in one launch at most; the adapter's own limit may be lower.
@@ -48,8 +47,6 @@ pub struct TileWork<'a> {
 pub struct PassWork {
     /// Pass id.
     pub id: u32,
-    /// Whether it takes nothing and only adds up what it meets.
-    pub returns: bool,
     /// Its curve.
     pub parts: Vec<BlankPart>,
 }
@@ -90,8 +87,6 @@ pub struct TileDone {
     pub rays: Vec<RayMaterial>,
     /// Passes that took anything, in order of time, with the length, mm.
     pub removed_mm: Vec<(u32, f64)>,
-    /// Length of what return strokes met, mm.
-    pub met_mm: f64,
     /// What was taken, if asked for, by pass, ray and place.
     pub pieces: Vec<TakenPiece>,
 }
@@ -133,22 +128,23 @@ impl Gpu {
 
     fn try_blank_tiles(&self, work: &[TileWork], terms: &Terms, capacity: usize) -> Result<Outcome, GpuProblem> {
         let device = &self.device;
+        let counts: Vec<u32> = work.iter().flat_map(|tile| tile.rays).map(|ray| ray.len() as u32).collect();
         let units_per_mm = (f64::from(u32::MAX) / (f64::from(WORKGROUP_THREADS) * terms.longest_mm)) as f32;
         let launch = BlankLaunch {
             spacing_mm: terms.spacing_mm as f32,
             units_per_mm,
             capacity: capacity as u32,
             piece_room: terms.piece_room as u32,
+            rays: counts.len() as u32,
         };
-        let counts: Vec<u32> = work.iter().flat_map(|tile| tile.rays).map(|ray| ray.len() as u32).collect();
         // Room that is not in use holds NaN: whoever reads it shows.
         let unused = f32::from_bits(u32::MAX);
         let no_span = BlankSpan { low_mm: unused, high_mm: unused, ..bytemuck::Zeroable::zeroed() };
         let mut spans = vec![no_span; counts.len() * capacity];
         let rays = work.iter().flat_map(|tile| tile.rays.iter().map(|ray| (tile.family, ray)));
-        for ((family, ray), room) in rays.zip(spans.chunks_mut(capacity)) {
-            for (span, place) in ray.iter().zip(room) {
-                *place = to_record(span, family);
+        for (index, (family, ray)) in rays.enumerate() {
+            for (slot, span) in ray.iter().enumerate() {
+                spans[slot * counts.len() + index] = to_record(span, family);
             }
         }
         let launch_buffer = filled(device, "blank launch", bytemuck::bytes_of(&launch), Use::UNIFORM)?;
@@ -197,13 +193,7 @@ impl Gpu {
             for (tile, done) in round.tiles.iter().zip(&mut done) {
                 let own = tile.first_pass as usize..(tile.first_pass + tile.pass_count) as usize;
                 let removed = round.passes[own.clone()].iter().zip(&removed[own]).filter(|(_, units)| **units > 0);
-                for (pass, units) in removed {
-                    if pass.returns == 0 {
-                        done.removed_mm.push((pass.pass_id, length(*units)));
-                    } else {
-                        done.met_mm += length(*units);
-                    }
-                }
+                done.removed_mm.extend(removed.map(|(pass, units)| (pass.pass_id, length(*units))));
             }
             let pieces: Vec<BlankPiece> = self.bring_back(&pieces_buffer, pieces_taken * size_of::<BlankPiece>())?;
             for piece in &pieces {
@@ -217,12 +207,18 @@ impl Gpu {
         }
         let counts: Vec<u32> = self.bring_back(&counts_buffer, size_of_val(counts.as_slice()))?;
         let spans: Vec<BlankSpan> = self.bring_back(&spans_buffer, size_of_val(spans.as_slice()))?;
-        let mut rays = counts.iter().zip(spans.chunks(capacity));
+        let mut rays = counts.iter().enumerate();
         for (tile, done) in work.iter().zip(&mut done) {
             let left = rays.by_ref().take(tile.rays.len());
-            done.rays = left
-                .map(|(&count, room)| room[..count as usize].iter().map(|s| from_record(s, tile.family)).collect())
-                .collect();
+            let list = |(ray, &count): (usize, &u32)| {
+                spans[ray..]
+                    .iter()
+                    .step_by(counts.len())
+                    .take(count as usize)
+                    .map(|s| from_record(s, tile.family))
+                    .collect()
+            };
+            done.rays = left.map(list).collect();
             // Threads list their pieces as they come.
             done.pieces.sort_by(|a, b| {
                 let place = |piece: &TakenPiece| (piece.pass, piece.ray);

@@ -18,7 +18,6 @@
 //! across the rays, in f32 and to the same bits for both parts, or lose the pairing of crossings on which the kernel
 //! rests.
 
-use super::adapter::WORKGROUP_THREADS;
 use super::blank_rays::{PassWork, TakenPiece, Terms, TileDone, TileWork, parts};
 use super::context::Gpu;
 use super::problem::GpuProblem;
@@ -31,6 +30,7 @@ use gearcut_core::math::planar_rays::{FAMILIES, Family, RayCrossings};
 use gearcut_core::math::ray_reach::{LooseOutline, RayReach};
 use gearcut_core::passes::sections::section_band::{InSlice, SectionBand};
 use gearcut_core::passes::sections::swept_sections::{SweepHeading, SweptSection, SweptSections};
+use gearcut_shaders::WORKGROUP_THREADS;
 use rayon::prelude::*;
 use std::ops::Range;
 
@@ -224,7 +224,7 @@ impl SliceVisits {
                 // All rays of the tile: one that is not near must cross the curve in pairs as well.
                 let parts = parts(crossings, section, family, row, tile_rays(tile, row.count));
                 if !parts.is_empty() {
-                    self.tiles[f][tile].push(PassWork { id: section.pass, returns: false, parts });
+                    self.tiles[f][tile].push(PassWork { id: section.pass, parts });
                     visiting = true;
                 }
             }

@@ -2,7 +2,7 @@
 //!
 //! A device that fails loses nothing: what it was to cut is cut again natively, or the run stops, as the user chose.
 
-use crate::adapter::{self, AdapterFacts, AdapterWish, FoundAdapter};
+use crate::adapter::{self, AdapterFacts, AdapterKind, AdapterWish, FoundAdapter};
 use crate::batches::Allowance;
 use crate::device::Device;
 use crate::pipeline;
@@ -11,6 +11,7 @@ use gearcut_core::cut::cpu::Cpu;
 use gearcut_core::cut::{Backend, CutStats, StageTime};
 use gearcut_core::dexel::Layer;
 use gearcut_core::error::Error;
+use gearcut_shaders::{BLANK_LISTS, BLANK_RAYS, BLANK_STROKES, Rows, planar_flank, spatial_flank};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// Batches on the device at once: one in work, one on its way.
@@ -33,6 +34,8 @@ pub struct GpuOptions {
     pub on_failure: OnGpuFailure,
     /// Bytes that one cut may hold on the device; `None`: what the adapter allows.
     pub memory_limit_bytes: Option<u64>,
+    /// Rows that a thread cuts; `None`: what suits the adapter's kind.
+    pub rows: Option<Rows>,
     /// Fill outputs with impossible values before the work: for tests.
     pub poison_outputs: bool,
 }
@@ -42,8 +45,12 @@ pub struct Gpu {
     pub(crate) device: Device,
     pub(crate) planar_flank: Vec<wgpu::ComputePipeline>,
     pub(crate) blank_rays: Vec<wgpu::ComputePipeline>,
+    pub(crate) blank_strokes: Vec<wgpu::ComputePipeline>,
+    pub(crate) blank_lists: Vec<wgpu::ComputePipeline>,
     pub(crate) spatial_flank: Vec<wgpu::ComputePipeline>,
     pub(crate) options: GpuOptions,
+    /// Rows that a thread cuts.
+    pub(crate) rows: Rows,
     pub(crate) native: Cpu,
     log: Mutex<Log>,
 }
@@ -82,11 +89,26 @@ impl Gpu {
     /// The adapter gives no device, or refuses the shaders.
     pub fn on(adapter: &FoundAdapter, options: GpuOptions) -> Result<Self, GpuProblem> {
         let device = Device::open(adapter)?;
-        let planar_flank = pipeline::pipelines(&device, &pipeline::PLANAR_FLANK)?;
-        let blank_rays = pipeline::pipelines(&device, &pipeline::BLANK_RAYS)?;
-        let spatial_flank = pipeline::pipelines(&device, &pipeline::SPATIAL_FLANK)?;
+        let by_kind = if adapter.facts.kind == AdapterKind::Software { Rows::Many } else { Rows::Few };
+        let rows = options.rows.unwrap_or(by_kind);
+        let planar_flank = pipeline::pipelines(&device, &planar_flank(rows))?;
+        let blank_rays = pipeline::pipelines(&device, &BLANK_RAYS)?;
+        let blank_strokes = pipeline::pipelines(&device, &BLANK_STROKES)?;
+        let blank_lists = pipeline::pipelines(&device, &BLANK_LISTS)?;
+        let spatial_flank = pipeline::pipelines(&device, &spatial_flank(rows))?;
         let native = Cpu::default();
-        Ok(Self { device, planar_flank, blank_rays, spatial_flank, options, native, log: Mutex::default() })
+        Ok(Self {
+            device,
+            planar_flank,
+            blank_rays,
+            blank_strokes,
+            blank_lists,
+            spatial_flank,
+            options,
+            rows,
+            native,
+            log: Mutex::default(),
+        })
     }
 
     /// The adapter in use.

@@ -11,7 +11,7 @@
 //! - `problem`: what can go wrong on a device, as values
 //! - [`adapter`]: which adapters are there, and which one serves
 //! - `device`: a device that reports its problems
-//! - [`pipeline`]: shaders as text and as pipelines
+//! - `pipeline`: pipelines of the stages that the crate `gearcut-shaders` holds
 //! - `readback`: a batch sent, cut and brought back
 //! - [`records`]: what the shaders of shaping read, byte for byte
 //! - [`sweep_records`]: what the shader of hobbed flanks reads
@@ -23,6 +23,8 @@
 //! - [`edge_cells`]: tables of an edge for the spatial shader
 //! - `spatial`: flanks cut by sweeps
 //! - `blank_rays`: launches of the kernel that cuts rays of the blank
+//! - [`stroke_records`]: what the shaders of the blank of shaping read
+//! - `blank_strokes`: launches of the kernel that cuts rays of the blank by strokes
 //! - `blank`: the blank of shaping
 //! - `blank_sweeps`: the blank of hobbing
 //! - `backend`: the backend as the program sees it
@@ -32,20 +34,22 @@ mod backend;
 pub mod batches;
 mod blank;
 mod blank_rays;
+mod blank_strokes;
 mod blank_sweeps;
 pub mod compose;
 mod context;
 mod device;
 pub mod edge_cells;
 pub mod near_edge;
-pub mod pipeline;
+mod pipeline;
 mod planar;
 mod problem;
 mod readback;
 pub mod records;
 mod spatial;
+pub mod stroke_records;
 pub mod sweep_records;
 
-pub use adapter::WORKGROUP_THREADS;
 pub use context::{Gpu, GpuOptions, OnGpuFailure};
+pub use gearcut_shaders as shaders;
 pub use problem::GpuProblem;

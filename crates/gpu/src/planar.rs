@@ -1,13 +1,16 @@
 //! Flanks cut by strokes: batches of columns, one in work while the next is composed.
 
-use crate::adapter::WORKGROUP_THREADS;
 use crate::batches::{self, Batch, Round};
 use crate::context::{Gpu, IN_FLIGHT};
 use crate::problem::GpuProblem;
 use crate::readback::{self, InFlight, Input, Returned, Shipment, StageLaunch};
-use crate::{compose, pipeline, records};
+use crate::{compose, records};
 use gearcut_core::dexel::{Field, Layer};
 use gearcut_core::passes::CutPlan;
+use gearcut_shaders::{QUAD_ROWS, Rows, WORKGROUP_THREADS, planar_flank};
+
+/// Name of the stage.
+const NAME: &str = planar_flank(Rows::Many).name;
 
 impl Gpu {
     /// Heights and passes of the whole field, the layer untouched.
@@ -31,10 +34,10 @@ impl Gpu {
                 result.passes[dexels].copy_from_slice(&passes[there]);
             }
             unconverged += u64::from(short);
-            self.log().count(pipeline::PLANAR_FLANK.name, device_ns);
+            self.log().count(NAME, device_ns);
             Ok(())
         };
-        for batch in batches::batches(plan, self.allowance())? {
+        for batch in batches::batches(plan, self.allowance(), self.rows)? {
             if waiting.len() == IN_FLIGHT {
                 collect(waiting.remove(0))?;
             }
@@ -86,8 +89,8 @@ impl CutInputs<'_> {
         let rounds = Round::compose(batch, plan, field);
         let launch = records::Launch {
             rows: rows as u32,
-            quads: (row_phases.len() / pipeline::QUAD_ROWS) as u32,
-            threads_per_column: pipeline::threads_per_column(rows) as u32,
+            quads: (row_phases.len() / QUAD_ROWS) as u32,
+            threads_per_column: gpu.rows.threads_per_column(rows) as u32,
         };
         let records: Vec<Vec<records::FlankPass>> = rounds.iter().map(Round::padded_records).collect();
         let shared = |label, bytes| Input::Shared { label, bytes, usage: wgpu::BufferUsages::STORAGE };
@@ -107,7 +110,7 @@ impl CutInputs<'_> {
         readback::send(
             &gpu.device,
             &Shipment {
-                stage: pipeline::PLANAR_FLANK.name,
+                stage: NAME,
                 inputs: &[
                     Input::Shared {
                         label: "launch",

@@ -111,7 +111,7 @@ pub fn send(device: &Device, shipment: &Shipment) -> Result<InFlight, GpuProblem
         let timed = if device.facts.timestamps { shipment.launches.len().min(TIMED_ROUNDS) } else { 0 };
         let stamps = (timed > 0).then(|| Stamps::new(device, timed));
         let dexel_bytes = size_of_val(shipment.heights_mm);
-        let back_bytes = 2 * dexel_bytes + 8 + 16 * timed;
+        let back_bytes = 2 * dexel_bytes + 8 + STAMP_BYTES * timed;
         let back = empty(device, "back", back_bytes as u64, Use::MAP_READ | Use::COPY_DST);
         if shipment.poison {
             device.queue.write_buffer(&back, 0, &vec![0xFF; back_bytes]);
@@ -184,36 +184,46 @@ impl InFlight {
         let view = device.checked(|| self.back.get_mapped_range(..))?.map_err(|error| lost(error.to_string()))?;
         let (dexels, rest) = view.split_at(2 * self.dexel_bytes);
         let (heights, passes) = dexels.split_at(self.dexel_bytes);
-        let stamps: Vec<u64> = rest[8..].chunks_exact(8).map(bytemuck::pod_read_unaligned).collect();
-        let period_ns = f64::from(device.queue.get_timestamp_period());
-        let ticks: u64 = stamps.chunks_exact(2).map(|s| s[1].saturating_sub(s[0])).sum();
         Ok(Returned {
             heights_mm: bytemuck::pod_collect_to_vec(heights),
             passes: bytemuck::pod_collect_to_vec(passes),
             unconverged: bytemuck::pod_read_unaligned(&rest[..4]),
-            device_ns: (self.timed > 0).then_some(ticks as f64 * period_ns),
+            device_ns: (self.timed > 0).then(|| device_ns(device, &rest[8..])),
         })
     }
 }
 
+/// Bytes of the stamps of one launch.
+pub const STAMP_BYTES: usize = 16;
+
+/// Time between the stamps of launches as they come back, ns.
+pub fn device_ns(device: &Device, stamps: &[u8]) -> f64 {
+    let stamps: Vec<u64> = stamps.chunks_exact(8).map(bytemuck::pod_read_unaligned).collect();
+    let ticks: u64 = stamps.chunks_exact(2).map(|s| s[1].saturating_sub(s[0])).sum();
+    ticks as f64 * f64::from(device.queue.get_timestamp_period())
+}
+
 /// Times at which launches begin and end.
-struct Stamps {
+pub struct Stamps {
     queries: wgpu::QuerySet,
-    resolved: wgpu::Buffer,
+    /// Where [`Self::resolve`] puts them.
+    pub resolved: wgpu::Buffer,
 }
 
 impl Stamps {
-    fn new(device: &Device, rounds: usize) -> Self {
+    /// Stamps of so many launches.
+    pub fn new(device: &Device, rounds: usize) -> Self {
         let queries = device.handle.create_query_set(&wgpu::QuerySetDescriptor {
             label: Some("stamps"),
             ty: wgpu::QueryType::Timestamp,
             count: 2 * rounds as u32,
         });
-        let resolved = empty(device, "stamps", 16 * rounds as u64, Use::QUERY_RESOLVE | Use::COPY_SRC);
+        let resolved = empty(device, "stamps", (STAMP_BYTES * rounds) as u64, Use::QUERY_RESOLVE | Use::COPY_SRC);
         Self { queries, resolved }
     }
 
-    fn writes(&self, round: usize) -> wgpu::ComputePassTimestampWrites<'_> {
+    /// What a launch writes.
+    pub fn writes(&self, round: usize) -> wgpu::ComputePassTimestampWrites<'_> {
         wgpu::ComputePassTimestampWrites {
             query_set: &self.queries,
             beginning_of_pass_write_index: Some(2 * round as u32),
@@ -221,8 +231,13 @@ impl Stamps {
         }
     }
 
-    fn bring_back(&self, encoder: &mut wgpu::CommandEncoder, back: &wgpu::Buffer, offset: u64, rounds: usize) {
+    /// Makes the stamps readable.
+    pub fn resolve(&self, encoder: &mut wgpu::CommandEncoder, rounds: usize) {
         encoder.resolve_query_set(&self.queries, 0..2 * rounds as u32, &self.resolved, 0);
-        encoder.copy_buffer_to_buffer(&self.resolved, 0, back, offset, 16 * rounds as u64);
+    }
+
+    fn bring_back(&self, encoder: &mut wgpu::CommandEncoder, back: &wgpu::Buffer, offset: u64, rounds: usize) {
+        self.resolve(encoder, rounds);
+        encoder.copy_buffer_to_buffer(&self.resolved, 0, back, offset, (STAMP_BYTES * rounds) as u64);
     }
 }

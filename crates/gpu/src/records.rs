@@ -92,6 +92,8 @@ pub struct BlankLaunch {
     pub capacity: u32,
     /// Pieces that there is room for; 0 if nobody asks for them.
     pub piece_room: u32,
+    /// Rays of the launch: the slots of a list lie this far apart.
+    pub rays: u32,
 }
 
 /// Neighbouring rays of the blank and their passes in order of time.
@@ -118,8 +120,6 @@ pub struct BlankPass {
     pub part_count: u32,
     /// Id of the pass.
     pub pass_id: u32,
-    /// 1: a return stroke, which takes nothing.
-    pub returns: u32,
 }
 
 /// Part of its curve that runs one way across the rays: cubics in a parameter from 0 to 1.

@@ -1,18 +1,16 @@
 //! Rays in space on the device: composed tile by tile, sent in batches, brought back.
 //!
-//! In: field, plan of sweeps, layer. Out: the layer lowered. Four rows of a column make a **group**, the lanes of
-//! one thread; the groups of a tile follow each other, so that a batch is a run of tiles. As in [`super::compose`],
+//! In: field, plan of sweeps, layer. Out: the layer lowered. Some rows of a column make a **group**, the lanes of
+//! one thread: four on software adapters, one on GPUs; the groups of a tile follow each other, so that a batch is a run of tiles. As in [`super::compose`],
 //! everything large is subtracted here in f64: a record counts from the tile's middle ray at its start height on one
 //! side, from a base point of the segment near it on the other.
 //!
 //! A tile's dexels stay on the device while its records come in **rounds**, in their order: what is left does not
 //! depend on how they are split.
 
-use super::adapter::WORKGROUP_THREADS;
 use super::batches::Allowance;
 use super::context::{Gpu, IN_FLIGHT};
 use super::edge_cells::EdgeCells;
-use super::pipeline::{self, SPATIAL_ROWS_PER_THREAD};
 use super::problem::GpuProblem;
 use super::readback::{self, InFlight, Input, Returned, Shipment, StageLaunch};
 use super::sweep_records::{SpatialPass, SpatialTile};
@@ -21,13 +19,14 @@ use gearcut_core::passes::SweepPlan;
 use gearcut_core::passes::spatial::sweep;
 use gearcut_core::passes::spatial::sweep_tile::SweepTile;
 use gearcut_core::tool::edge::{Segment, SegmentShape};
+use gearcut_shaders::{Rows, WORKGROUP_THREADS, spatial_flank};
 use glam::{DVec2, DVec3};
 use std::ops::Range;
 
-/// Rows of a group.
-const ROWS: usize = SPATIAL_ROWS_PER_THREAD as usize;
-/// Bytes of a group: six vectors of rays; heights and passes on the device and on their way back.
-const GROUP_BYTES: usize = (6 + 2 + 2) * ROWS * 4;
+/// Name of the stage.
+const NAME: &str = spatial_flank(Rows::Many).name;
+/// Bytes of a row of a group: six numbers of its ray; height and pass on the device and on their way back.
+const ROW_BYTES: usize = (6 + 2 + 2) * 4;
 /// (Dexel, pass) pairs of a launch at most: as for planar fields; a pair costs a few times as much.
 const LAUNCH_PAIRS: u64 = 1 << 27;
 /// Workgroups in one dimension: what every WebGPU device has.
@@ -50,16 +49,16 @@ pub fn cut_on_device(
     let mut waiting: Vec<(Range<usize>, InFlight)> = Vec::new();
     let mut collect = |(tiles, in_flight): (Range<usize>, InFlight)| -> Result<(), GpuProblem> {
         let Returned { heights_mm, passes, unconverged: short, device_ns } = in_flight.collect(&gpu.device)?;
-        for (at, dexel) in lanes(field, &plan.tiles[tiles]).enumerate() {
+        for (at, dexel) in lanes(field, &plan.tiles[tiles], gpu.rows.lanes()).enumerate() {
             // Lanes beyond the last row repeat it, values and all.
             result.heights_mm[dexel] = heights_mm[at];
             result.passes[dexel] = passes[at];
         }
         unconverged += u64::from(short);
-        gpu.log().count(pipeline::SPATIAL_FLANK.name, device_ns);
+        gpu.log().count(NAME, device_ns);
         Ok(())
     };
-    for tiles in batches(plan, gpu.allowance())? {
+    for tiles in batches(plan, gpu.allowance(), gpu.rows.lanes())? {
         if waiting.len() == IN_FLIGHT {
             collect(waiting.remove(0))?;
         }
@@ -71,16 +70,16 @@ pub fn cut_on_device(
 }
 
 /// Groups of a tile.
-fn groups(tile: &SweepTile) -> usize {
-    tile.columns.len() * tile.rows.len().div_ceil(ROWS)
+fn groups(tile: &SweepTile, of_rows: usize) -> usize {
+    tile.columns.len() * tile.rows.len().div_ceil(of_rows)
 }
 
 /// Dexel of every lane of every group of some tiles.
-fn lanes<'a>(field: &'a SpatialField, tiles: &'a [SweepTile]) -> impl Iterator<Item = usize> + 'a {
+fn lanes<'a>(field: &'a SpatialField, tiles: &'a [SweepTile], of_rows: usize) -> impl Iterator<Item = usize> + 'a {
     tiles.iter().flat_map(move |tile| {
         tile.columns.clone().flat_map(move |column| {
-            tile.rows.clone().step_by(ROWS).flat_map(move |first| {
-                (first..first + ROWS).map(move |row| field.index(column, row.min(tile.rows.end - 1)))
+            tile.rows.clone().step_by(of_rows).flat_map(move |first| {
+                (first..first + of_rows).map(move |row| field.index(column, row.min(tile.rows.end - 1)))
             })
         })
     })
@@ -92,19 +91,20 @@ fn records_at_most(Allowance { buffer_bytes, batch_bytes }: Allowance) -> usize 
 }
 
 /// Runs of tiles that fit the device together. Their records keep to half of its memory, unless a single tile has more.
-fn batches(plan: &SweepPlan, allowance: Allowance) -> Result<Vec<Range<usize>>, GpuProblem> {
+fn batches(plan: &SweepPlan, allowance: Allowance, of_rows: usize) -> Result<Vec<Range<usize>>, GpuProblem> {
     let Allowance { buffer_bytes, batch_bytes } = allowance;
-    let groups_at_most = (buffer_bytes as usize / (6 * ROWS * 4)).min(batch_bytes as usize / 2 / GROUP_BYTES);
+    let groups_at_most =
+        (buffer_bytes as usize / (6 * of_rows * 4)).min(batch_bytes as usize / 2 / (ROW_BYTES * of_rows));
     let records_at_most = records_at_most(allowance);
     let mut batches: Vec<Range<usize>> = Vec::new();
     let (mut in_groups, mut in_records, mut in_pairs) = (0, 0, 0);
     for (index, tile) in plan.tiles.iter().enumerate() {
-        let (groups, records) = (groups(tile), tile.records.len());
+        let (groups, records) = (groups(tile, of_rows), tile.records.len());
         if groups > groups_at_most || records_at_most == 0 {
             let reason = format!("a tile of {groups} groups of rays; there is room for {groups_at_most}");
             return Err(GpuProblem::OutOfMemory { reason });
         }
-        let pairs = (groups * ROWS * records) as u64;
+        let pairs = (groups * of_rows * records) as u64;
         let fits = in_groups + groups <= groups_at_most
             && in_records + records <= records_at_most
             && in_pairs + pairs <= LAUNCH_PAIRS;
@@ -151,8 +151,9 @@ fn send(
     batch: Range<usize>,
 ) -> Result<InFlight, GpuProblem> {
     let plan_tiles = &plan.tiles[batch];
+    let of_rows = gpu.rows.lanes();
     let round_records = records_at_most(gpu.allowance()).min(ROUND_RECORDS);
-    let (mut rounds, mut rays) = (Vec::<SweepRound>::new(), Vec::<[f32; ROWS]>::new());
+    let (mut rounds, mut rays) = (Vec::<SweepRound>::new(), Vec::<f32>::new());
     let mut first_group = 0;
     for tile in plan_tiles {
         let middle =
@@ -164,27 +165,27 @@ fn send(
             tiles.push(SpatialTile {
                 middle: middle.extend(field.low_mm as f32).to_array(),
                 first_group,
-                group_count: groups(tile) as u32,
+                group_count: groups(tile, of_rows) as u32,
                 first_record: composed.len() as u32,
                 record_count: records.len() as u32,
             });
             let segment = |record: &sweep::SweepRecord| &plan.segments[record.segment as usize];
             composed.extend(records.iter().map(|r| compose(cells, r, segment(r), middle.as_dvec3())));
         }
-        first_group += groups(tile) as u32;
+        first_group += groups(tile, of_rows) as u32;
         let one = std::slice::from_ref(tile);
-        let dexels: Vec<usize> = lanes(field, one).collect();
-        for group in dexels.chunks_exact(ROWS) {
+        let dexels: Vec<usize> = lanes(field, one, of_rows).collect();
+        for group in dexels.chunks_exact(of_rows) {
             for axis in 0..3 {
                 let origins = &field.origins_mm()[axis];
-                rays.push(std::array::from_fn(|l| (origins[group[l]] - tile.origin_mm[axis]) as f32));
+                rays.extend(group.iter().map(|&at| (origins[at] - tile.origin_mm[axis]) as f32));
             }
             for axis in 0..3 {
-                rays.push(std::array::from_fn(|l| field.normals()[axis][group[l]] as f32));
+                rays.extend(group.iter().map(|&at| field.normals()[axis][at] as f32));
             }
         }
     }
-    let dexels: Vec<usize> = lanes(field, plan_tiles).collect();
+    let dexels: Vec<usize> = lanes(field, plan_tiles, of_rows).collect();
     let heights_mm: Vec<f32> = dexels.iter().map(|&at| layer.heights_mm[at]).collect();
     let passes: Vec<u32> = dexels.iter().map(|&at| layer.passes[at]).collect();
     let launches: Vec<StageLaunch> = rounds.iter().map(|round| round.launch(gpu)).collect();
@@ -192,7 +193,7 @@ fn send(
     readback::send(
         &gpu.device,
         &Shipment {
-            stage: pipeline::SPATIAL_FLANK.name,
+            stage: NAME,
             inputs: &[
                 Input::Tiles,
                 Input::Records,

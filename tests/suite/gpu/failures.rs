@@ -23,7 +23,7 @@ fn field(job: &ShapingJob, tooth: u32) -> Field {
 }
 
 fn redoing(memory_limit_bytes: Option<u64>) -> GpuOptions {
-    GpuOptions { on_failure: OnGpuFailure::RedoNatively, memory_limit_bytes, poison_outputs: true }
+    GpuOptions { on_failure: OnGpuFailure::RedoNatively, memory_limit_bytes, poison_outputs: true, rows: None }
 }
 
 #[test]

@@ -4,6 +4,8 @@ use crate::fixtures::paper::*;
 use crate::fixtures::parity::*;
 use gearcut::cut::Backend;
 use gearcut::dexel::{Column, Field};
+use gearcut::gpu::GpuOptions;
+use gearcut::gpu::shaders::Rows;
 use gearcut::passes::planar::strokes::{NODES, cubic_through};
 use gearcut::passes::{CutPlan, PassRecord, Tile};
 use gearcut::process::shaping::ShapingJob;
@@ -119,22 +121,25 @@ fn random_field(tiles: u32, edge: &Edge, seed: u64) -> (Field, CutPlan) {
 
 #[test]
 fn random_rays_are_cut_alike_and_ties_go_to_the_lowest_pass() {
-    let gpu = software_gpu(strict());
     let edge = edge();
     let (field, plan) = random_field(4000, &edge, 7);
     let blank = field.blank_layer();
-    let (parity, layers) = cut_both(&gpu, "random", &field, &plan, [&blank; 4]);
-    println!("random: {parity}");
-    assert_eq!(parity.verdict_within(ADDED_NM), Ok(()));
-    assert!(parity.cut > field.len() / 2, "{} of {} rays met something", parity.cut, field.len());
-    let tied = layers[3].passes.iter().filter(|&&pass| pass != u32::MAX && pass >= 4000).count();
-    assert_eq!(tied, 0, "ties went to the higher pass");
+    // As on software adapters, and as on GPUs.
+    for rows in [Rows::Many, Rows::Few] {
+        let gpu = software_gpu(GpuOptions { rows: Some(rows), ..strict() });
+        let (parity, layers) = cut_both(&gpu, "random", &field, &plan, [&blank; 4]);
+        println!("random, {rows:?} rows a thread: {parity}");
+        assert_eq!(parity.verdict_within(ADDED_NM), Ok(()));
+        assert!(parity.cut > field.len() / 2, "{} of {} rays met something", parity.cut, field.len());
+        let tied = layers[3].passes.iter().filter(|&&pass| pass != u32::MAX && pass >= 4000).count();
+        assert_eq!(tied, 0, "ties went to the higher pass");
+    }
 }
 
 #[test]
 fn edge_inputs_are_cut_alike() {
-    let gpu = software_gpu(strict());
     let edge = edge();
+    let [gpu, few] = [Rows::Many, Rows::Few].map(|rows| software_gpu(GpuOptions { rows: Some(rows), ..strict() }));
     for rows in [1, 2, 3, 4, 5, 63, 64, 65, 257] {
         for columns in [1, 2, 15, 16, 17] {
             let (mut field, mut plan) = random_field(6, &edge, rows * 100 + columns);
@@ -150,9 +155,11 @@ fn edge_inputs_are_cut_alike() {
             plan.tiles[2].records = 0..0;
             let blank = field.blank_layer();
             let place = format!("{rows} rows, {columns} columns");
-            let (parity, _) = cut_both(&gpu, &place, &field, &plan, [&blank; 4]);
-            let verdict = parity.verdict_within(ADDED_NM);
-            assert!(verdict.is_ok() || parity.cut == 0, "{verdict:?}");
+            for gpu in [&gpu, &few] {
+                let (parity, _) = cut_both(gpu, &place, &field, &plan, [&blank; 4]);
+                let verdict = parity.verdict_within(ADDED_NM);
+                assert!(verdict.is_ok() || parity.cut == 0, "{verdict:?}");
+            }
         }
     }
     let (mut field, mut plan) = random_field(1, &edge, 1);
@@ -169,7 +176,7 @@ fn small_batches_give_the_same_bytes() {
     field.rows_z_mm.truncate(200);
     let plan = CutPlan::brute_force(&field, &job.finishing().strokes, &job.cutter);
     let cut = |memory_limit_bytes: Option<u64>| {
-        let gpu = software_gpu(gearcut::gpu::GpuOptions { memory_limit_bytes, ..strict() });
+        let gpu = software_gpu(GpuOptions { memory_limit_bytes, ..strict() });
         let mut layer = field.blank_layer();
         gpu.cut(&field, &plan, &mut layer).expect("fits");
         (layer, gpu.stage_times())

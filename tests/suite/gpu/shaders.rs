@@ -1,7 +1,7 @@
 //! The shaders as naga sees them: every file in every variant is valid, and both sides of the border agree.
 
-use gearcut::gpu::pipeline::{QUADS_PER_THREAD, ROUND_RECORDS, STAGES, Stage};
-use gearcut::gpu::{WORKGROUP_THREADS, records, sweep_records};
+use gearcut::gpu::shaders::{ROUND_RECORDS, STAGES, STORAGE_BUFFERS, Stage, WORKGROUP_THREADS};
+use gearcut::gpu::{records, stroke_records, sweep_records};
 use naga::back::pipeline_constants::process_overrides;
 use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
 use naga::{AddressSpace, Literal, Module, ShaderStage, TypeInner};
@@ -17,9 +17,14 @@ fn checked(stage: &Stage) -> (Module, ModuleInfo) {
     (module, info)
 }
 
+/// The first stage of a name.
+fn stage_of(name: &str) -> &'static Stage {
+    STAGES.iter().find(|stage| stage.name == name).expect("a stage")
+}
+
 /// Text of every stage's file, found in the folder.
 fn files() -> BTreeSet<String> {
-    let folder = std::fs::read_dir("crates/gpu/shaders").expect("the folder of shaders");
+    let folder = std::fs::read_dir("shaders").expect("the folder of shaders");
     folder
         .filter_map(|entry| entry.ok()?.file_name().into_string().ok())
         .filter_map(|name| name.strip_suffix(".wgsl").map(str::to_owned))
@@ -64,7 +69,7 @@ fn bindings_stand_in_the_order_of_the_stage_and_fit_every_device() {
         assert_eq!(names, stage.bindings, "{}", stage.name);
         assert!(bound.iter().enumerate().all(|(index, b)| b.0 == index as u32), "{}: a gap", stage.name);
         let storage = bound.iter().filter(|b| matches!(b.2, AddressSpace::Storage { .. })).count();
-        assert!(storage <= 8, "{}: {storage} storage buffers; WebGPU promises 8", stage.name);
+        assert!(storage <= STORAGE_BUFFERS as usize, "{}: {storage} storage buffers; WebGPU promises 8", stage.name);
     }
 }
 
@@ -84,11 +89,11 @@ macro_rules! layout {
 #[test]
 fn records_have_the_same_members_on_both_sides() {
     let layouts = [
-        layout!(0, records::Launch { rows, quads, threads_per_column }),
-        layout!(0, records::FlankTile { first_column, column_count, first_record, record_count }),
-        layout!(0, records::FlankColumn { offset_mm, normal, normal_change, low_mm, padding }),
+        layout!("planar_flank", records::Launch { rows, quads, threads_per_column }),
+        layout!("planar_flank", records::FlankTile { first_column, column_count, first_record, record_count }),
+        layout!("planar_flank", records::FlankColumn { offset_mm, normal, normal_change, low_mm, padding }),
         layout!(
-            0,
+            "planar_flank",
             records::FlankPass {
                 cos,
                 sin,
@@ -105,15 +110,50 @@ fn records_have_the_same_members_on_both_sides() {
                 padding_2,
             }
         ),
-        layout!(1, records::BlankLaunch { spacing_mm, units_per_mm, capacity, piece_room }),
-        layout!(1, records::BlankTile { first_pass, pass_count, first_ray, ray_count }),
-        layout!(1, records::BlankPass { first_part, part_count, pass_id, returns }),
-        layout!(1, records::BlankPart { along, across, across_end_mm, padding_1, padding_2, padding_3 }),
-        layout!(1, records::BlankSpan { low_mm, high_mm, low_pass, high_pass, low_normal, high_normal }),
-        layout!(1, records::BlankPiece { span, ray, pass_id }),
-        layout!(2, sweep_records::SpatialTile { middle, first_group, group_count, first_record, record_count }),
+        layout!("blank_rays", records::BlankLaunch { spacing_mm, units_per_mm, capacity, piece_room, rays }),
+        layout!("blank_rays", records::BlankTile { first_pass, pass_count, first_ray, ray_count }),
+        layout!("blank_rays", records::BlankPass { first_part, part_count, pass_id }),
+        layout!("blank_rays", records::BlankPart { along, across, across_end_mm, padding_1, padding_2, padding_3 }),
+        layout!("blank_rays", records::BlankSpan { low_mm, high_mm, low_pass, high_pass, low_normal, high_normal }),
+        layout!("blank_rays", records::BlankPiece { span, ray, pass_id }),
         layout!(
-            2,
+            "blank_strokes",
+            stroke_records::StrokeLaunch {
+                rays,
+                capacity,
+                first_visit,
+                visit_count,
+                mm_per_unit,
+                reach_mm,
+                first_pass,
+                padding,
+            }
+        ),
+        layout!(
+            "blank_strokes",
+            stroke_records::StrokeTile {
+                first_visit,
+                visit_count,
+                first_ray,
+                ray_count,
+                family,
+                units_per_mm,
+                padding_1,
+                padding_2,
+            }
+        ),
+        layout!(
+            "blank_strokes",
+            stroke_records::StrokePass { cos, sin, center, first_piece, piece_count, pass_id, returns }
+        ),
+        layout!("blank_strokes", stroke_records::OutlinePiece { node_mm, rate_start, rate_end, sagitta_mm, padding }),
+        layout!("blank_strokes", stroke_records::RayState { place, count, first }),
+        layout!(
+            "spatial_flank",
+            sweep_records::SpatialTile { middle, first_group, group_count, first_record, record_count }
+        ),
+        layout!(
+            "spatial_flank",
             sweep_records::SpatialPass {
                 turn,
                 place_3,
@@ -140,8 +180,7 @@ fn records_have_the_same_members_on_both_sides() {
         ),
     ];
     for (stage, name, rust, size) in layouts {
-        let stage: usize = stage;
-        let (module, _) = checked(&STAGES[stage]);
+        let (module, _) = checked(stage_of(stage));
         let (_, ty) = module.types.iter().find(|(_, ty)| ty.name.as_deref() == Some(name)).expect(name);
         let TypeInner::Struct { members, span } = &ty.inner else { panic!("{name} is no struct") };
         let wgsl: Vec<(&str, usize, usize)> = members
@@ -159,8 +198,12 @@ fn records_have_the_same_members_on_both_sides() {
 
 #[test]
 fn constants_agree() {
-    let (module, _) = checked(&STAGES[0]);
-    for (name, ours) in [("QUADS_PER_THREAD", QUADS_PER_THREAD), ("ROUND_RECORDS", ROUND_RECORDS)] {
+    for (stage, name, ours) in [
+        ("planar_flank", "ROUND_RECORDS", ROUND_RECORDS),
+        ("blank_strokes", "LEDGER_HEAD", stroke_records::LEDGER_HEAD as u32),
+        ("blank_strokes", "NO_ROOM", stroke_records::NO_ROOM),
+    ] {
+        let (module, _) = checked(stage_of(stage));
         let (_, constant) = module.constants.iter().find(|(_, c)| c.name.as_deref() == Some(name)).expect(name);
         let naga::Expression::Literal(Literal::U32(theirs)) = module.global_expressions[constant.init] else {
             panic!("{name} is no literal")

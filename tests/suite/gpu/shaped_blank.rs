@@ -13,6 +13,7 @@ use gearcut::dexel::BlankField;
 use gearcut::frame::Rigid2;
 use gearcut::gear::PitchCurveShape;
 use gearcut::gear::blank_outline::BlankOutline;
+use gearcut::gpu::GpuOptions;
 use gearcut::measure::damage::LEAST_DEPTH_MM;
 use gearcut::passes::StrokeSet;
 use gearcut::process::shaping::ShapingJob;
@@ -52,6 +53,9 @@ fn the_gpu_cuts_a_ring_alike() {
     let parity = BlankParity::of(&native.field, [&beside[0].field, &beside[1].field], &gpu.field);
     println!("{parity}");
     assert_eq!(parity.verdict(), Ok(()));
+    // Tiles that do not fit the device together go one half after the other, and leave the same bytes.
+    let parts = run(&software_gpu(GpuOptions { memory_limit_bytes: Some(400_000), ..strict() }), 0.0);
+    assert!(parts == gpu, "halves change the result");
     let uncut = job.planar().blank_field().expect("fits");
     assert!(BlankParity::of(&native.field, [&beside[0].field, &beside[1].field], &uncut).verdict().is_err());
 }

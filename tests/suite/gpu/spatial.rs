@@ -6,6 +6,7 @@ use crate::fixtures::parity::*;
 use gearcut::cut::Backend;
 use gearcut::dexel::SpatialField;
 use gearcut::gpu::GpuOptions;
+use gearcut::gpu::shaders::Rows;
 use gearcut::passes::{SweepPlan, TurningPasses};
 use gearcut::process::hobbing::{HobCutter, HobbingJob};
 use gearcut::process::load;
@@ -37,6 +38,8 @@ fn case(name: &str) -> (TurningPasses, SpatialField) {
 #[test]
 fn hobbed_flanks_are_cut_alike() {
     let gpu = software_gpu(strict());
+    // One row a thread, as on GPUs.
+    let few = software_gpu(GpuOptions { rows: Some(Rows::Few), ..strict() });
     let mut all = Parity::default();
     for name in
         ["p09_patch_s2_axial", "p10_patch_s2_diag_VL", "p11_patch_circle", "p12_patch_spur", "p13_patch_s4_ellipse"]
@@ -47,6 +50,11 @@ fn hobbed_flanks_are_cut_alike() {
         println!("{parity}");
         assert_eq!(parity.verdict_within(ADDED_NM), Ok(()), "{name}");
         all.merge(parity);
+        let mut alone = field.blank_layer();
+        few.cut_spatial(&field, &plan, &mut alone).expect("cuts");
+        let mut parity = Parity::default();
+        parity.add("one row a thread", field.rows(), &native, &shifted, &alone);
+        assert_eq!(parity.verdict_within(ADDED_NM), Ok(()), "{name}");
         if name == "p09_patch_s2_axial" {
             let hash = fingerprint(std::slice::from_ref(&got));
             println!("hash {hash:#018x}");

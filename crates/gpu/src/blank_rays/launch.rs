@@ -2,9 +2,9 @@
 
 use crate::context::Gpu;
 use crate::device::Device;
-use crate::pipeline::BLANK_RAYS;
 use crate::problem::GpuProblem;
 use crate::readback::empty;
+use gearcut_shaders::BLANK_RAYS;
 use std::time::Duration;
 use wgpu::BufferUsages as Use;
 
@@ -42,9 +42,15 @@ impl Gpu {
     }
 
     /// The first bytes of a buffer, once all that was sent is done.
-    pub(super) fn bring_back<T: bytemuck::Pod>(&self, from: &wgpu::Buffer, bytes: usize) -> Result<Vec<T>, GpuProblem> {
+    pub(crate) fn bring_back<T: bytemuck::Pod>(&self, from: &wgpu::Buffer, bytes: usize) -> Result<Vec<T>, GpuProblem> {
+        Ok(bytemuck::pod_collect_to_vec(&self.bring_back_all(&[(from, bytes)])?[0]))
+    }
+
+    /// The first bytes of some buffers, once all that was sent is done: one wait for all.
+    pub(crate) fn bring_back_all(&self, from: &[(&wgpu::Buffer, usize)]) -> Result<Vec<Vec<u8>>, GpuProblem> {
+        let bytes: usize = from.iter().map(|(_, bytes)| bytes).sum();
         if bytes == 0 {
-            return Ok(Vec::new());
+            return Ok(vec![Vec::new(); from.len()]);
         }
         let device = &self.device;
         let (back, submission) = device.checked(|| {
@@ -53,7 +59,11 @@ impl Gpu {
                 device.queue.write_buffer(&back, 0, &vec![0xFF; bytes]);
             }
             let mut encoder = device.handle.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-            encoder.copy_buffer_to_buffer(from, 0, &back, 0, bytes as u64);
+            let mut place = 0;
+            for (buffer, bytes) in from {
+                encoder.copy_buffer_to_buffer(buffer, 0, &back, place, *bytes as u64);
+                place += *bytes as u64;
+            }
             let submission = device.queue.submit([encoder.finish()]);
             back.map_async(wgpu::MapMode::Read, .., |_| {});
             (back, submission)
@@ -64,7 +74,8 @@ impl Gpu {
         }
         let lost = |reason: String| GpuProblem::Lost { reason };
         let view = device.checked(|| back.get_mapped_range(..))?.map_err(|error| lost(error.to_string()))?;
-        Ok(bytemuck::pod_collect_to_vec(&view))
+        let mut rest = &view[..];
+        Ok(from.iter().map(|(_, bytes)| rest.split_off(..*bytes).unwrap_or_default().to_vec()).collect())
     }
 }
 

@@ -44,7 +44,6 @@ impl PassRound {
                     first_part: round.parts.len() as u32,
                     part_count: pass.parts.len() as u32,
                     pass_id: pass.id,
-                    returns: u32::from(pass.returns),
                 });
                 round.parts.extend_from_slice(&pass.parts);
                 *next += 1;

@@ -11,6 +11,8 @@ struct BlankLaunch {
     capacity: u32,
     // Pieces that there is room for; 0 if nobody asks for them.
     piece_room: u32,
+    // Rays of the launch: the slots of a list lie this far apart.
+    rays: u32,
 }
 
 // Neighbouring rays and their passes in order of time.
@@ -21,13 +23,11 @@ struct BlankTile {
     ray_count: u32,
 }
 
-// One pass over one tile: a cutter tooth in its stroke, or the section of a hob tooth's sweep.
+// One pass over one tile: the section of a hob tooth's sweep.
 struct BlankPass {
     first_part: u32,
     part_count: u32,
     pass_id: u32,
-    // 1: a return stroke, which takes nothing.
-    returns: u32,
 }
 
 // Part of its curve that runs one way across the rays: cubics in a parameter from 0 to 1.
@@ -41,17 +41,6 @@ struct BlankPart {
     padding_1: f32,
     padding_2: f32,
     padding_3: f32,
-}
-
-// Material on a ray; normals as components along and across the rays, out of the material for rays along x; for rays
-// along y the host turns them round, which the exchanged axes make up for.
-struct BlankSpan {
-    low_mm: f32,
-    high_mm: f32,
-    low_pass: u32,
-    high_pass: u32,
-    low_normal: vec2<f32>,
-    high_normal: vec2<f32>,
 }
 
 // Material that a pass took from a ray; ends that it left bear its id.

@@ -19,14 +19,14 @@
 // one, which is what such buffers are for.
 const ROUND_RECORDS: u32 = 512u;
 // Threads of a workgroup: one wave on every GPU, and the host's number.
-override WORKGROUP_THREADS: u32 = 64u;
+const WORKGROUP_THREADS: u32 = 64u;
 // All strokes are frozen: the cubics are their constants.
 override FROZEN: bool = false;
 // Some of the records are arcs: software adapters pay for both ways of entering whichever is taken.
 override ARCS: bool = true;
-// Quads of four rows that a thread cuts: a record is read once for both, and while one waits for a division the other
-// goes on.
-const QUADS_PER_THREAD: u32 = 2u;
+// Quads of four rows that a thread cuts, one or two. On a software adapter a record is read once for both, and while one
+// waits for a division the other goes on; on a GPU other waves do that, as long as registers leave room for them.
+override QUADS_PER_THREAD: u32 = 2u;
 
 // A column's ray in a record's segment: coefficients of tau^0 to tau^3.
 struct RayCubics {
@@ -108,7 +108,10 @@ fn planar_flank(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocati
     let column_there = column_in_tile < tile.column_count;
     // Neighbouring threads take neighbouring quads.
     var first = quad(column_index, thread_of_column, column_there);
-    var second = quad(column_index, thread_of_column + launch.threads_per_column, column_there);
+    var second: Quad;
+    if QUADS_PER_THREAD == 2u {
+        second = quad(column_index, thread_of_column + launch.threads_per_column, column_there);
+    }
 
     for (var i = 0u; i < tile.record_count; i++) {
         let record = records[tile.first_record + i];
@@ -121,11 +124,15 @@ fn planar_flank(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocati
             record.sin * column.normal.x + record.cos * column.normal.y,
         );
         first = lowered(first, ray, record, column.low_mm);
-        second = lowered(second, ray, record, column.low_mm);
+        if QUADS_PER_THREAD == 2u {
+            second = lowered(second, ray, record, column.low_mm);
+        }
     }
 
     keep(first);
-    keep(second);
+    if QUADS_PER_THREAD == 2u {
+        keep(second);
+    }
     let unknown = first.unknown + second.unknown;
     let short = unknown.x + unknown.y + unknown.z + unknown.w;
     if short > 0u {

@@ -1,6 +1,6 @@
 // Lowers dexels whose rays stand anywhere in space by every sweep that their tile visits.
 //
-// One thread per four rows of a column; one workgroup row (y) per tile, so that records are read in step. Reads tiles,
+// One thread per group of rows of a column, its lanes (one row on GPUs, four on software adapters: `shared/lanes_*.wgsl`); one workgroup row (y) per tile, so that records are read in step. Reads tiles,
 // records, cells, rays; lowers heights and passes in place; counts iterations that stopped short. Twin:
 // crates/core/src/cut/cpu/spatial.rs; derivation: crates/core/src/passes/spatial/sweep.rs. Adds at most 2 nm to a
 // height.
@@ -9,14 +9,14 @@
 @group(0) @binding(1) var<storage, read> records: array<SpatialPass>;
 // Coefficients of x = c0 + t (c1 + t (c2 + t c3)), all segments after each other.
 @group(0) @binding(2) var<storage, read> cells: array<vec4<f32>>;
-// Six for each group of four rows: x, y, z of the origins against the tile's, x, y, z of the directions.
-@group(0) @binding(3) var<storage, read> rays: array<vec4<f32>>;
-@group(0) @binding(4) var<storage, read_write> heights_mm: array<vec4<f32>>;
-@group(0) @binding(5) var<storage, read_write> passes: array<vec4<u32>>;
+// Six for each group of rows: x, y, z of the origins against the tile's, x, y, z of the directions.
+@group(0) @binding(3) var<storage, read> rays: array<Lanes>;
+@group(0) @binding(4) var<storage, read_write> heights_mm: array<Lanes>;
+@group(0) @binding(5) var<storage, read_write> passes: array<LaneCounts>;
 @group(0) @binding(6) var<storage, read_write> unconverged: atomic<u32>;
 
 // Threads of a workgroup: one wave on every GPU, and the host's number.
-override WORKGROUP_THREADS: u32 = 64u;
+const WORKGROUP_THREADS: u32 = 64u;
 // Rake faces turn along the tool's axis (helical gashes).
 override TWISTED: bool = false;
 // Newton steps at most: four suffice from the tile's middle; a ray that grazes a round halves what is missing with
@@ -34,34 +34,34 @@ const LARGEST_T: f32 = 1.0;
 
 // A value that depends on height and moment, with its rates over both.
 struct Varied {
-    value: vec4<f32>,
-    over_h: vec4<f32>,
-    over_t: vec4<f32>,
+    value: Lanes,
+    over_h: Lanes,
+    over_t: Lanes,
 }
 
 // Four rays against one record: rows r, q, y of the place (cubic in u) and of the direction (quadratic in u).
 struct Path {
-    place: array<vec4<f32>, 4>,
-    along: array<vec4<f32>, 3>,
+    place: array<Lanes, 4>,
+    along: array<Lanes, 3>,
 }
 
 struct Rays {
-    o: array<vec4<f32>, 3>,
-    n: array<vec4<f32>, 3>,
+    o: array<Lanes, 3>,
+    n: array<Lanes, 3>,
 }
 
-fn path(record: SpatialPass, row: u32, q: array<vec4<f32>, 3>, n: array<vec4<f32>, 3>) -> Path {
+fn path(record: SpatialPass, row: u32, q: array<Lanes, 3>, n: array<Lanes, 3>) -> Path {
     var out: Path;
     for (var k = 0u; k < 3u; k++) {
         let turn = record.turn[3u * k + row];
         out.place[k] = turn.w + (turn.x * q[0] + turn.y * q[1] + turn.z * q[2]);
         out.along[k] = turn.x * n[0] + turn.y * n[1] + turn.z * n[2];
     }
-    out.place[3] = vec4(record.place_3[row]);
+    out.place[3] = Lanes(record.place_3[row]);
     return out;
 }
 
-fn at(path: Path, h: vec4<f32>, u: vec4<f32>, u_t: vec4<f32>) -> Varied {
+fn at(path: Path, h: Lanes, u: Lanes, u_t: Lanes) -> Varied {
     let along = path.along[0] + u * (path.along[1] + u * path.along[2]);
     let along_u = path.along[1] + 2.0 * u * path.along[2];
     let place = path.place[0] + u * (path.place[1] + u * (path.place[2] + u * path.place[3]));
@@ -88,14 +88,14 @@ fn spatial_flank(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocat
     }
     var best = heights_mm[at_group];
     var best_pass = passes[at_group];
-    let low = vec4(tile.middle.w);
-    var unknown = vec4(0u);
+    let low = Lanes(tile.middle.w);
+    var unknown = LaneCounts(0u);
 
     for (var i = 0u; i < tile.record_count; i++) {
         let record = records[tile.first_record + i];
         let start = record.place_3.w;
         // Against the tile's middle ray, both at the start height.
-        var q: array<vec4<f32>, 3>;
+        var q: array<Lanes, 3>;
         q[0] = ray.o[0] + start * (ray.n[0] - tile.middle.x);
         q[1] = ray.o[1] + start * (ray.n[1] - tile.middle.y);
         q[2] = ray.o[2] + start * (ray.n[2] - tile.middle.z);
@@ -104,13 +104,13 @@ fn spatial_flank(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocat
         let path_y = path(record, 2u, q, ray.n);
         let lowest = 2.0 * low - start;
 
-        var h = vec4<f32>(0.0);
-        var t = vec4<f32>(0.0);
-        var step_h = vec4<f32>(0.0);
-        var falls = vec4<bool>(false);
-        var rises = vec4<u32>(0u);
-        var y_last = vec4<f32>(0.0);
-        var x_last = vec4<f32>(0.0);
+        var h = Lanes(0.0);
+        var t = Lanes(0.0);
+        var step_h = Lanes(0.0);
+        var falls = LaneFlags(false);
+        var rises = LaneCounts(0u);
+        var y_last = Lanes(0.0);
+        var x_last = Lanes(0.0);
         for (var n = 0u; n < MAX_STEPS; n++) {
             let z = t * t;
             let u = t * (1.0 - z * (1.0 / 3.0 - 0.2 * z));
@@ -144,17 +144,16 @@ fn spatial_flank(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocat
             let y = mix2(record.cos, y_blade, -record.sin, rho);
 
             // Residual of the edge and its gradient in the segment's frame.
-            var residual: vec4<f32>;
-            var g_x = vec4<f32>(1.0);
-            var g_y: vec4<f32>;
+            var residual: Lanes;
+            var g_x = Lanes(1.0);
+            var g_y: Lanes;
             if record.cells_per_mm > 0.0 {
-                let cell = clamp(floor(y.value * record.cells_per_mm), vec4(record.first_cell), vec4(record.last_cell));
-                let index = vec4<u32>(vec4<i32>(cell) + vec4<i32>(i32(record.base_cell)));
-                let c = transpose(mat4x4<f32>(cells[index.x], cells[index.y], cells[index.z], cells[index.w]));
+                let cell = clamp(floor(y.value * record.cells_per_mm), Lanes(record.first_cell), Lanes(record.last_cell));
+                let c = lane_cells(i32(record.base_cell), cell);
                 let from_cell = y.value - cell * record.cell_width_mm;
-                let inside = clamp(from_cell, vec4(0.0), vec4(record.cell_width_mm));
-                let slope = c[1] + inside * (2.0 * c[2] + inside * (3.0 * c[3]));
-                let edge = (c[0] - record.base_x_mm) + inside * (c[1] + inside * (c[2] + inside * c[3]));
+                let inside = clamp(from_cell, Lanes(0.0), Lanes(record.cell_width_mm));
+                let slope = c.c1 + inside * (2.0 * c.c2 + inside * (3.0 * c.c3));
+                let edge = (c.c0 - record.base_x_mm) + inside * (c.c1 + inside * (c.c2 + inside * c.c3));
                 residual = x.value - (edge + (from_cell - inside) * slope);
                 g_y = -slope;
             } else {
@@ -176,49 +175,49 @@ fn spatial_flank(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocat
             let edge_h = g_x * x.over_h + g_y * y.over_h;
             let edge_t = g_x * x.over_t + g_y * y.over_t;
             let determinant = moment_h * edge_t - moment_t * edge_h;
-            falls = determinant < vec4(0.0);
+            falls = determinant < Lanes(0.0);
             // Flatter ones graze at less than 0.2 seconds of arc.
-            let divisor = select(vec4(-1.0), min(determinant, vec4(-1e-4)), falls);
+            let divisor = select(Lanes(-1.0), min(determinant, Lanes(-1e-4)), falls);
             step_h = select(h - lowest, (moment * edge_t - moment_t * residual) / divisor, falls);
             let step_t = select(
                 (moment - moment_h * step_h) / moment_t,
                 (moment_h * residual - edge_h * moment) / divisor,
                 falls,
             );
-            rises += select(vec4(1u), vec4(0u), falls);
+            rises += select(LaneCounts(1u), LaneCounts(0u), falls);
             x_last = x.value - (x.over_h * step_h + x.over_t * step_t);
             y_last = y.value - (y.over_h * step_h + y.over_t * step_t);
-            h = clamp(h - step_h, vec4(-REACH_MM), vec4(REACH_MM));
-            t = clamp(t - step_t, vec4(-LARGEST_T), vec4(LARGEST_T));
-            if all(abs(step_h) < vec4(LAST_STEP_MM)) && all(abs(step_t) < vec4(LAST_STEP_T)) {
+            h = clamp(h - step_h, Lanes(-REACH_MM), Lanes(REACH_MM));
+            t = clamp(t - step_t, Lanes(-LARGEST_T), Lanes(LARGEST_T));
+            if all(abs(step_h) < Lanes(LAST_STEP_MM)) && all(abs(step_t) < Lanes(LAST_STEP_T)) {
                 break;
             }
         }
-        let in_front = vec4(record.cells_per_mm > 0.0) | (x_last + record.base_x_mm > vec4(0.0));
-        let on_segment = (y_last >= vec4(record.y_from_mm))
-            & (y_last <= vec4(record.y_to_mm))
+        let in_front = LaneFlags(record.cells_per_mm > 0.0) | (x_last + record.base_x_mm > Lanes(0.0));
+        let on_segment = (y_last >= Lanes(record.y_from_mm))
+            & (y_last <= Lanes(record.y_to_mm))
             & in_front
             & falls
-            & (t > vec4(record.t_from))
-            & (t < vec4(record.t_to));
-        let converged = abs(step_h) < vec4(CONVERGED_MM);
+            & (t > Lanes(record.t_from))
+            & (t < Lanes(record.t_to));
+        let converged = abs(step_h) < Lanes(CONVERGED_MM);
         let height = start + h;
         let recorded = max(height, low);
         let lower = on_segment & converged & (height > 2.0 * low) & (recorded < best);
         unknown += select(
-            vec4(0u),
-            vec4(1u),
-            on_segment & !converged & (rises < vec4(2u)) & (height < best) & vec4(there),
+            LaneCounts(0u),
+            LaneCounts(1u),
+            on_segment & !converged & (rises < LaneCounts(2u)) & (height < best) & LaneFlags(there),
         );
         best = select(best, recorded, lower);
-        best_pass = select(best_pass, vec4(record.pass_id), lower);
+        best_pass = select(best_pass, LaneCounts(record.pass_id), lower);
     }
 
     if there {
         heights_mm[at_group] = best;
         passes[at_group] = best_pass;
     }
-    let short = unknown.x + unknown.y + unknown.z + unknown.w;
+    let short = counted(unknown);
     if short > 0u {
         atomicAdd(&unconverged, short);
     }

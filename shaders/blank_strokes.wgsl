@@ -1,0 +1,242 @@
+// Takes strokes of a shaper cutter from rays through the blank, in order of time.
+//
+// One thread per ray, one workgroup per tile. Reads launch, tiles, visits, passes, outlines of the teeth; rewrites spans
+// and rays; adds what every pass removed, in fixed point, so that the sum does not depend on the order of threads; keeps
+// the longest material that a return stroke met on a ray of the tile. A list that has no room says how much it needs,
+// and the host comes back with more. Twin: crates/core/src/cut/cpu/blank.rs (derivation there). Adds at most 30 nm to an
+// end that its ray meets at 45 degrees or steeper.
+//
+// A tooth's outline is a closed chain of cubics. Each thread goes round it once, with places across its own ray: a piece
+// that turns back there is split at its turning point. Neighbours share the bits of their node, so that crossings come
+// in pairs, whatever rounding does.
+
+@group(0) @binding(0) var<uniform> launch: StrokeLaunch;
+@group(0) @binding(1) var<storage, read> tiles: array<StrokeTile>;
+@group(0) @binding(2) var<storage, read> visits: array<u32>;
+@group(0) @binding(3) var<storage, read> passes: array<StrokePass>;
+@group(0) @binding(4) var<storage, read> outline: array<OutlinePiece>;
+@group(0) @binding(5) var<storage, read_write> spans: array<BlankSpan>;
+@group(0) @binding(6) var<storage, read_write> rays: array<RayState>;
+// Largest list that had no room; most crossings of one outline that had none; spans of all rays (for the way back);
+// nothing. Then one for each tile: bits of the longest material that a return stroke met, mm. Then per pass and family
+// two, low and high: length removed, in the tile's units.
+@group(0) @binding(7) var<storage, read_write> ledger: array<atomic<u32>>;
+
+const WORKGROUP_THREADS: u32 = 64u;
+// Crossings of one outline with one ray: two as a rule, four at a slanting tooth; more are reported, never left out.
+const MOST_CROSSINGS: u32 = 8u;
+// Newton steps within a part, each inside its bracket; a step below the last one ends them.
+const STEPS: u32 = 12u;
+const LAST_STEP: f32 = 1e-6;
+// What rounding may move a place across by, and one along, mm.
+const ACROSS_ERROR_MM: f32 = 4e-6;
+const ALONG_ERROR_MM: f32 = 1e-4;
+// Heads of the ledger before those of tiles.
+const LEDGER_HEAD: u32 = 4u;
+
+// Axes of the rays: along, across.
+fn turned(v: vec2<f32>, stroke: StrokePass, family: u32) -> vec2<f32> {
+    let x = stroke.cos * v.x - stroke.sin * v.y;
+    let y = stroke.sin * v.x + stroke.cos * v.y;
+    return select(vec2(x, y), vec2(y, x), family == 1u);
+}
+
+// Parameter at which the rate of a cubic vanishes, its ends having rates of opposite signs.
+fn turning(run: f32, rate_start: f32, rate_end: f32) -> f32 {
+    let a = 3.0 * (rate_start + rate_end - 2.0 * run);
+    let half_b = 3.0 * run - 2.0 * rate_start - rate_end;
+    let root = sqrt(max(half_b * half_b - a * rate_start, 0.0));
+    // The root between the ends is the one at which the rate goes over from the first sign to the other: without
+    // cancellation in either form.
+    let towards = select(-root, root, rate_start < 0.0);
+    let alike = (half_b < 0.0) == (towards < 0.0);
+    let sum = half_b + towards;
+    let difference = towards - half_b;
+    let by_sum = -rate_start / select(sum, 1e-30, sum == 0.0);
+    let by_difference = difference / select(a, 1e-30, a == 0.0);
+    return clamp(select(by_difference, by_sum, alike), 0.0, 1.0);
+}
+
+fn cubic(start: f32, run: f32, rate_start: f32, rate_end: f32, t: f32) -> f32 {
+    let c2 = 3.0 * run - 2.0 * rate_start - rate_end;
+    let c3 = rate_start + rate_end - 2.0 * run;
+    return start + t * (rate_start + t * (c2 + t * c3));
+}
+
+fn cubic_rate(run: f32, rate_start: f32, rate_end: f32, t: f32) -> f32 {
+    let c2 = 3.0 * run - 2.0 * rate_start - rate_end;
+    let c3 = rate_start + rate_end - 2.0 * run;
+    return rate_start + t * (2.0 * c2 + t * 3.0 * c3);
+}
+
+// The crossing of a part of a piece that runs from one side of the ray to the other. Part 0: the whole; 1: up to where
+// it turns; 2: from there on.
+fn cross_part(stroke: StrokePass, piece: u32, part: u32, family: u32, offset_mm: f32, center_mm: f32) -> Crossing {
+    let own = outline[stroke.first_piece + piece];
+    let after = select(piece + 1u, 0u, piece + 1u == stroke.piece_count);
+    let start = turned(own.node_mm, stroke, family);
+    let run = turned(outline[stroke.first_piece + after].node_mm, stroke, family) - start;
+    let rate_from = turned(own.rate_start, stroke, family);
+    let rate_to = turned(own.rate_end, stroke, family);
+    let across = start.y + offset_mm;
+    var ends = vec2(0.0, 1.0);
+    if part != 0u {
+        let middle = turning(run.y, rate_from.y, rate_to.y);
+        ends = select(vec2(middle, 1.0), vec2(0.0, middle), part == 1u);
+    }
+    let first = cubic(across, run.y, rate_from.y, rate_to.y, ends.x);
+    let last = cubic(across, run.y, rate_from.y, rate_to.y, ends.y);
+    // Parameters below and above the root.
+    var low = select(ends.y, ends.x, last > first);
+    var high = select(ends.x, ends.y, last > first);
+    let rise = last - first;
+    var t = clamp(ends.x - first * (ends.y - ends.x) / select(rise, 1e-30, rise == 0.0), ends.x, ends.y);
+    for (var step = 0u; step < STEPS; step++) {
+        let residual = cubic(across, run.y, rate_from.y, rate_to.y, t);
+        if residual > 0.0 {
+            high = t;
+        } else {
+            low = t;
+        }
+        let slope = cubic_rate(run.y, rate_from.y, rate_to.y, t);
+        let newton = t - residual / select(slope, 1e-30, slope == 0.0);
+        let next = select(0.5 * (low + high), newton, (newton - low) * (newton - high) <= 0.0);
+        let moved = abs(next - t);
+        t = next;
+        if moved < LAST_STEP {
+            break;
+        }
+    }
+    let tangent = vec2(cubic_rate(run.x, rate_from.x, rate_to.x, t), cubic_rate(run.y, rate_from.y, rate_to.y, t));
+    let length = max(sqrt(dot(tangent, tangent)), 1e-30);
+    return Crossing(center_mm + cubic(start.x, run.x, rate_from.x, rate_to.x, t), vec2(-tangent.y, tangent.x) / length);
+}
+
+// Adds to a pair of low and high.
+fn record_removed(at: u32, units: u32) {
+    let before = atomicAdd(&ledger[at], units);
+    if before + units < before {
+        atomicAdd(&ledger[at + 1u], 1u);
+    }
+}
+
+@compute @workgroup_size(WORKGROUP_THREADS)
+fn blank_strokes(
+    @builtin(workgroup_id) group: vec3<u32>,
+    @builtin(num_workgroups) groups: vec3<u32>,
+    @builtin(local_invocation_index) local: u32,
+) {
+    let tile = tiles[group.x];
+    if local >= tile.ray_count {
+        return;
+    }
+    let ray = tile.first_ray + local;
+    let place = rays[ray].place;
+    var count = rays[ray].count;
+    if count == NO_ROOM {
+        return;
+    }
+    let last_visit = min(launch.first_visit + launch.visit_count, tile.visit_count);
+    for (var v = launch.first_visit; v < last_visit; v++) {
+        let stroke = passes[visits[tile.first_visit + v]];
+        let center = select(stroke.center, stroke.center.yx, tile.family == 1u);
+        // Whole units: exact.
+        let offset_mm = f32(center.y - place) * launch.mm_per_unit;
+        if abs(offset_mm) > launch.reach_mm {
+            continue;
+        }
+        let center_mm = f32(center.x) * launch.mm_per_unit;
+
+        // Pieces that cross the ray, with their parts, and bounds of the crossings from chords.
+        var crossed: array<u32, MOST_CROSSINGS>;
+        var met = 0u;
+        var low_mm = 1e30;
+        var high_mm = -1e30;
+        let first = turned(outline[stroke.first_piece].node_mm, stroke, tile.family);
+        var start = vec2(first.x, first.y + offset_mm);
+        let first_start = start;
+        for (var p = 0u; p < stroke.piece_count; p++) {
+            var end = first_start;
+            if p + 1u < stroke.piece_count {
+                let node = turned(outline[stroke.first_piece + p + 1u].node_mm, stroke, tile.family);
+                end = vec2(node.x, node.y + offset_mm);
+            }
+            let sagitta_mm = outline[stroke.first_piece + p].sagitta_mm;
+            let start_below = start.y <= 0.0;
+            let end_below = end.y <= 0.0;
+            let near = min(abs(start.y), abs(end.y)) <= sagitta_mm;
+            if start_below != end_below || near {
+                let rate_from = turned(outline[stroke.first_piece + p].rate_start, stroke, tile.family).y;
+                let rate_to = turned(outline[stroke.first_piece + p].rate_end, stroke, tile.family).y;
+                var parts = vec2(0u, 0u);
+                var found = select(0u, 1u, start_below != end_below);
+                if rate_from * rate_to < 0.0 {
+                    let run = end.y - start.y;
+                    let middle_below = cubic(start.y, run, rate_from, rate_to, turning(run, rate_from, rate_to)) <= 0.0;
+                    parts = select(vec2(2u, 2u), vec2(1u, 2u), start_below != middle_below);
+                    found = select(0u, 1u, start_below != middle_below) + select(0u, 1u, middle_below != end_below);
+                }
+                if found > 0u {
+                    let slope = (end.x - start.x) / select(end.y - start.y, 1e-30, end.y == start.y);
+                    let at = clamp(start.x - start.y * slope, min(start.x, end.x), max(start.x, end.x));
+                    let steepness = min(1.0 + abs(slope), 1e6);
+                    let tolerance = (sagitta_mm + ACROSS_ERROR_MM) * steepness + ALONG_ERROR_MM;
+                    low_mm = min(low_mm, at - tolerance);
+                    high_mm = max(high_mm, at + tolerance);
+                }
+                for (var k = 0u; k < found; k++) {
+                    if met < MOST_CROSSINGS {
+                        crossed[met] = 4u * p + select(parts.y, parts.x, k == 0u);
+                    }
+                    met++;
+                }
+            }
+            start = end;
+        }
+        if met > MOST_CROSSINGS {
+            atomicMax(&ledger[1], met);
+            continue;
+        }
+        if met == 0u {
+            continue;
+        }
+        let near = met_between(ray, count, center_mm + low_mm, center_mm + high_mm);
+        if near.first == near.last {
+            continue;
+        }
+
+        var found: array<Crossing, MOST_CROSSINGS>;
+        for (var c = 0u; c < met; c++) {
+            let piece = crossed[c] / 4u;
+            let crossing = cross_part(stroke, piece, crossed[c] % 4u, tile.family, offset_mm, center_mm);
+            var at = c;
+            while at > 0u && found[at - 1u].along_mm > crossing.along_mm {
+                found[at] = found[at - 1u];
+                at--;
+            }
+            found[at] = crossing;
+        }
+        for (var c = 0u; c + 1u < met; c += 2u) {
+            let material = met_between(ray, count, found[c].along_mm, found[c + 1u].along_mm);
+            if material.first == material.last {
+                continue;
+            }
+            if stroke.returns != 0u {
+                if material.length_mm > LEAST_SPAN_MM {
+                    atomicMax(&ledger[LEDGER_HEAD + group.x], bitcast<u32>(material.length_mm));
+                }
+                continue;
+            }
+            let left = cut_out(ray, count, material, found[c], found[c + 1u], stroke.pass_id);
+            if left.count > launch.capacity {
+                atomicMax(&ledger[0], left.count);
+                rays[ray].count = NO_ROOM;
+                return;
+            }
+            count = left.count;
+            let account = 2u * (2u * (stroke.pass_id - launch.first_pass) + tile.family);
+            record_removed(LEDGER_HEAD + groups.x + account, u32(round(left.removed_mm * tile.units_per_mm)));
+        }
+    }
+    rays[ray].count = count;
+}
