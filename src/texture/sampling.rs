@@ -7,8 +7,9 @@
 //! line is cut anew, until it is enough. Two lines take milliseconds, so that what they say of a window's numbers is
 //! known before anything else is cut ([`super::foreseen`]).
 //!
-//! A window that would then have too many points, or points much finer than the flank's dexels (a draft, coarse by
-//! intention), stays as it is, and a note tells what its slopes are worth.
+//! A window that would then have too many points becomes shorter about its middle: some 35 marks each way are enough for
+//! every parameter. Where the scene names its lengths, or points would be much finer than the flank's dexels (a draft,
+//! coarse by intention), it stays as it is, and a note says what its slopes are worth.
 //!
 //! Road not taken: the length of marks from feed and curvature. Every process has its own law for it, and where passes
 //! of several teeth cross, none in closed form.
@@ -22,9 +23,9 @@ use rayon::prelude::*;
 
 /// Points of a window that was made finer: some 50 MB while it is evaluated, on every core.
 const MOST_POINTS: usize = 500_000;
-/// How much finer than the flank's dexels at most: 2.4 points of a mark, the fewest that a scene that ships has, become
-/// enough.
-const MOST_TIMES_FINER: f64 = 10.0;
+/// How much finer than the flank's dexels at most: the 1.5 points of a mark that the gashes of a helical gear get along
+/// the tooth become enough.
+const MOST_TIMES_FINER: f64 = 16.0;
 /// The step becomes so much smaller than what is missing says: marks differ along a line.
 const ROOM: f64 = 1.1;
 /// Times that marks are counted: where they are shorter than points are apart, the first count is too high.
@@ -95,7 +96,7 @@ fn finer(
             return Ok((attempt > 0).then_some((finer, facets)));
         }
         let step_mm = finer.spacing_mm()[direction] * few / (ROOM * ENOUGH_POINTS);
-        finer = finer.with_step(direction, step_mm);
+        finer = finer.with_step(direction, step_mm).narrowed(MOST_POINTS);
         if attempt + 1 == ATTEMPTS || step_mm < finest_mm || finer.count[0] * finer.count[1] > MOST_POINTS {
             break;
         }

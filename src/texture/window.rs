@@ -36,6 +36,8 @@ pub struct Window {
     span_mm: [[f64; 2]; 2],
     /// Whether the scene leaves the distance of points along the tooth and along the profile open.
     pub(super) open_step: [bool; 2],
+    /// Whether it leaves the length along the tooth and along the profile open.
+    open_span: [bool; 2],
     /// F-operator and areal filters.
     pub chain: Chain,
     /// Cut-off of lines, um; none: by ISO 21920-3.
@@ -62,6 +64,23 @@ impl Window {
         finer.step_mm[direction] = step_mm;
         finer.lay();
         finer
+    }
+
+    /// The same window, shorter about its middle where the scene leaves that open, so that it has at most so many points
+    /// if it can; both directions by the same factor.
+    pub(super) fn narrowed(&self, most_points: usize) -> Self {
+        let points = (self.count[0] * self.count[1]) as f64;
+        let open = self.open_span.iter().filter(|&&open| open).count();
+        let mut narrower = self.clone();
+        if points > most_points as f64 && open > 0 {
+            let share = (most_points as f64 / points).powf(1.0 / open as f64);
+            for (span, _) in narrower.span_mm.iter_mut().zip(self.open_span).filter(|(_, open)| *open) {
+                let (middle, half) = (0.5 * (span[0] + span[1]), 0.5 * share * (span[1] - span[0]));
+                *span = [middle - half, middle + half];
+            }
+            narrower.lay();
+        }
+        narrower
     }
 
     /// Lays the points over what it spans. What is left over of the last step is shared by both ends.
@@ -207,6 +226,7 @@ fn resolve(job: &dyn GearJob, index: usize, spec: &TextureWindow, side: Side) ->
         count: [0; 2],
         span_mm: [along_tooth, profile],
         open_step: [spec.lead_spacing_mm.is_none(), spec.profile_spacing_mm.is_none()],
+        open_span: [spec.length_lead_mm.is_none(), spec.length_profile_mm.is_none()],
         chain: Chain {
             s_filter_um: spec.filters.s_filter_um,
             l_filter_um: spec.filters.l_filter_um,
