@@ -3,13 +3,14 @@
 use std::path::PathBuf;
 
 use gearcut::findings::RESULTS_FILE;
+use gearcut::output::atomic::write_bytes_atomically;
 use gearcut::output::progress::{Progress, ProgressMode};
 use gearcut::output::report::REPORT_FILE;
 use gearcut::output::summary;
 use gearcut::output::table::write_tables;
 use gearcut::output::text::Sheet;
 use gearcut::process::bevel::BevelJob;
-use gearcut::process::bevel::pair::{MountingErrors, charts, findings, page, roll};
+use gearcut::process::bevel::pair::{MountingErrors, bearing, charts, findings, page, roll};
 use gearcut::process::load;
 use gearcut::scene::LoadedScene;
 use gearcut::units::UM_PER_MM;
@@ -42,12 +43,14 @@ pub fn run(arguments: &ContactArguments) -> Result<(), Failure> {
         interrupt.check()?;
         let jobs = [&jobs[0], &jobs[1]];
         let found = findings::findings(&name, jobs, &rolled);
-        let charts = charts::charts(&rolled);
-        for (name, chart) in &charts {
-            chart.write_svg(&folder.path(format!("pictures/{name}.svg"))?)?;
+        let motion_error = charts::motion_error(&rolled);
+        motion_error.write_svg(&folder.path("pictures/motion_error.svg")?)?;
+        for side in &rolled.sides {
+            let path = folder.path(format!("pictures/bearing_{}.svg", findings::words(side)))?;
+            write_bytes_atomically(&path, bearing::svg(side, rolled.marking_mm).as_bytes())?;
         }
         write_tables(&found, folder)?;
-        page::page(jobs, &rolled, &found, &charts).write(&folder.path(REPORT_FILE)?)?;
+        page::page(jobs, &rolled, &found, motion_error).write(&folder.path(REPORT_FILE)?)?;
         folder.write_json(RESULTS_FILE, &found.to_json())?;
         let record = [
             ("arguments", json!(words)),

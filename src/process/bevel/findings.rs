@@ -10,6 +10,7 @@ use super::gear::BevelGear;
 use super::job::BevelJob;
 use super::measure::{self, BevelReport};
 use super::motion::AXES;
+use super::net::Position;
 use crate::findings::warning::ranked;
 use crate::findings::{Datum, Entry, Findings, Place, Quantity, Section, Table, TableColumn, Warning};
 use crate::machine_errors::ErrorLayer;
@@ -63,6 +64,7 @@ pub fn findings(job: &BevelJob, gear: &BevelGear, measured: &BevelMeasured) -> R
         marks(job)?,
         Section::new("teeth", "Finished teeth").table(flanks(job, gear)).table(grid(job, gear)),
         slot(gear),
+        position(gear),
         errors(job, gear)?,
         blades(job, gear),
     ];
@@ -322,6 +324,39 @@ fn errors_of_machine(job: &BevelJob) -> Option<Section> {
         own.push((ErrorLayer::Tool, "runouts given for each blade".to_owned()));
     }
     machine_errors::section(&spec.errors, &AXES, &own)
+}
+
+/// Thickness, spiral and pressure angle error: what gear inspection takes apart from the form of flanks.
+fn position(gear: &BevelGear) -> Section {
+    let of = |side: Side, value: &dyn Fn(&Position) -> f64| -> Option<f64> {
+        let flanks = gear.flanks.iter().filter(|flank| flank.side == side);
+        let values: Vec<f64> = flanks.map(|flank| Position::of(flank).map(|of| value(&of))).collect::<Option<_>>()?;
+        (!values.is_empty()).then(|| values.iter().sum::<f64>() / values.len() as f64)
+    };
+    let why = "a point of the grid was not cut";
+    let um = |value_mm: Option<f64>, definition: &'static str| {
+        Quantity::number_or(value_mm.map(|mm| mm * UM_PER_MM), "um", definition, why)
+    };
+    let thickness = of(Side::Left, &|of| of.middle_mm).zip(of(Side::Right, &|of| of.middle_mm));
+    let mut section = Section::new("position", "Thickness, spiral and pressure angle").shown(
+        "thickness",
+        "thickness",
+        um(
+            thickness.map(|(left, right)| left + right),
+            "what both flanks of a tooth are too thick by along their normals, middle of the grid",
+        ),
+    );
+    for side in [Side::Left, Side::Right] {
+        for (name, which, definition) in [
+            ("spiral angle", 0, "deviation of the grid's plane from toe to heel, positive where the heel is higher"),
+            ("pressure angle", 1, "deviation of the grid's plane from root to tip, positive where the tip is higher"),
+        ] {
+            let key = format!("{}_{}", name.replace(' ', "_"), side.name());
+            let quantity = um(of(side, &|of| of.over_grid_mm()[which]), definition);
+            section = section.shown(&key, &format!("{name}, {}", side.name()), quantity);
+        }
+    }
+    section
 }
 
 /// Settings whose errors explain the deviations of tooth 1.

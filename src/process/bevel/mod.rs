@@ -18,6 +18,7 @@ pub mod hits;
 pub mod job;
 pub mod measure;
 pub mod motion;
+pub mod net;
 pub mod operation;
 pub mod pair;
 mod report;

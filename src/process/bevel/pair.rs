@@ -2,7 +2,7 @@
 //! the mounting do to them.
 //!
 //! In: two bevel jobs and how they are mounted. Out: [`RolledBevels`], its findings ([`findings`]), charts
-//! ([`charts`]) and page ([`page`]).
+//! ([`charts`], [`bearing`]) and page ([`page`]).
 //!
 //! Target flanks touch, those that the heads' cones generate: marks of single blades are left out. The law stands in
 //! [`gearcut_core::bevel::contact`]. Concave flanks of the gear, cut by outside blades, run on the pinion's convex
@@ -14,6 +14,7 @@
 //! Road not taken: contact on the cut dexel flanks. Their marks are some hundredths of a micrometre high and say
 //! nothing of the bearing; the deviations of the cut flanks are reported by `gearcut cut`.
 
+pub mod bearing;
 pub mod charts;
 pub mod findings;
 pub mod page;
@@ -136,6 +137,33 @@ impl Running {
         if range_rad > KNOWN_RAD { range_rad } else { 0.0 }
     }
 
+    /// The parabola that lies nearest to the motion error of one pair of teeth while it carries; none where it carries at
+    /// fewer than three places in a row.
+    pub fn parabola(&self) -> Option<Parabola> {
+        let carries = |contact: &Contact| self.carrying.iter().any(|(_, carrying, _)| carrying == contact);
+        let of_pair: Vec<Option<(f64, f64)>> = self
+            .teeth
+            .iter()
+            .map(|(at, met)| met.filter(|(contact, _)| carries(contact)).map(|(_, error_rad)| (*at, error_rad)))
+            .collect();
+        let run = of_pair.split(Option::is_none).max_by_key(|run| run.len())?;
+        let run: Vec<(f64, f64)> = run.iter().flatten().copied().collect();
+        if run.len() < 3 {
+            return None;
+        }
+        let pitch_rad = PER_PITCH as f64 * (run[1].0 - run[0].0);
+        let mean = |value: &dyn Fn(&(f64, f64)) -> f64| run.iter().map(value).sum::<f64>() / run.len() as f64;
+        // Places are even, so that a level, a slope and a bend about their middle are found by themselves.
+        let middle_rad = mean(&|of| of.0);
+        let square = mean(&|of| (of.0 - middle_rad).powi(2));
+        let bend_of = |at: f64| (at - middle_rad).powi(2) - square;
+        let slope = mean(&|of| (of.0 - middle_rad) * of.1) / square;
+        let bend_per_rad = mean(&|of| bend_of(of.0) * of.1) / mean(&|of| bend_of(of.0).powi(2));
+        let level_rad = mean(&|of| of.1) - bend_per_rad * square;
+        let ends_rad = [run[0].0, run[run.len() - 1].0];
+        Some(Parabola { middle_rad, level_rad, slope, bend_per_rad, ends_rad, pitch_rad })
+    }
+
     /// Mean place of the contact of one pair of teeth over a pitch about the middle: along the gear's tooth from the
     /// middle of the face, and height over the pitch cone, mm. Which teeth carry does not enter: conjugate ones all do.
     pub fn center_mm(&self) -> [f64; 2] {
@@ -148,6 +176,34 @@ impl Running {
     /// Contact in the middle of the pitch.
     pub fn middle(&self) -> &Contact {
         &self.carrying[self.carrying.len() / 2].1
+    }
+}
+
+/// A parabola of the motion error over the pinion's angle.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Parabola {
+    middle_rad: f64,
+    level_rad: f64,
+    slope: f64,
+    bend_per_rad: f64,
+    ends_rad: [f64; 2],
+    pitch_rad: f64,
+}
+
+impl Parabola {
+    /// Points of it in a row: the pinion's angle and the error, rad.
+    pub fn points(&self) -> impl Iterator<Item = (f64, f64)> {
+        let (of, [from, to]) = (*self, self.ends_rad);
+        (0..=PER_PITCH).map(move |i| {
+            let at = from + (to - from) * i as f64 / PER_PITCH as f64;
+            let beside = at - of.middle_rad;
+            (at, of.level_rad + of.slope * beside + of.bend_per_rad * beside * beside)
+        })
+    }
+
+    /// How far it falls from its top to half a pitch beside it, rad; negative where the gear runs behind there.
+    pub fn over_pitch_rad(&self) -> f64 {
+        self.bend_per_rad * (0.5 * self.pitch_rad).powi(2)
     }
 }
 

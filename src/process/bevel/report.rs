@@ -9,6 +9,7 @@ use super::findings::whole::{ChipCharts, page_words};
 use super::gear::BevelGear;
 use super::job::BevelJob;
 use super::measure::BevelReport;
+use super::net;
 use crate::findings::{self, Findings};
 use crate::job::rows_z_mm;
 use crate::output::folder::OutputFolder;
@@ -18,7 +19,7 @@ use crate::output::text::{plain, significant};
 use crate::steps;
 use crate::steps::axes;
 use crate::steps::report::facts::table;
-use crate::steps::report::{PageGear, RunWords, files, key_number, machine_errors, record, texture};
+use crate::steps::report::{PageGear, RunWords, files, key_number, machine_errors, record, texture, value_and_unit};
 use crate::steps::view_mesh::{ViewFlank, ViewMesh};
 use gearcut_core::error::Result;
 use gearcut_core::terms::Side;
@@ -45,7 +46,7 @@ pub fn page(
     run: &RunWords,
     folder: &OutputFolder,
 ) -> Result<Page> {
-    let mut sections = vec![deviations(job, gear), slot(gear), blades(found)];
+    let mut sections = vec![deviations(job, gear, found), slot(gear), blades(found)];
     sections.extend(machine_errors::section(found));
     sections.extend(chips(found, charts));
     sections.extend(texture::section(found, folder)?);
@@ -102,8 +103,8 @@ fn mesh(job: &BevelJob, whole: Option<&CutCells>) -> Result<ViewMesh> {
     Ok(ViewMesh { flanks, body: body.unwrap_or_default() })
 }
 
-/// Grid of the flanks with the largest deviations, and lines along profile and tooth.
-fn deviations(job: &BevelJob, gear: &BevelGear) -> PageSection {
+/// The net of the flanks with the largest deviations, what is apart from their form, and lines along the tooth.
+fn deviations(job: &BevelJob, gear: &BevelGear, found: &Findings) -> PageSection {
     let mut blocks = Vec::new();
     for side in [Side::Left, Side::Right] {
         let range = |flank: &BevelReport| {
@@ -113,12 +114,14 @@ fn deviations(job: &BevelJob, gear: &BevelGear) -> PageSection {
         let flanks = gear.flanks.iter().filter(|flank| flank.side == side);
         let Some(worst) = flanks.max_by(|a, b| range(a).total_cmp(&range(b))) else { continue };
         let words = format!("Tooth {}, {} flank ({})", worst.tooth, side.name(), job.kind_of(side).flank());
-        blocks.push(Block::Table(grid_table(worst, job.spec.grid[0], &words)));
+        let title = format!("{words}: deviations over the grid, that of its middle taken away");
+        blocks.extend(net::svg(worst, &title).map(|svg| Block::Drawing(title, svg)));
         blocks.push(Block::Lines(traces(worst, &words)));
     }
+    blocks.insert(0, Block::Table(positions(found)));
     blocks.push(Block::Note(
-        "Grid deviations in µm along the target's normal, positive where material is left; all flanks with points and \
-        normals stand in tables/grid.csv."
+        "Deviations along the target's normal, positive where material is left; dashed the target. All flanks with \
+        points, normals and deviations are in tables/grid.csv."
             .to_owned(),
     ));
     PageSection {
@@ -131,20 +134,19 @@ fn deviations(job: &BevelJob, gear: &BevelGear) -> PageSection {
     }
 }
 
-fn grid_table(flank: &BevelReport, columns: usize, words: &str) -> PageTable {
-    let mut head = vec!["Along the tooth".to_owned()];
-    head.extend((1..=columns).map(|column| match column {
-        1 => "root".to_owned(),
-        _ if column == columns => "tip".to_owned(),
-        _ => column.to_string(),
-    }));
-    let rows = flank.own.grid.chunks(columns).map(|row| {
-        let mut cells = vec![row[0].place[1].to_string()];
-        let um = |mm: f64| significant(if mm.abs() < 1e-9 { 0.0 } else { mm * UM_PER_MM }, 3).replace('-', "−");
-        cells.extend(row.iter().map(|point| point.deviation_mm.map_or_else(|| "–".to_owned(), um)));
-        cells
+/// Thickness, spiral and pressure angle error, means of all teeth.
+fn positions(found: &Findings) -> PageTable {
+    let section = found.find("position");
+    let entries = section.into_iter().flat_map(|section| &section.entries);
+    let rows = entries.map(|entry| {
+        let (value, unit) = value_and_unit(&entry.quantity);
+        vec![entry.title.clone(), format!("{value} {unit}"), entry.quantity.definition().to_owned()]
     });
-    PageTable { caption: format!("{words}: grid, toe first"), columns: head, rows: rows.collect() }
+    PageTable {
+        caption: "Apart from the form, means of all teeth".to_owned(),
+        columns: ["Error", "Value", "Definition"].map(str::to_owned).into(),
+        rows: rows.collect(),
+    }
 }
 
 fn traces(flank: &BevelReport, words: &str) -> LineChart {

@@ -104,6 +104,28 @@ fn a_crowned_pinion_shows_its_bearing_and_how_it_moves() {
     assert!(moved(MountingError::Offset) > 0.1);
 }
 
+/// A parabola with a slope, as errors of one pair of teeth that carries over the middle pitch, comes back with its value
+/// at half a pitch; outside of that pitch the errors may be what they like.
+#[test]
+fn the_parabola_of_a_motion_error_has_its_value() {
+    let rolled = rolled(&jobs(&[]), &MountingErrors::default());
+    let middle = *rolled.sides[0].running.middle();
+    let pitch_rad = 2.0 * PI / 15.0;
+    let angle = |i: usize| pitch_rad * (i as f64 - 20.0) / 20.0;
+    let error = |i: usize| if (10..=30).contains(&i) { 1e-6 + 2e-5 * angle(i) - 3e-4 * angle(i).powi(2) } else { 1e-4 };
+    let contact = |i: usize| Contact { place_mm: [i as f64, 0.0], ..middle };
+    let running = Running {
+        teeth: (0..=40).map(|i| (angle(i), Some((contact(i), error(i))))).collect(),
+        carrying: (10..=30).map(|i| (angle(i), contact(i), error(i))).collect(),
+    };
+    let parabola = running.parabola().expect("21 places");
+    assert!((parabola.over_pitch_rad() / (-3e-4 * (0.5 * pitch_rad).powi(2)) - 1.0).abs() < 1e-9);
+    for (at_rad, error_rad) in parabola.points() {
+        let wanted_rad = 1e-6 + 2e-5 * at_rad - 3e-4 * at_rad.powi(2);
+        assert!((error_rad - wanted_rad).abs() < 1e-12, "{error_rad} for {wanted_rad}");
+    }
+}
+
 /// Flanks that one crown gear generates on blanks with an offset touch it, and each other, in a point: the closed form
 /// of hypoid pairs is an even motion. An offset that is 20 um off is none.
 #[test]
@@ -238,6 +260,9 @@ fn the_command_writes_a_folder_and_refuses_what_is_no_pair() {
     {
         assert!(out.join(file).is_file(), "{file} is missing");
     }
+    // The bearing is filled, and cut off at the flank's outline.
+    let bearing = std::fs::read_to_string(out.join("pictures/bearing_concave.svg")).expect("a drawing");
+    assert!(bearing.contains("<g clip-path=\"url(#flank)\"") && bearing.matches("<polygon").count() > 10, "{bearing}");
     for (arguments, words) in [
         (vec![pinion, gear], "name the gear first, then the pinion"),
         (vec![gear, gear], "the same hand of spiral"),

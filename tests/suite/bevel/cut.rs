@@ -9,6 +9,7 @@ use gearcut::dexel::{FreeRays, Layer};
 use gearcut::passes::SweepPlan;
 use gearcut::process::bevel::BevelJob;
 use gearcut::process::bevel::measure::{self, MarkForm};
+use gearcut::process::bevel::net::{self, Position};
 use gearcut::terms::Side;
 
 const SIDES: [Side; 2] = [Side::Left, Side::Right];
@@ -257,12 +258,28 @@ fn errors_of_settings_are_cut_and_named() {
     for side in SIDES {
         let rays = job.rays(1, side).expect("rays");
         let (layers, _) = job.cut_field(&Cpu::default(), job.space_of(1, side), &rays.field).expect("cuts");
-        let flank = measure::measure(&job, 1, side, &rays, &layers).expect("measured");
+        let mut flank = measure::measure(&job, 1, side, &rays, &layers).expect("measured");
         let explained = measure::explained(&job, &flank).expect("flanks").expect("deviations");
         println!("{side:?}: {:?}", &explained[..2]);
         assert_eq!(explained[0].setting, Setting::RootAngle);
         assert!((explained[0].error.to_degrees() / 0.02 - 1.0).abs() < 0.01);
         // What is left are the marks: some nanometres.
         assert!(explained[0].left_rms_mm < 1e-5 && explained[1].left_rms_mm > 1e-4);
+        // A plane put into the grid comes back as thickness, spiral and pressure angle; a bow adds to none of them.
+        let [shares, along_mm] = flank.own.grid_places.clone();
+        let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;
+        let [x0, y0] = [mean(&along_mm), mean(&shares) * flank.length_mm];
+        let bow = |x: f64| (x - x0).powi(2) - mean(&along_mm.iter().map(|x| (x - x0).powi(2)).collect::<Vec<_>>());
+        for (i, point) in flank.own.grid.iter_mut().enumerate() {
+            let [x, y] = [along_mm[i / shares.len()], shares[i % shares.len()] * flank.length_mm];
+            point.deviation_mm = Some(0.004 + 3e-4 * (x - x0) - 5e-4 * (y - y0) + 1e-5 * bow(x));
+        }
+        let position = Position::of(&flank).expect("all of it was cut");
+        assert!((position.middle_mm - 0.004).abs() < 1e-9 && (position.pressure_rad + 5e-4).abs() < 1e-12);
+        assert!((position.spiral_rad / 3e-4 - 1.0).abs() < 0.05, "{position:?}");
+        let drawn = net::svg(&flank, "tooth 1").expect("all of it was cut");
+        assert_eq!(drawn.matches("<polyline").count(), 2 * (shares.len() + along_mm.len()));
+        flank.own.grid[3].deviation_mm = None;
+        assert!(Position::of(&flank).is_none() && net::svg(&flank, "tooth 1").is_none());
     }
 }

@@ -66,6 +66,16 @@ fn motion_error(side: &RolledSide) -> Quantity {
     )
 }
 
+fn parabola(side: &RolledSide) -> Quantity {
+    Quantity::number_or(
+        side.running.parabola().map(|parabola| ARCSEC_PER_RAD * parabola.over_pitch_rad()),
+        "arcsec",
+        "parabola through the motion error of one pair of teeth while it carries: how far it falls from its top to half a \
+        pitch beside it, negative where the gear runs behind there",
+        "one pair of teeth carries at fewer than three places in a row",
+    )
+}
+
 /// A half axis of the ellipse times a factor; flanks that touch along a line have no long one.
 fn half_axis(contact: &Contact, which: usize, factor: f64, definition: &'static str) -> Quantity {
     match contact.ellipse.map(|ellipse| factor * ellipse.half_axes_mm[which]) {
@@ -112,6 +122,7 @@ fn side(side: &RolledSide) -> Section {
     let middle = side.running.middle();
     Section::new(name, format!("{}{} flanks of the gear", name[..1].to_uppercase(), &name[1..]))
         .with("motion_error", motion_error(side))
+        .with("motion_error_parabola", parabola(side))
         .with("center_along", Quantity::number(along_mm, "mm", format!("mean place over a pitch, {ALONG}")))
         .with("center_height", Quantity::number(height_mm, "mm", format!("mean place over a pitch, {HEIGHT}")))
         .with("half_length", half_axis(middle, 0, 1.0, "long half axis of the ellipse in the middle of a pitch"))

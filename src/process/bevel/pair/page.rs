@@ -1,7 +1,7 @@
 //! The page of a bevel pair: `report.html`.
 
-use super::RolledBevels;
 use super::findings::words;
+use super::{RolledBevels, bearing};
 use crate::findings::{Datum, Findings, Table, Warning, unit};
 use crate::output::line_chart::LineChart;
 use crate::output::report::{Block, Page, PageSection, PageTable};
@@ -12,11 +12,7 @@ use crate::steps::report::quantities;
 use gearcut_core::units::UM_PER_MM;
 
 /// The page.
-pub fn page(jobs: [&BevelJob; 2], rolled: &RolledBevels, found: &Findings, charts: &[(String, LineChart)]) -> Page {
-    let chart = |name: &str| {
-        let found = charts.iter().find(|(own, _)| own == name);
-        found.map(|(_, chart)| Block::Lines(chart.clone()))
-    };
+pub fn page(jobs: [&BevelJob; 2], rolled: &RolledBevels, found: &Findings, motion_error: LineChart) -> Page {
     let quantities_of = |path: &str| found.find(path).map(|section| Block::Table(quantities::table(section)));
     let section = |id: &'static str, title: &str, lead: String, blocks: Vec<Option<Block>>| {
         PageSection::new(id, title, lead, blocks.into_iter().flatten().collect())
@@ -27,7 +23,7 @@ pub fn page(jobs: [&BevelJob; 2], rolled: &RolledBevels, found: &Findings, chart
         "How unevenly the gear turns without load while the pinion turns evenly. At every moment the pair of teeth \
         carries that is ahead."
             .to_owned(),
-        vec![chart("motion_error")],
+        vec![Some(Block::Lines(motion_error))],
     )];
     for (side, id) in rolled.sides.iter().zip(["concave", "convex"]) {
         let name = words(side);
@@ -36,7 +32,11 @@ pub fn page(jobs: [&BevelJob; 2], rolled: &RolledBevels, found: &Findings, chart
             id,
             &format!("Contact on {name} flanks of the gear"),
             format!("Marking: {} µm.", plain(UM_PER_MM * rolled.marking_mm)),
-            vec![chart(&format!("bearing_{name}")), quantities_of(name), trends.map(|table| Block::Table(rows(table)))],
+            vec![
+                Some(Block::Drawing(format!("Bearing on {name} flanks"), bearing::svg(side, rolled.marking_mm))),
+                quantities_of(name),
+                trends.map(|table| Block::Table(rows(table))),
+            ],
         ));
     }
     sections.push(section(
