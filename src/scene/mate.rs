@@ -152,6 +152,8 @@ impl Writer<'_> {
         let stays = |name: &str| match section.path {
             "gear" => OWN_OF_GEAR.contains(&name) || bore(name),
             "output" => name == "folder",
+            // Balls fit the driver's spaces.
+            "measure" => name == "ball_diameter_mm",
             _ => process.of_one_gear.contains(&name),
         };
         // Points that were read from a file stand for the file, which may lie in another folder.

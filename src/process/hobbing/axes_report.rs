@@ -99,15 +99,16 @@ impl AxesOfOperation for HobbingAxesReport<'_> {
 
     /// Feed marks above what is allowed, and a linkage that is for comparison only.
     fn own_warnings(&self) -> Vec<Warning> {
-        let PreparedHobbing { spec, plan, linkage, .. } = self.operation();
+        let PreparedHobbing { spec, linkage, .. } = self.operation();
         let name = &spec.name;
         let mut warnings = Vec::new();
-        if plan.feed_mark_mm > spec.ridge_tolerance_mm {
-            let ratio = (spec.ridge_tolerance_mm / plan.feed_mark_mm).sqrt();
+        let feed_mark_mm = self.job.feed_mark_mm(self.operation());
+        if feed_mark_mm > spec.ridge_tolerance_mm {
+            let ratio = (spec.ridge_tolerance_mm / feed_mark_mm).sqrt();
             warnings.push(Warning::warn(format!(
                 "operation {name}: the feed leaves marks up to {} um high, {} um are allowed (ridge_tolerance_um): \
                 feed at most {} mm per revolution",
-                significant(UM_PER_MM * plan.feed_mark_mm, 3),
+                significant(UM_PER_MM * feed_mark_mm, 3),
                 significant(UM_PER_MM * spec.ridge_tolerance_mm, 3),
                 significant(ratio * spec.axial_feed_mm_per_revolution, 3)
             )));

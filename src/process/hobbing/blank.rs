@@ -36,7 +36,7 @@ impl HobbingJob {
     /// # Errors
     /// A field that does not fit in memory.
     pub fn blank_grid(&self) -> Result<BlankGrid, Refusal> {
-        whole_blank::grid(&self.scene, &self.blank, false)
+        whole_blank::grid(&self.scene, &self.stock, false)
     }
 
     /// The uncut blank at the scene's spacing.
@@ -44,7 +44,7 @@ impl HobbingJob {
     /// # Errors
     /// A field that does not fit in memory.
     pub fn blank_field(&self) -> Result<BlankField, Refusal> {
-        whole_blank::field(&self.scene, &self.blank, false)
+        whole_blank::field(&self.scene, &self.stock, false)
     }
 
     /// The target's section at `z_mm` as a polygon with points `spacing_mm` apart; its error is the arrow height of so
@@ -133,7 +133,7 @@ impl HobCutter<'_> {
     /// # Errors
     /// As [`Self::sections`].
     pub fn some_sections(&self, operation: usize, every: u32, cull: bool) -> Result<SweptSections, Refusal> {
-        let reach_mm = BlankOutline::new(&self.job.blank).reach_mm();
+        let reach_mm = BlankOutline::new(&self.job.stock).reach_mm();
         let passes = &self.operations[operation];
         SweptSections::of_every(every, passes, reach_mm, self.job.scene.gear.face_width_mm, cull)
     }
@@ -153,7 +153,7 @@ impl HobCutter<'_> {
             let space = f64::from(tooth.start) + starts * turns;
             spaces.iter().any(|&of| (space - of as f64).rem_euclid(teeth) == 0.0)
         };
-        let reach_mm = BlankOutline::new(&self.job.blank).reach_mm();
+        let reach_mm = BlankOutline::new(&self.job.stock).reach_mm();
         SweptSections::of_some(goes_through, passes, reach_mm, self.job.scene.gear.face_width_mm, true)
     }
 

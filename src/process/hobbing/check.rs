@@ -3,10 +3,11 @@
 mod cost;
 
 use crate::findings::Warning;
-use crate::output::text::{Sheet, plain};
+use crate::output::text::{Sheet, plain, significant};
 use crate::process::hobbing::axes_report::HobbingAxesReport;
+use crate::process::hobbing::measure::hoffmeister;
 use crate::process::hobbing::warnings::greatest_common_divisor;
-use crate::process::hobbing::{HobCutter, HobbingJob, foreseen};
+use crate::process::hobbing::{HobCutter, HobbingJob, foreseen, foreseen_chips};
 use crate::steps::axes;
 use crate::steps::check_curve::{self, gear_words};
 use crate::steps::flanks_of;
@@ -33,6 +34,7 @@ pub fn print(sheet: &mut Sheet, job: &HobbingJob) -> Result<Vec<Warning>> {
     }
     // Before the cost: a cut does it as well.
     let foreseen = foreseen::foresee(&cutter, &operations)?;
+    print_chips(sheet, &cutter)?;
     cost::print(sheet, &cutter)?;
     foreseen::print(sheet);
     Ok(foreseen.warnings)
@@ -71,6 +73,25 @@ fn print_hob(sheet: &mut Sheet, job: &HobbingJob) {
             }
         },
     );
+}
+
+/// The thickest chip that is known before the cut, and the formula that shops know.
+fn print_chips(sheet: &mut Sheet, cutter: &HobCutter) -> Result<()> {
+    let known = foreseen_chips::of(cutter)?.iter().flatten();
+    let thickest = known.max_by(|a, b| a.thickness_mm.total_cmp(&b.thickness_mm));
+    let formula_mm = hoffmeister::thickest_chip_mm(cutter.job);
+    if thickest.is_some() || formula_mm.is_some() {
+        sheet.heading("Chips");
+    }
+    if let Some(chip) = thickest {
+        let tooth = cutter.job.hob.teeth[chip.tooth].label(cutter.job.hob.starts);
+        let thickness = significant(chip.thickness_mm, 3);
+        sheet.line("thickest chip", format!("{thickness} mm at least, hob tooth {tooth}, middle of the face"));
+    }
+    if let Some(thickness_mm) = formula_mm {
+        sheet.line("by Hoffmeister's formula", format!("{} mm", significant(thickness_mm, 3)));
+    }
+    Ok(())
 }
 
 /// Form points of all flanks in the middle of the face.

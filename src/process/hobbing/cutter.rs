@@ -114,7 +114,7 @@ impl<'a> HobCutter<'a> {
                 let ray = section.ray((i / BLANK_PLACES) as f64 / last as f64);
                 let across = ray.normal.truncate();
                 let (lean, point) = (across.length(), ray.origin_mm.truncate());
-                let exit = job.blank.exit_mm(point, across / lean, point.to_angle(), 0.0, limit_mm);
+                let exit = job.stock.exit_mm(point, across / lean, point.to_angle(), 0.0, limit_mm);
                 (exit / lean).min(limit_mm)
             })
             .collect();

@@ -42,7 +42,7 @@ pub fn of<'a>(cutter: &HobCutter<'a>) -> Result<&'a [Option<ForeseenChip>]> {
 fn find(cutter: &HobCutter) -> Result<Vec<Option<ForeseenChip>>> {
     // Passes of other spaces would cut there as well: through the teeth, or over their tips.
     let as_printed = cutter.job.operations.iter().any(|operation| operation.linkage.law().is_as_printed());
-    if as_printed || cutter.tops_the_gear() {
+    if as_printed || cutter.job.tops_the_gear() {
         return Ok(vec![None; cutter.operations.len()]);
     }
     let spaces: Vec<i64> = spaces(cutter.job.scene.gear.teeth).collect();
@@ -76,7 +76,7 @@ fn field(cutter: &HobCutter, spaces: &[i64]) -> Result<BlankField> {
     let job = cutter.job;
     let grid = job.blank_grid()?;
     let z_mm = slice_z_mm(&grid);
-    let mut field = BlankField::new(BlankGrid { slices_z_mm: vec![z_mm], ..grid }, &BlankOutline::new(&job.blank));
+    let mut field = BlankField::new(BlankGrid { slices_z_mm: vec![z_mm], ..grid }, &BlankOutline::new(&job.stock));
     let half_pitch_mm = 0.5 * std::f64::consts::PI * job.target.rack.transverse_module_mm;
     let wedges: Vec<[DVec2; 2]> = spaces
         .iter()

@@ -188,6 +188,7 @@ impl Hob {
             base_radius_mm,
             axial_tan: alpha.tan() / cos_lead,
             regrind_mm: spec.regrind_mm,
+            relief: None,
         };
         let tip_radius_mm = new_tip_radius_mm - spec.regrind_mm;
         let (segments, flank_end_radius_mm) =
@@ -236,6 +237,12 @@ impl Hob {
     /// Half the thickness of a tooth in its rake face at a distance from the axis: y of the left flank, analytic, mm.
     pub fn half_thickness_mm(&self, radius_mm: f64) -> f64 {
         self.flank.half_and_slope(radius_mm + self.flank.regrind_mm)[0]
+    }
+
+    /// First and second derivative of that half thickness over the distance from the axis, 1 and 1/mm.
+    pub fn flank_slope_and_bend(&self, radius_mm: f64) -> [f64; 2] {
+        let new_mm = radius_mm + self.flank.regrind_mm;
+        [self.flank.half_and_slope(new_mm)[1], self.flank.bend_per_mm(new_mm)]
     }
 
     /// Distance between teeth that follow each other along a thread, along the axis, mm.

@@ -9,7 +9,7 @@ use crate::material::CuttingForce;
 use crate::process::hobbing::Hob;
 use crate::process::hobbing::actual::ActualHobbing;
 use crate::process::hobbing::kept::{self, Kept, KeptTargets};
-use crate::process::hobbing::linkage::{FeedPlan, HobbingGeometry, HobbingLaw, HobbingLinkage};
+use crate::process::hobbing::linkage::{FeedPlan, HobbingGeometry, HobbingLaw, HobbingLinkage, feed_marks};
 use crate::process::hobbing::rack_generation::{Rack, RackGeneration};
 use crate::process::hobbing::scene::model::{
     self, EvenMotion, ExtraRotation, Hobbing, HobbingAxisLimits, HobbingKind, HobbingOperation, LinkageForm,
@@ -19,6 +19,7 @@ use crate::scene::model::Gear;
 use gearcut_core::error::{Refusal, Result};
 use gearcut_core::gear::PitchCurve;
 use gearcut_core::gear::blank::Blank;
+use gearcut_core::terms::Side;
 use gearcut_core::units::TURN_RAD;
 use std::f64::consts::PI;
 use std::sync::{Arc, OnceLock};
@@ -63,6 +64,8 @@ pub struct HobbingJob {
     /// The hob.
     pub hob: Hob,
     /// The stock.
+    pub stock: Blank,
+    /// The outline that the target's tips lie on: the stock's, or lower where the hob's roots top the gear.
     pub blank: Blank,
     /// Operations in order; the last one finishes.
     pub operations: Vec<PreparedHobbing>,
@@ -94,7 +97,7 @@ impl HobbingJob {
         };
         let curve = Arc::new(PitchCurve::new(&gear.pitch_curve, gear.transverse_module_mm(), gear.teeth)?);
         let hob = Hob::new(tool, gear.module_mm, gear.pressure_angle_rad)?;
-        let blank = gear.blank(curve.clone())?;
+        let stock = gear.blank(curve.clone())?;
         // A hob pulled back by d leaves teeth 2 d tan(alpha_t) thicker on the pitch curve: by x m and the allowance.
         let shift_mm = gear.profile_shift_coefficient * gear.module_mm;
         let allowance_mm =
@@ -114,6 +117,10 @@ impl HobbingJob {
         }
         let finishing_mm = operations.last().map_or(0.0, |operation| operation.offset_mm);
         let rack = rack(gear, &hob, tool.tip_radius_mm, tool.thinning_mm).pulled_back(finishing_mm);
+        // The roots of the hob's teeth lie on a line that rolls along over the pitch curve, as its tips' does under it.
+        let deepest_mm = operations.iter().map(|operation| operation.offset_mm).fold(f64::INFINITY, f64::min);
+        let mut blank = stock.clone();
+        blank.addendum_mm = stock.addendum_mm.min(tool.dedendum_coefficient * gear.module_mm + deepest_mm);
         let target = RackGeneration { curve: curve.clone(), rack };
         Ok(Self {
             scene: scene.clone(),
@@ -124,6 +131,7 @@ impl HobbingJob {
             material: *material,
             curve,
             hob,
+            stock,
             blank,
             operations,
             target,
@@ -145,6 +153,11 @@ impl HobbingJob {
         Ok(job)
     }
 
+    /// Whether the hob's roots cut the tips, so that the blank's outline is not the gear's.
+    pub fn tops_the_gear(&self) -> bool {
+        self.blank.addendum_mm < self.stock.addendum_mm
+    }
+
     /// The finishing operation.
     pub fn finishing(&self) -> &PreparedHobbing {
         self.operations.last().expect("a checked scene has at least one operation")
@@ -163,6 +176,29 @@ impl HobbingJob {
         let operations = || self.operations.iter().map(|of| (of.spec.name.as_str(), &of.linkage, &of.actual));
         let make = || Kept::new(&self.hob, operations());
         self.kept.get_or_init(make).as_ref().map_err(Clone::clone)
+    }
+
+    /// Height of the highest ridge that the slide's feed leaves in an operation, mm: at the pitch line or at the tip, on
+    /// either flank, where the pitch curve bends most or least ([`feed_marks`]).
+    pub fn feed_mark_mm(&self, operation: &PreparedHobbing) -> f64 {
+        let facts = self.curve.facts();
+        let feed_mm = operation.plan.slide_feeds_mm.into_iter().fold(0.0, f64::max);
+        let mut highest_mm = 0.0_f64;
+        for side in [Side::Left, Side::Right].map(Side::sign) {
+            for extremum in [facts.smallest_curvature, facts.largest_curvature] {
+                for height_mm in [0.0, self.blank.addendum_mm] {
+                    let contact = feed_marks::Contact {
+                        side,
+                        pressure_angle_rad: self.scene.gear.pressure_angle_rad,
+                        curvature_per_mm: extremum.curvature_per_mm,
+                        height_mm,
+                    };
+                    let geometry = operation.linkage.geometry();
+                    highest_mm = highest_mm.max(feed_marks::ridge_mm(&self.hob, geometry, &contact, feed_mm));
+                }
+            }
+        }
+        highest_mm
     }
 
     /// Height of the generating marks at the pitch line where the curve bends by `curvature_per_mm`: consecutive gashes

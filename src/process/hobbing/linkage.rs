@@ -36,6 +36,7 @@ use gearcut_core::math::Jet;
 use gearcut_core::math::newton::{EVERYWHERE, LastStep, newton_within};
 
 pub mod dynamics;
+pub mod feed_marks;
 mod feed_piece;
 mod geometry;
 pub mod marks;

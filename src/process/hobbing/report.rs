@@ -11,7 +11,7 @@ use crate::output::line_chart::LineChart;
 use crate::output::report::{Block, Page, PageSection, PageTable};
 use crate::output::text::{plain, significant};
 use crate::process::hobbing::axes_report::HobbingAxesReport;
-use crate::process::hobbing::{HobCutter, HobbedGear};
+use crate::process::hobbing::{HobCutter, HobbedGear, HobbingJob};
 use crate::steps;
 use crate::steps::axes;
 use crate::steps::report::deviations;
@@ -19,6 +19,7 @@ use crate::steps::report::deviations::{Inspection, InspectionWords};
 use crate::steps::report::{PageGear, RunWords, blank, files, key_number, machine_errors, record, texture};
 use crate::steps::view_mesh::ViewMesh;
 use gearcut_core::error::Result;
+use gearcut_core::units::UM_PER_MM;
 use std::f64::consts::PI;
 
 /// Charts that are files of their own as well.
@@ -47,12 +48,12 @@ pub fn page(
     folder: &OutputFolder,
 ) -> Result<Page> {
     let job = cutter.job;
-    let mut sections = vec![deviations::section(charts.inspection)];
-    sections.extend(machine_errors::section(found));
-    sections.extend(charts.points.map(five_curves));
-    sections.push(marks_section(found));
-    sections.extend(texture::section(found, folder)?);
+    let mut deviations = deviations::section(charts.inspection);
+    deviations.blocks.push(Block::Note(probe_words(job)));
+    let mut sections = vec![deviations];
     sections.extend(load_section(found, charts.loads, charts.forces));
+    sections.extend(machine_errors::section(found));
+    sections.extend(texture::section(found, folder)?);
     sections.extend(blank::section(found));
     sections.push(axes::section(
         motion,
@@ -61,6 +62,8 @@ pub fn page(
         "Accelerations, feed path",
     ));
     sections.push(facts::section(job, found));
+    sections.push(marks_section(found));
+    sections.extend(charts.points.map(five_curves));
     sections.push(files::section(folder)?);
     sections.push(record(gear.flanks.len(), &gear.work, run));
     let operation = |operation: &findings::Section| {
@@ -93,14 +96,26 @@ pub fn inspection<'a>(cutter: &HobCutter, gear: &'a HobbedGear, verdict: &'a Gea
     Inspection::new(&gear.flanks, &gear.inspection, standard_mm, words, verdict)
 }
 
+/// What feed marks alone make of the runout.
+fn probe_words(job: &HobbingJob) -> String {
+    let feed_um = UM_PER_MM * job.feed_mark_mm(job.finishing());
+    format!(
+        "Runout of a perfect machine is feed marks: the probe meets a flank on a crest or in a valley, up to {} µm apart, \
+        and goes in by that over sin αn, up to {} µm. A ball of 2 mm on a measuring machine does the same: the valleys \
+        of a feed are far wider than it. A finer feed lowers both with its square.",
+        significant(feed_um, 3),
+        significant(feed_um / job.scene.gear.pressure_angle_rad.sin(), 3)
+    )
+}
+
 fn five_curves(chart: LineChart) -> PageSection {
     PageSection {
         id: "curves",
         title: "Points on five curves".to_owned(),
         lead: "Where five curves beside the pitch curve cross every flank in the middle of the face, as cut less as \
-            meant, as Liu et al. (2015) measured their gear. Every point stands in tables/offset_curves.csv."
+            meant, as Liu et al. (2015) measured their gear. Every point is in tables/offset_curves.csv."
             .to_owned(),
-        blocks: vec![Block::Lines(chart)],
+        blocks: vec![Block::Folded("Errors of all points".to_owned(), vec![Block::Lines(chart)])],
     }
 }
 
@@ -140,11 +155,14 @@ fn marks_section(found: &Findings) -> PageSection {
             "The shortest two steps from mark to mark on the flank at the pitch line: from the machine's motion, and \
             independently from the autocorrelation of the heights as cut."
                 .to_owned(),
-        blocks: vec![Block::Table(PageTable {
-            caption: "Lattice of cutting marks".to_owned(),
-            columns: columns.map(str::to_owned).into(),
-            rows: rows.collect(),
-        })],
+        blocks: vec![Block::Folded(
+            "Lattice of cutting marks".to_owned(),
+            vec![Block::Table(PageTable {
+                caption: "Lattice of cutting marks".to_owned(),
+                columns: columns.map(str::to_owned).into(),
+                rows: rows.collect(),
+            })],
+        )],
     }
 }
 

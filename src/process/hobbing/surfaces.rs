@@ -12,6 +12,7 @@ use crate::job::{
 };
 use crate::measure::round_gear::{RoundGear, ToothEnds, is_round};
 use crate::process::hobbing::cutter::HobCutter;
+use crate::process::hobbing::linkage::marks::Marks;
 use crate::process::hobbing::measure::flank_report;
 use crate::process::hobbing::rack_root::RackRootPoint;
 use crate::scene::Scene;
@@ -52,6 +53,19 @@ impl GearJob for HobCutter<'_> {
 
     fn marks_follow_along_tooth(&self, _operation: usize) -> bool {
         true // every hob tooth cuts a facet that ends along the tooth, too
+    }
+
+    /// Next to each other stand what two gashes leave at the pitch line and what one hob tooth leaves in two turns of the
+    /// work; where the shift crosses the profile, the feed still is the period along the tooth.
+    fn mark_spacing_mm(&self) -> Option<[f64; 2]> {
+        let job = self.job;
+        let operation = job.finishing();
+        let side = Side::Left;
+        let marks = Marks { linkage: &operation.linkage, target: &job.target, hob: &job.hob, side };
+        let (gash, space, _) = marks.nearest(1, job.scene.gear.teeth, 0.0);
+        let roll_mm = marks.to_next_gash(gash, space).x.abs();
+        let feed_mm = operation.plan.slide_feeds_mm.into_iter().fold(0.0, f64::max);
+        Some([roll_mm * job.target.rack.pressure_angle_rad.sin(), feed_mm])
     }
 
     fn profile_length_mm(&self, tooth: u32, side: Side) -> Result<f64> {
@@ -117,7 +131,8 @@ impl CylindricalGear for HobCutter<'_> {
         let involute_mm = [form_mm, self.job.blank.addendum_mm].map(diameter_mm);
         let root_mm = diameter_mm(-rack.tip_height_mm);
         let thickness_mm = PI * rack.transverse_module_mm - 2.0 * rack.half_thickness_mm;
-        Ok(Some(RoundGear::new(gear, ToothEnds { root_mm, involute_mm }, thickness_mm)))
+        let round = RoundGear::new(gear, ToothEnds { root_mm, involute_mm }, thickness_mm);
+        Ok(Some(RoundGear { tip_diameter_mm: involute_mm[1], ..round }))
     }
 
     fn view_rows_z_mm(&self) -> Vec<f64> {
@@ -192,13 +207,15 @@ impl CylindricalGear for HobCutter<'_> {
         let field = self.field(count as usize, &rows_z_mm, |column, row| {
             let [from, to] = ends[row];
             let frame = job.curve.frame(job.curve.phi_at_arc(from + (to - from) * share(column)));
-            (frame.point_mm, frame.normal, job.blank.addendum_mm)
+            (frame.point_mm, frame.normal, job.stock.addendum_mm)
         });
         let [from, to] = ends[ends.len() / 2];
         let arcs_mm = (0..count as usize).map(|column| (to - from) * share(column)).collect();
         let rays = PlacedRays { field, arcs_mm, rows_z_mm };
         let spacing_mm = job.scene.output.mesh_spacing_mm;
-        if self.tops_the_gear() {
+        // A hob whose roots stay outside of the blank has no edge that reaches a tip land: roots come nearest where
+        // they pass the pitch point.
+        if job.tops_the_gear() {
             return self.surface(backend, &rays, spacing_mm).map(Some);
         }
         Ok(Some(SurfaceGrid::new(&rays, &[rays.field.blank_layer()], spacing_mm)))
@@ -243,14 +260,6 @@ impl HobCutter<'_> {
         });
         let arcs_mm = roots[roots.len() / 2].iter().map(|point| point.arc_mm).collect();
         Ok(PlacedRays { field, arcs_mm, rows_z_mm: rows_z_mm.to_vec() })
-    }
-
-    /// Whether the hob's roots come down to the blank's outline at full depth. If they do not, no edge reaches a tip
-    /// land: it is highest over the hob where it passes the pitch point.
-    pub fn tops_the_gear(&self) -> bool {
-        let dedendum = self.job.hob_spec.dedendum_coefficient;
-        let deepest_mm = self.job.operations.iter().map(|o| o.offset_mm).fold(f64::INFINITY, f64::min);
-        dedendum * self.job.scene.gear.module_mm + deepest_mm <= self.job.blank.addendum_mm
     }
 
     /// Root of the space after tooth `space` in every section.

@@ -35,10 +35,18 @@ pub fn before(cutter: &HobCutter, motion: &[HobbingAxesReport]) -> Result<Vec<Wa
     let mut warnings = check_curve::warnings(&job.curve, &job.scene.gear);
     let sentences = hunting(job).into_iter().chain(of_operations(job)).chain(undercut(cutter)?);
     warnings.extend(sentences.map(Warning::warn));
+    warnings.extend(topped(job));
     if job.hob_spec.protuberance.is_some() {
         warnings.push(Warning::note(
             "the target knows no protuberance: the relief that it leaves at the roots is reported as a cut below the \
              target and as gouges",
+        ));
+    }
+    if !job.hob_spec.tip_reliefs.is_empty() {
+        warnings.push(Warning::note(
+            "the target is the involute up to the tip: what tip relief and semi-topping of the hob take off there is \
+             reported as deviation and as a cut below the target; measure.profile_end_height_mm ends the evaluation \
+             below it",
         ));
     }
     warnings.extend(foreseen_thick_chips(cutter)?);
@@ -123,6 +131,19 @@ fn of_operations(job: &HobbingJob) -> Vec<String> {
     told
 }
 
+/// A hob whose roots cut the gear's tips.
+fn topped(job: &HobbingJob) -> Option<Warning> {
+    let [tip_mm, stock_mm] = [&job.blank, &job.stock].map(|of| of.addendum_mm);
+    job.tops_the_gear().then(|| {
+        Warning::note(format!(
+            "the hob tops the gear: its roots leave the tips {} mm over the pitch curve, {} mm under the blank's \
+             outline; a larger tool.hob.dedendum_coefficient leaves the blank's own tips",
+            significant(tip_mm, 4),
+            significant(stock_mm - tip_mm, 3)
+        ))
+    })
+}
+
 /// Teeth whose involute the hob's tip corner cuts away in the middle of the face.
 fn undercut(cutter: &HobCutter) -> Result<Option<String>> {
     let of = |(tooth, side)| Ok(cutter.target(tooth, side)?.middle_form.undercut.then_some(tooth));
@@ -205,9 +226,9 @@ fn thick_chip(job: &HobbingJob, operation: &PreparedHobbing, tooth: usize, what:
     ))
 }
 
-/// Cuts below the target; what a protuberance takes there it is made to take.
+/// Cuts below the target; what a protuberance, tip relief or semi-topping takes there it is made to take.
 fn damaged(job: &HobbingJob, report: &HobbedBlankReport) -> Vec<Warning> {
-    if job.hob_spec.protuberance.is_some() {
+    if job.hob_spec.protuberance.is_some() || !job.hob_spec.tip_reliefs.is_empty() {
         return Vec::new();
     }
     let by =

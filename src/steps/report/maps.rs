@@ -4,8 +4,10 @@ use crate::job::GearJob;
 use crate::output::flank_maps::FlankMaps;
 use crate::output::grid::MapGrid;
 use crate::output::report::viewer::{Thinning, Viewer, ViewerFlank, ViewerQuantity};
-use crate::steps::gear_maps::{GearMaps, finished_heights_um, um};
+use crate::output::text::significant;
+use crate::steps::gear_maps::{GearMaps, deviations_um, finished_heights_um, um};
 use crate::steps::map_operations;
+use crate::steps::report::averaged::averaged;
 use crate::steps::view_mesh::{ViewFlank, ViewMesh};
 
 /// What the view shows in grey.
@@ -36,6 +38,13 @@ pub fn viewer_flank(flank: ViewFlank, grid: Option<MapGrid>) -> ViewerFlank {
     }
 }
 
+/// Deviations of the finished surface averaged over one mark, µm.
+fn without_marks_um(map: &FlankMaps, spacing_mm: [f64; 2]) -> Vec<f32> {
+    let axes = [&map.grid.u, &map.grid.v];
+    let cells = [0, 1].map(|k| spacing_mm[k] / axes[k].step_mm);
+    um(&averaged(map.deviation_mm(), axes.map(|axis| axis.count), cells))
+}
+
 fn quantities(job: &dyn GearJob, maps: &GearMaps) -> Vec<ViewerQuantity> {
     let operations = map_operations(job);
     let last = operations.len() - 1;
@@ -61,11 +70,28 @@ fn quantities(job: &dyn GearJob, maps: &GearMaps) -> Vec<ViewerQuantity> {
         .collect();
     // The last of the earlier operations is what finishing meets: it comes first.
     quantities.reverse();
+    quantities.extend(job.mark_spacing_mm().map(|spacing_mm| {
+        let values: Vec<Vec<f32>> = over(&|map| without_marks_um(map, spacing_mm));
+        let [mark, feed] = spacing_mm.map(|mm| significant(mm, 3));
+        ViewerQuantity {
+            name: format!("Deviation after {finishing}, marks averaged"),
+            definition: format!(
+                "Mean normal deviation over one generating mark along the profile, {mark} mm, and one feed along the \
+                 tooth, {feed} mm: form and position without the marks, which lie half their height over it. Red: \
+                 material left; blue: cut too deep. {GREY}"
+            ),
+            unit: "µm".to_owned(),
+            scale: deviations_um(values.iter().map(Vec::as_slice)),
+            thinning: Thinning::Mean,
+            evaluated_mm: evaluated_mm(last),
+            values,
+        }
+    }));
     quantities.push(ViewerQuantity {
         name: format!("Deviation after {finishing}"),
         definition: format!(
-            "Mean normal deviation of each cell: what remains when the feed marks are averaged. Red: material left; \
-             blue: cut too deep. {GREY}"
+            "Mean normal deviation of each cell; marks wider than a cell are seen. Red: material left; blue: cut too \
+             deep. {GREY}"
         ),
         unit: "µm".to_owned(),
         scale: maps.deviation_scale,

@@ -1,5 +1,6 @@
 //! Parts of the report's page that all processes share.
 
+mod averaged;
 pub mod blank;
 pub mod deviations;
 pub mod facts;
@@ -65,7 +66,9 @@ pub fn page(
 
 /// Number and unit as they are read best.
 pub fn value_and_unit(quantity: &Quantity) -> (String, String) {
-    let Some(value) = quantity.value() else { return ("–".to_owned(), String::new()) };
+    let Some(value) = quantity.value() else {
+        return (quantity.words().map_or_else(|| "–".to_owned(), |words| words.replace(" um", " µm")), String::new());
+    };
     let text = |value: f64, digits| significant(value, digits).replace('-', "−");
     match quantity.unit().unwrap_or("") {
         "1" => (format!("{:.1}", 100.0 * value).replace('-', "−"), "%".to_owned()),

@@ -328,7 +328,7 @@ mod slow {
             // No end that a pass left lies under the target; near the pitch curve none lies higher over it than feed
             // and generating marks together. (A sharp hob corner leaves higher cusps in fillets.)
             let sharpest = job.curve.facts().curvature_extrema.iter().map(|e| e.curvature_per_mm).fold(0.0, f64::max);
-            let marks_um = 1e3 * (job.finishing().plan.feed_mark_mm + job.generating_mark_mm(sharpest));
+            let marks_um = 1e3 * (job.feed_mark_mm(job.finishing()) + job.generating_mark_mm(sharpest));
             let (mut lowest_um, mut highest_um, mut ends) = (f64::INFINITY, 0.0_f64, 0);
             let grid = &blank.cut.field.grid;
             for (slice, &z_mm) in blank.cut.field.slices.iter().zip(&grid.slices_z_mm) {

@@ -271,12 +271,12 @@ mod slow {
             let lowest = heights.iter().copied().fold(f64::INFINITY, f64::min);
             let highest = heights.iter().copied().fold(0.0, f64::max);
             println!("{direction}: {:.4} to {:.4} um", 1e3 * lowest, 1e3 * highest);
-            (lowest, highest, job.finishing().plan.feed_mark_mm)
+            (lowest, highest, job.feed_mark_mm(job.finishing()))
         };
         let [climb, conventional] = ["climb", "conventional"].map(highest);
         assert!(climb.0 > -1e-6 && conventional.0 > -1e-6);
         assert!((climb.1 / conventional.1 - 1.0).abs() < 0.05);
-        // Feed marks as their closed form, at the smallest contact radius, generating marks on top.
+        // Feed marks as their closed form, at the tip, generating marks on top.
         assert!(climb.1 > 0.9 * climb.2 && climb.1 < 1.3 * climb.2 && climb.2 == conventional.2);
     }
 }

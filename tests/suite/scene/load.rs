@@ -416,6 +416,11 @@ fn shortest(template: &str) -> String {
     for line in template.lines() {
         if line.starts_with('[') {
             header = line;
+            // The tool says which process it is, even where none of its keys must be written.
+            if line.starts_with("[tool.") && line.matches('.').count() == 1 {
+                out.extend([header, "\n"]);
+                header = "";
+            }
         } else if !line.starts_with('#') && (line.ends_with("; required") || line.ends_with("; one of the two")) {
             // The header of a section stands before the first key that must be written.
             if !header.is_empty() {

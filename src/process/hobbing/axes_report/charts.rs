@@ -100,7 +100,7 @@ fn path(operation: &PreparedHobbing) -> Vec<Panel> {
 pub(super) fn work_of_teeth(job: &HobbingJob, operation: &PreparedHobbing) -> Result<BarChart, NotConverged> {
     let module_mm = job.scene.gear.module_mm;
     let depth_mm = job.hob.tip_radius_mm - job.hob.pitch_radius_mm;
-    let grid = [depth_mm, job.blank.addendum_mm, ENGAGEMENT_MODULES * module_mm];
+    let grid = [depth_mm, job.stock.addendum_mm, ENGAGEMENT_MODULES * module_mm];
     let work = Engagement::of_space(&operation.linkage, &job.target, &job.hob, 0, 0.0, grid)?;
     let numbered = job.hob.teeth.iter().filter(|tooth| tooth.start == 0);
     let (categories, values) =

@@ -45,7 +45,7 @@ pub(super) fn print(axes: &HobbingAxesReport, sheet: &mut Sheet) {
     let cycles = linkage.end_s() / linkage.cycle_s();
     sheet.line("time", format!("{}{idle}; {cycles:.2} cycles along the pitch curve", duration_text(linkage.end_s())));
     sheet.line("passes", format!("{:.0} of hob teeth", job.passes(operation)));
-    sheet.line("feed marks", format!("up to {} um high", significant(UM_PER_MM * plan.feed_mark_mm, 3)));
+    sheet.line("feed marks", format!("up to {} um high", significant(UM_PER_MM * job.feed_mark_mm(operation), 3)));
     let facts = job.curve.facts();
     let [flat, sharp] = [facts.smallest_curvature, facts.largest_curvature]
         .map(|extremum| significant(UM_PER_MM * job.generating_mark_mm(extremum.curvature_per_mm), 3));

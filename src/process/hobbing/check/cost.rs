@@ -207,5 +207,5 @@ fn blank_cost(cutter: &HobCutter, machine: ComputerSpeed) -> Result<BlankCost> {
         significant(1e-6 * ray_passes, 3)
     );
     let seconds = machine.factor() * (sections * BLANK_S_PER_SECTION + ray_passes * BLANK_S_PER_RAY_PASS);
-    Ok(BlankCost { crossings, bytes: grid.estimated_bytes(&cutter.job.blank), grid, seconds })
+    Ok(BlankCost { crossings, bytes: grid.estimated_bytes(&cutter.job.stock), grid, seconds })
 }

@@ -79,7 +79,7 @@ impl ContactZone {
         let tip_mm = job.hob.tip_radius_mm - job.hob.pitch_radius_mm;
         let points_mm = [-along_mm, 0.0, along_mm]
             .into_iter()
-            .flat_map(|along| [-tip_mm, job.blank.addendum_mm].map(|y| along * geometry.hob_axis() + y * DVec3::Y))
+            .flat_map(|along| [-tip_mm, job.stock.addendum_mm].map(|y| along * geometry.hob_axis() + y * DVec3::Y))
             .collect();
         Self { geometry, points_mm }
     }
@@ -109,7 +109,7 @@ pub(super) fn shortest_block_s(job: &HobbingJob, linkage: &HobbingLinkage) -> f6
 
 /// Digits of lengths and angles: angles count at the largest distance from an axis of rotation that matters.
 pub(super) fn digits(job: &HobbingJob, contour_error_mm: f64) -> Digits {
-    let reach_mm = (job.curve.facts().largest_radius_mm + job.blank.addendum_mm).max(job.hob.tip_radius_mm);
+    let reach_mm = (job.curve.facts().largest_radius_mm + job.stock.addendum_mm).max(job.hob.tip_radius_mm);
     job.scene.output.post.digits(contour_error_mm, reach_mm)
 }
 

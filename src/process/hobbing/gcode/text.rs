@@ -139,5 +139,5 @@ pub fn program_numbers(operation: usize) -> [u32; 2] {
 /// Place of the hob's pitch plane at which it is clear of the blank, however that is turned.
 fn clear_mm(job: &HobbingJob) -> f64 {
     let tip_mm = job.hob.tip_radius_mm - job.hob.pitch_radius_mm;
-    (job.curve.facts().largest_radius_mm + job.blank.addendum_mm + tip_mm + CLEAR_MM).ceil()
+    (job.curve.facts().largest_radius_mm + job.stock.addendum_mm + tip_mm + CLEAR_MM).ceil()
 }

@@ -32,6 +32,17 @@ pub(super) struct RakeFlank {
     pub base_radius_mm: f64,
     pub axial_tan: f64,
     pub regrind_mm: f64,
+    /// How far this part of the flank stands out of its line.
+    pub relief: Option<Relief>,
+}
+
+/// A part of a flank that stands out of its line: distance from the axis at which it begins (new hob), what it stands out
+/// by there, and how much more per length towards the axis; in the axial section.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Relief {
+    from_mm: f64,
+    aside_mm: f64,
+    slope: f64,
 }
 
 impl RakeFlank {
@@ -46,7 +57,20 @@ impl RakeFlank {
             }
             Worm::StraightSided => [(radius_mm - self.reference_radius_mm) * self.axial_tan, self.axial_tan],
         };
-        [self.scale * (self.half_mm - drop), -self.scale * slope]
+        let [out, more] =
+            self.relief.map_or([0.0, 0.0], |of| [of.aside_mm + of.slope * (of.from_mm - radius_mm), of.slope]);
+        [self.scale * (self.half_mm - drop + out), -self.scale * (slope + more)]
+    }
+
+    /// Second derivative of the half thickness at a radius of the new hob, 1/mm.
+    pub fn bend_per_mm(&self, radius_mm: f64) -> f64 {
+        match self.worm {
+            Worm::Involute => {
+                let u = ((radius_mm / self.base_radius_mm).powi(2) - 1.0).sqrt();
+                -self.scale * self.parameter_mm_per_rad / (u * radius_mm * radius_mm)
+            }
+            Worm::StraightSided => 0.0,
+        }
     }
 
     /// Unit normal out of the tooth.
@@ -144,9 +168,13 @@ pub(super) fn tooth_edge(
     if let Some((start_mm, half, _)) = protuberance {
         left_half.push(Segment::straight(SegmentName::CornerLeft, drop(touch), drop(DVec2::new(start_mm, half))));
     }
-    let flank_range = [flank_end_mm, root_mm];
-    left_half.push(Segment::curve(SegmentName::FlankLeft, flank, flank_range).map_err(no_fit)?);
-    let root = DVec2::new(root_mm, flank.half_and_slope(root_mm)[0]);
+    let parts = flank_parts(spec, flank, [flank_end_mm, root_mm], cos_lead)?;
+    for (index, (part, from_mm)) in parts.iter().enumerate() {
+        let to_mm = parts.get(index + 1).map_or(root_mm, |(_, from_mm)| *from_mm);
+        left_half.push(Segment::curve(SegmentName::FlankLeft, part, [*from_mm, to_mm]).map_err(no_fit)?);
+    }
+    let at_root = parts.last().map_or(flank, |(part, _)| part);
+    let root = DVec2::new(root_mm, at_root.half_and_slope(root_mm)[0]);
     if root.y < 0.5 * pitch_mm {
         let middle = DVec2::new(root_mm, 0.5 * pitch_mm);
         left_half.push(Segment::straight(SegmentName::RootLeft, drop(root), drop(middle)));
@@ -157,4 +185,37 @@ pub(super) fn tooth_edge(
     segments.push(tip);
     segments.extend(left_half);
     Ok((segments, flank_end_mm - flank.regrind_mm))
+}
+
+/// The flank and its parts that relieve or chamfer the gear's tips, each with the distance from the axis (new hob) from
+/// which on it goes towards the root.
+fn flank_parts(
+    spec: &model::HobSpec,
+    flank: &RakeFlank,
+    [flank_end_mm, root_mm]: [f64; 2],
+    cos_lead: f64,
+) -> Result<Vec<(RakeFlank, f64)>, Refusal> {
+    let mut parts = vec![(flank.clone(), flank_end_mm)];
+    let mut before: Option<Relief> = None;
+    for relief in &spec.tip_reliefs {
+        let from_mm = flank.reference_radius_mm - relief.height_mm;
+        if from_mm <= root_mm || from_mm >= flank_end_mm {
+            return Err(Refusal::new(
+                "tool.hob",
+                format!(
+                    "tip relief or semi-topping begins {:.3} mm over the pitch line; the flank goes from {:.3} mm under \
+                     it to {:.3} mm over it",
+                    relief.height_mm,
+                    flank_end_mm - flank.reference_radius_mm,
+                    flank.reference_radius_mm - root_mm
+                ),
+                "begin it on the flank, or use a larger dedendum_coefficient",
+            ));
+        }
+        let aside_mm = before.map_or(0.0, |of| of.aside_mm + of.slope * (of.from_mm - from_mm));
+        let part = Relief { from_mm, aside_mm, slope: relief.slope / cos_lead };
+        parts.push((RakeFlank { relief: Some(part), ..flank.clone() }, from_mm));
+        before = Some(part);
+    }
+    Ok(parts)
 }

@@ -44,14 +44,6 @@ pub struct FeedPlan {
     pub idle_s: f64,
     /// Number of shift strokes begun; 1 without a shift.
     pub shift_strokes: u32,
-    /// Height of the feed marks, largest, mm: f^2 sin(alpha_n) / (8 R) with f = feed / cos(g) and R the smallest
-    /// contact radius of the hob.
-    pub feed_mark_mm: f64,
-}
-
-/// Feed mark of a cylinder of radius R: f^2 sin(alpha_n) / (8 R), normal to the flank, mm.
-pub fn feed_mark_mm(feed_mm: f64, head_angle_rad: f64, pressure_angle_rad: f64, contact_radius_mm: f64) -> f64 {
-    (feed_mm / head_angle_rad.cos()).powi(2) * pressure_angle_rad.sin() / (8.0 * contact_radius_mm)
 }
 
 impl FeedPlan {
@@ -127,7 +119,6 @@ impl FeedPlan {
             slide_feeds_mm: [feed_mm, feed_mm],
             idle_s: 0.0,
             shift_strokes: 1,
-            feed_mark_mm: 0.0,
         };
         match operation.kind {
             HobbingKind::Plain { .. } => {
@@ -148,9 +139,6 @@ impl FeedPlan {
                 plan.diagonal(operation, &cut)?;
             }
         }
-        let largest_mm = plan.slide_feeds_mm[0].max(plan.slide_feeds_mm[1]);
-        let contact_radius_mm = hob.pitch_radius_mm - gear_addendum_mm;
-        plan.feed_mark_mm = feed_mark_mm(largest_mm, tilt, gear.pressure_angle_rad, contact_radius_mm);
         Ok(plan)
     }
 

@@ -22,6 +22,7 @@ fn hob(hand: Hand) -> Hob {
         worm: Worm::Involute,
         tip_radius_mm: 0.0,
         protuberance: None,
+        tip_reliefs: Vec::new(),
         thinning_mm: 0.0,
         regrind_mm: 0.0,
         mounting: crate::machine_errors::ToolMounting::default(),

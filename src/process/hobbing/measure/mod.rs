@@ -5,5 +5,6 @@ pub mod engagement;
 pub mod flank_report;
 pub mod hob_force;
 pub mod hob_load;
+pub mod hoffmeister;
 pub mod marks;
 pub mod offset_curves;

@@ -5,7 +5,8 @@
 //! them the frequencies of their errors with the fitted normal distribution.
 //!
 //! The curves run along the pitch curve at constant distances, at 3 and 6 mm to both sides on the paper's gear of
-//! module 8; here at the same shares of the normal module. Where the tip corner has undercut a flank, the target is the
+//! module 8; here at the same shares of the normal module, or lower where the tooth is lower ([`offsets_mm`]): a ray
+//! along a curve beside the tooth meets what hob teeth leave elsewhere. Where the tip corner has undercut a flank, the target is the
 //! corner's own path
 //! ([`RackGeneration::crossing`](crate::process::hobbing::rack_generation::RackGeneration::crossing)): 20 of the
 //! paper's 350 points lie there.
@@ -18,8 +19,8 @@
 //! process alone leaves: feed and generating marks.
 
 use crate::measure::crossing::Crossing;
-use crate::process::hobbing::HobCutter;
 use crate::process::hobbing::rack_generation::{ProfileCrossing, ProfilePart};
+use crate::process::hobbing::{HobCutter, HobbingJob};
 use gearcut_core::cut::Backend;
 use gearcut_core::dexel::{NO_PASS, Ray, SpatialField};
 use gearcut_core::error::{NotConverged, Result};
@@ -27,10 +28,13 @@ use gearcut_core::terms::Side;
 use glam::DVec2;
 use std::f64::consts::PI;
 
-/// Distances of the curves from the pitch curve, normal modules, outwards.
-pub const OFFSETS_MODULES: [f64; 5] = [-0.75, -0.375, 0.0, 0.375, 0.75];
-/// The one that is the pitch curve itself.
-const PITCH_CURVE: usize = 2;
+/// Distance of the outermost curves from the pitch curve, normal modules.
+const REACH_MODULES: f64 = 0.75;
+/// Share of the tooth's height over the pitch curve, and of its depth under it, that the curves reach at most: the rest
+/// keeps rays clear of the tip land and of the bottom of the root, which they would graze.
+const REACH_SHARE: f64 = 0.85;
+/// Places of the curves as shares of the reach on their side of the pitch curve.
+const SHARES: [f64; 5] = [-1.0, -0.5, 0.0, 0.5, 1.0];
 /// A ray along the tangent leaves its curve by d^2 / (2 rho). Where the surface was found so far away that this is
 /// more, mm, it is cut again there.
 const BEND_MM: f64 = 1e-6;
@@ -66,6 +70,15 @@ impl CurvePoint {
     }
 }
 
+/// Distances of the curves from the pitch curve that lie between the target's root and its tip, mm, positive outwards;
+/// five but where the tooth lies on one side of its pitch curve.
+pub fn offsets_mm(job: &HobbingJob) -> Vec<f64> {
+    let [depth_mm, height_mm] = [job.target.rack.tip_height_mm, job.blank.addendum_mm];
+    let reach_mm = |room_mm: f64| (REACH_MODULES * job.scene.gear.module_mm).min(REACH_SHARE * room_mm);
+    let offset_mm = |share: f64| share * reach_mm(if share < 0.0 { depth_mm } else { height_mm });
+    SHARES.into_iter().map(offset_mm).filter(|&mm| -depth_mm < mm && mm < height_mm).collect()
+}
+
 /// Points of a flank; curves that do not cross it are left out.
 ///
 /// # Errors
@@ -76,8 +89,7 @@ pub fn measure(cutter: &HobCutter, backend: &dyn Backend, tooth: u32, side: Side
     let space = i64::from(tooth) - i64::from(side == Side::Right);
     let mut points: Vec<CurvePoint> = Vec::new();
     let sound_roll_mm = job.target.sound_roll_mm(space, side, 0.0);
-    for offset in OFFSETS_MODULES {
-        let offset_mm = offset * gear.module_mm;
+    for offset_mm in offsets_mm(job) {
         if let Some(target) = job.target.crossing_from(sound_roll_mm, blank, space, side, offset_mm, 0.0) {
             points.push(CurvePoint { offset_mm, target, cut_mm: None, along_mm: None });
         }
@@ -144,8 +156,7 @@ pub fn measure(cutter: &HobCutter, backend: &dyn Backend, tooth: u32, side: Side
 
 /// Where the surface as cut crosses the pitch curve, among a flank's points.
 pub fn pitch_crossing(points: &[CurvePoint], cutter: &HobCutter) -> Option<Crossing> {
-    let offset_mm = OFFSETS_MODULES[PITCH_CURVE] * cutter.job.scene.gear.module_mm;
-    let point = points.iter().find(|point| point.offset_mm == offset_mm)?;
+    let point = points.iter().find(|point| point.offset_mm == 0.0)?;
     let curve = &cutter.job.curve;
     let (point_mm, arc_mm) = (point.cut_mm?, point.target.foot_arc_mm);
     let phi_rad = cutter.job.blank.height(point_mm, curve.phi_at_arc(arc_mm)).1;

@@ -1,14 +1,13 @@
 //! What a run finds on a hobbed gear: names, units, definitions, places.
 
+use super::headline::headline;
 use super::{blank, flank_table, force, load, marks, points};
 use crate::findings::warning::ranked;
-use crate::findings::{Entry, Findings, Place, Quantity, Section, Warning};
+use crate::findings::{Findings, Quantity, Section, Warning};
 use crate::machine_errors::ErrorLayer;
-use crate::measure::deviation::PitchDeviations;
 use crate::process::hobbing::axes_report::HobbingAxesReport;
 use crate::process::hobbing::job::PreparedHobbing;
 use crate::process::hobbing::linkage::dynamics::AXES;
-use crate::process::hobbing::measure::flank_report::HobbedReport;
 use crate::process::hobbing::measure::hob_force::OperationForce;
 use crate::process::hobbing::measure::hob_load::OperationLoad;
 use crate::process::hobbing::measure::marks::MarkLattice;
@@ -21,7 +20,7 @@ use gearcut_core::error::Result;
 use gearcut_core::units::UM_PER_MM;
 
 /// Why a pitch is not known.
-const NOT_CROSSED: &str = "a flank was not cut or does not cross the pitch curve";
+pub(super) const NOT_CROSSED: &str = "a flank was not cut or does not cross the pitch curve";
 
 /// What the ends of the evaluated profile are.
 const START: &str = "lower end of the evaluated profile, as height over the pitch curve along its normal in the middle \
@@ -101,7 +100,7 @@ pub fn findings(cutter: &HobCutter, gear: &HobbedGear, measured: &Measured) -> R
         process: "hobbing".to_owned(),
         scene: job.scene.name.clone(),
         complete: !work.interrupted,
-        headline: headline(job, gear, measured.motion),
+        headline: headline(job, gear, measured),
         warnings: ranked(list),
         sections,
     })
@@ -118,131 +117,6 @@ fn evaluated(job: &HobbingJob) -> Option<Section> {
             .with("profile_start_height", end(heights_mm[0], START))
             .with("profile_end_height", end(heights_mm[1], END))
     })
-}
-
-/// Largest value over all flanks with its flank.
-fn largest(gear: &HobbedGear, value: impl Fn(&HobbedReport) -> Option<f64>) -> Option<(f64, &HobbedReport)> {
-    gear.flanks.iter().filter_map(|flank| value(flank).map(|v| (v, flank))).max_by(|a, b| a.0.total_cmp(&b.0))
-}
-
-/// What to look at first.
-fn headline(job: &HobbingJob, gear: &HobbedGear, motion: &[HobbingAxesReport]) -> Vec<Entry> {
-    type At<'a> = &'a dyn Fn(&HobbedReport) -> Option<[f64; 2]>;
-    let extreme_at = |value: &dyn Fn(&HobbedReport) -> Option<f64>, at: At, definition: &'static str| {
-        let found = largest(gear, value);
-        let quantity = Quantity::number_or(
-            found.map(|(v, _)| v * UM_PER_MM),
-            "um",
-            definition,
-            "a dexel of every evaluated part was reached by no pass",
-        );
-        match found {
-            None => quantity,
-            Some((_, flank)) => {
-                let [u_mm, v_mm] = at(flank).unwrap_or([0.5 * flank.length_mm, 0.0]);
-                quantity.at(Place::on_flank(flank.tooth, flank.side.name(), u_mm, v_mm))
-            }
-        }
-    };
-    // Traces stand in the middle of the flank.
-    let extreme = |value: &dyn Fn(&HobbedReport) -> Option<f64>, definition: &'static str| {
-        extreme_at(value, &|_| None, definition)
-    };
-    let of_pitch = |pick: fn(&PitchDeviations) -> f64, definition: &'static str| {
-        let largest = gear.inspection.pitch.iter().flatten().map(pick).reduce(f64::max);
-        Quantity::number_or(largest.map(|mm| mm * UM_PER_MM), "um", definition, NOT_CROSSED)
-    };
-    let sharpest = job.curve.facts().largest_curvature.curvature_per_mm;
-    vec![
-        Entry::headline(
-            "highest_mark",
-            "highest mark",
-            extreme_at(
-                &|f| f.own.finished.map(|h| h.highest_mm),
-                &|f| f.own.finished.map(|h| h.extremes_at_mm[1]),
-                "largest normal deviation of the finished surface on the evaluated part of any flank: feed and \
-                generating marks together",
-            ),
-        ),
-        Entry::headline(
-            "deepest_cut",
-            "deepest cut",
-            extreme_at(
-                &|f| f.own.finished.map(|h| -h.lowest_mm),
-                &|f| f.own.finished.map(|h| h.extremes_at_mm[0]),
-                "deepest place of the finished surface below the target, positive inwards; an exact linkage leaves \
-                none",
-            ),
-        ),
-        Entry::headline(
-            "feed_mark_closed_form",
-            "feed mark, closed form",
-            Quantity::number(
-                job.finishing().plan.feed_mark_mm * UM_PER_MM,
-                "um",
-                "f^2 sin(alpha_n) / (8 R_c) of the last operation, f the feed over cos of the head angle, R_c the \
-                hob's smallest contact radius",
-            ),
-        ),
-        Entry::headline(
-            "generating_mark_closed_form",
-            "generating mark, closed form",
-            Quantity::number(
-                job.generating_mark_mm(sharpest) * UM_PER_MM,
-                "um",
-                "arc per gash squared times sin(alpha_t) cos(beta_b) / (8 rho) where the pitch curve bends most",
-            ),
-        ),
-        Entry::headline(
-            "profile_deviation",
-            "profile deviation",
-            extreme(&|f| f.profile.map(|d| d.total_mm), "largest F_alpha in the middle of the face"),
-        ),
-        Entry::headline(
-            "helix_deviation",
-            "helix deviation",
-            extreme(&|f| f.lead.map(|d| d.total_mm), "largest F_beta in the middle of the profile"),
-        ),
-        Entry::headline(
-            "single_pitch_deviation",
-            "single pitch deviation",
-            of_pitch(PitchDeviations::largest_single_mm, "largest f_p of either flank, arc of the pitch curve"),
-        ),
-        Entry::headline(
-            "total_pitch_deviation",
-            "total pitch deviation",
-            of_pitch(PitchDeviations::total_mm, "F_p, range of the cumulative pitch deviations, larger of both flanks"),
-        ),
-        Entry::headline(
-            "runout",
-            "runout",
-            Quantity::number_or(
-                gear.inspection.runout.as_ref().map(|r| r.total_mm() * UM_PER_MM),
-                "um",
-                "F_r, range of a probe's place along the pitch curve's normal over all spaces",
-                NOT_CROSSED,
-            ),
-        ),
-        Entry::headline(
-            "undercut_flanks",
-            "undercut flanks",
-            Quantity::count(
-                gear.flanks.iter().filter(|f| f.own.undercut).count() as u64,
-                "flanks",
-                "flanks whose involute the hob's tip corner has cut away in some section",
-            ),
-        ),
-        axes::margin_entry(motion),
-        Entry::headline(
-            "cycle_time",
-            "cycle time",
-            Quantity::number(
-                job.operations.iter().map(|o| o.linkage.end_s()).sum(),
-                "s",
-                "time of all operations, approach, overrun and idle travel included",
-            ),
-        ),
-    ]
 }
 
 fn operation(operation: &PreparedHobbing, motion: &HobbingAxesReport, passes: u32) -> Section {

@@ -97,12 +97,8 @@ fn lattice(lattice: &MarkLattice) -> Section {
             Quantity::number_or(apart.map(|d| d[k]), unit, definition, why)
         };
         let difference = Section::new("difference", "surface less kinematics")
-            .shown("length", "apart", less(0, "mm", "length on the surface less that of the kinematics"))
-            .shown(
-                "angle_to_trace",
-                "angle apart",
-                less(1, "deg", "angle between both steps' directions against the tooth trace"),
-            )
+            .with("length", less(0, "mm", "length on the surface less that of the kinematics"))
+            .with("angle_to_trace", less(1, "deg", "angle between both steps' directions against the tooth trace"))
             .with(
                 "angle_to_axis",
                 less(2, "deg", "angle to the gear's axis on the surface less that of the kinematics"),
@@ -137,9 +133,8 @@ fn step(key: &str, step: Option<&MarkStep>, source: &str, why: &str) -> Section 
         Quantity::number_or(step.map(value), unit, definition, why)
     };
     Section::new(key, source)
-        .shown(
+        .with(
             "length",
-            key,
             number(
                 MarkStep::length_mm,
                 "mm",

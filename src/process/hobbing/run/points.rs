@@ -168,12 +168,8 @@ fn spread(errors: &Errors) -> Section {
         rows.map(|(median, &frequency)| vec![Datum::from(median), Datum::from(frequency as u64)]).collect::<Vec<_>>()
     });
     Section::new(errors.key, errors.key.replace('_', " "))
-        .shown("mean", "mean", number(|s| s.mean_um, format!("mean error: {of}")))
-        .shown(
-            "sigma",
-            "sigma",
-            number(|s| s.sigma_um, format!("standard deviation of the errors about their mean: {of}")),
-        )
+        .with("mean", number(|s| s.mean_um, format!("mean error: {of}")))
+        .with("sigma", number(|s| s.sigma_um, format!("standard deviation of the errors about their mean: {of}")))
         .with(
             "interval",
             number(|s| s.interval_um, "width of an interval; the middle one is centred on zero".to_owned()),

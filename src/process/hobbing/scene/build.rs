@@ -3,8 +3,9 @@
 use super::keys::AXES;
 use super::model::{
     Approach, EvenMotion, ExtraRotation, FeedDirection, FeedOf, GashForm, HobSize, HobSpec, Hobbing, HobbingAxisLimits,
-    HobbingKind, HobbingOperation, LinkageForm, Protuberance, ShiftDirection, ShiftStrategy, Worm,
+    HobbingKind, HobbingOperation, LinkageForm, Protuberance, ShiftDirection, ShiftStrategy, TipRelief, Worm,
 };
+use super::standard_hob::{self, Tip};
 use crate::scene::ScenePart;
 use crate::scene::build::{cutting_force, linear_programs, stock_or_offset_mm};
 use crate::scene::machine_errors::{machine_errors, tool_mounting};
@@ -18,7 +19,7 @@ pub(super) fn build(values: &Values, _base_dir: &Path) -> Option<ScenePart> {
     let operations: Option<Vec<HobbingOperation>> = (0..values.count("operation"))
         .map(|index| operation(values, &format!("operation.{index}"), pressure_angle_rad))
         .collect();
-    let tool = hob(values.view("tool.hob"))?;
+    let tool = hob(values.view("tool.hob"), values.view("gear"))?;
     let material = match values.view("material") {
         material if material.text("name").is_some() => Some(cutting_force(material)?),
         _ => None,
@@ -34,7 +35,23 @@ pub(super) fn build(values: &Values, _base_dir: &Path) -> Option<ScenePart> {
     }))
 }
 
-fn hob(hob: View<'_>) -> Option<HobSpec> {
+fn hob(hob: View<'_>, gear: View<'_>) -> Option<HobSpec> {
+    let module_mm = gear.number("module_mm")?;
+    let addendum_coefficient = hob.number("addendum_coefficient")?;
+    let thinning_mm = hob.number("thinning_mm")?;
+    let protuberance = match hob.number("protuberance_height_mm") {
+        Some(height_mm) => Some(Protuberance { height_mm, angle_rad: hob.rad("protuberance_angle_deg")? }),
+        None => None,
+    };
+    let tip = Tip {
+        module_mm,
+        pressure_angle_rad: gear.rad("pressure_angle_deg")?,
+        hob_addendum: addendum_coefficient,
+        gear_addendum: gear.number("addendum_coefficient")?,
+        thinning_mm,
+        protuberance,
+    };
+    let usual_mm = standard_hob::size_mm(module_mm);
     Some(HobSpec {
         starts: hob.whole("starts")?,
         hand: hob.hand("hand")?,
@@ -46,26 +63,41 @@ fn hob(hob: View<'_>) -> Option<HobSpec> {
         },
         size: match (hob.rad("lead_angle_deg"), hob.number("reference_diameter_mm")) {
             (Some(angle), _) => HobSize::LeadAngle(angle),
-            (None, diameter_mm) => HobSize::ReferenceDiameter(diameter_mm?),
+            (None, Some(diameter_mm)) => HobSize::ReferenceDiameter(diameter_mm),
+            (None, None) => HobSize::ReferenceDiameter(usual_mm?[0] - 2.0 * addendum_coefficient * module_mm),
         },
-        length_mm: hob.number("length_mm")?,
-        addendum_coefficient: hob.number("addendum_coefficient")?,
+        length_mm: hob.number("length_mm").or(usual_mm.map(|[_, length_mm]| length_mm))?,
+        addendum_coefficient,
         dedendum_coefficient: hob.number("dedendum_coefficient")?,
         worm: match hob.text("worm")? {
             "involute" => Worm::Involute,
             "straight_sided" => Worm::StraightSided,
             _ => return None,
         },
-        tip_radius_mm: hob.number("tip_radius_mm")?,
-        protuberance: match hob.number("protuberance_height_mm") {
-            Some(height_mm) => Some(Protuberance { height_mm, angle_rad: hob.rad("protuberance_angle_deg")? }),
-            None => None,
-        },
-        thinning_mm: hob.number("thinning_mm")?,
+        tip_radius_mm: hob.number("tip_radius_mm").unwrap_or_else(|| tip.round_mm()),
+        protuberance,
+        tip_reliefs: tip_reliefs(hob, gear)?,
+        thinning_mm,
         regrind_mm: hob.number("regrind_mm")?,
         mounting: tool_mounting(hob),
         pitch_errors_mm: hob.numbers("pitch_errors_um")?.iter().map(|um| um / UM_PER_MM).collect(),
     })
+}
+
+/// Tip relief as a share of the height up to the gear's addendum, semi-topping by its angle.
+fn tip_reliefs(hob: View<'_>, gear: View<'_>) -> Option<Vec<TipRelief>> {
+    let flank_rad = gear.rad("pressure_angle_deg")?;
+    let addendum_mm = gear.number("addendum_coefficient")? * gear.number("module_mm")?;
+    let mut reliefs = Vec::new();
+    if let Some(height_mm) = hob.number("tip_relief_height_mm") {
+        let aside_mm = hob.mm_from_um("tip_relief_um")? / flank_rad.cos();
+        reliefs.push(TipRelief { height_mm, slope: aside_mm / (addendum_mm - height_mm) });
+    }
+    if let Some(height_mm) = hob.number("semi_topping_height_mm") {
+        let slope = hob.rad("semi_topping_angle_deg")?.tan() - flank_rad.tan();
+        reliefs.push(TipRelief { height_mm, slope });
+    }
+    Some(reliefs)
 }
 
 fn limits(values: &Values) -> HobbingAxisLimits {

@@ -3,6 +3,7 @@
 mod build;
 mod keys;
 pub mod model;
+mod standard_hob;
 
 use crate::machine_errors::{ErrorLayer, ToolMounting};
 use crate::scene::error_sources::{self, ErrorSource, KeyForm};
@@ -32,7 +33,7 @@ pub static SCENE: SceneProcess = SceneProcess {
     name: "hobbing",
     tool: "hob",
     tool_words: "a hob",
-    needed: "the module, the number of teeth and the hob's size",
+    needed: "the module and the number of teeth",
     scenes: include_str!("scenes.md"),
     sections: keys::SECTIONS,
     added: keys::ADDED,
@@ -67,6 +68,8 @@ pub static SCENE: SceneProcess = SceneProcess {
 /// Holds values against each other.
 fn check(found: &mut Found<'_, '_, '_>) {
     external(found);
+    let _: Option<()> = standard_size(found);
+    let _: Option<()> = tip_reliefs(found);
     let _: Option<()> = pitch_errors(found);
     machine_errors::check(found, &keys::AXES);
     machine_errors::check_noise_in_time(found, &keys::AXES, "a hob");
@@ -78,6 +81,51 @@ fn external(found: &mut Found<'_, '_, '_>) {
     let message = || "`gear.kind`: a hob cuts external gears; it does not fit into a ring".to_owned();
     let way_out = "write kind = \"external\", or shape the ring with [tool.shaper_cutter]";
     found.blame(internal, "gear.kind", message, way_out);
+}
+
+/// Refuses a hob of unknown size whose module has no usual one.
+fn standard_size(found: &mut Found) -> Option<()> {
+    let module_mm = found.view("gear").number("module_mm")?;
+    let hob = found.view("tool.hob");
+    let has_diameter = hob.number("reference_diameter_mm").or(hob.number("lead_angle_deg")).is_some();
+    let missing = match (hob.number("length_mm"), has_diameter) {
+        (None, _) => "length_mm",
+        (_, false) => "reference_diameter_mm",
+        _ => return None,
+    };
+    let [smallest_mm, largest_mm] = standard_hob::MODULES_MM;
+    let key = format!("tool.hob.{missing}");
+    let message = || {
+        format!(
+            "`{key}` is missing, and there is no usual hob of module {module_mm} mm: DIN 8002 has modules from \
+             {smallest_mm} to {largest_mm} mm"
+        )
+    };
+    let way_out = "give length_mm and reference_diameter_mm (10 to 30 modules) of your hob";
+    found.blame(standard_hob::size_mm(module_mm).is_none(), &key, message, way_out);
+    Some(())
+}
+
+/// Tip relief and semi-topping that take nothing off, or stand in each other's way.
+fn tip_reliefs(found: &mut Found) -> Option<()> {
+    let [hob, gear] = ["tool.hob", "gear"].map(|path| found.view(path));
+    let relief_mm = hob.number("tip_relief_height_mm");
+    let chamfer_mm = hob.number("semi_topping_height_mm");
+    let angle_deg = hob.number("semi_topping_angle_deg")?;
+    let flank_deg = gear.number("pressure_angle_deg")?;
+    let addendum_mm = gear.number("addendum_coefficient")? * gear.number("module_mm")?;
+    let key = "tool.hob.tip_relief_height_mm";
+    let message = || format!("`{key}`: a relief from there on reaches no tip, which is {addendum_mm} mm high");
+    found.blame(relief_mm.is_some_and(|mm| mm >= addendum_mm), key, message, "begin lower, about half a module");
+    let key = "tool.hob.semi_topping_height_mm";
+    let message = || format!("`{key}`: the chamfer begins under the tip relief");
+    let crossed = relief_mm.zip(chamfer_mm).is_some_and(|(relief, chamfer)| chamfer <= relief);
+    found.blame(crossed, key, message, "begin the chamfer above tip_relief_height_mm");
+    let key = "tool.hob.semi_topping_angle_deg";
+    let message = || format!("`{key}`: {angle_deg} deg is no chamfer on flanks of {flank_deg} deg");
+    let flat = chamfer_mm.is_some() && angle_deg <= flank_deg;
+    found.blame(flat, key, message, "use more than the pressure angle, 45 deg for example");
+    Some(())
 }
 
 /// A pitch error for each gash, or for each gash of each thread.

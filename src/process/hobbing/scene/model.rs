@@ -54,6 +54,9 @@ pub struct HobSpec {
     pub tip_radius_mm: f64,
     /// Protuberance, if the hob has one.
     pub protuberance: Option<Protuberance>,
+    /// Where the flanks leave their line towards the root and relieve or chamfer the gear's tips, in the order of their
+    /// heights.
+    pub tip_reliefs: Vec<TipRelief>,
     /// Normal thickness taken off every tooth on the pitch cylinder, as on a roughing hob, mm.
     pub thinning_mm: f64,
     /// How much the radius has shrunk by regrinding, mm.
@@ -116,6 +119,16 @@ pub struct Protuberance {
     pub height_mm: f64,
     /// Its normal pressure angle, smaller than the flank's.
     pub angle_rad: f64,
+}
+
+/// A part of a hob's flank that stands out towards the root: it takes off the gear's tips.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TipRelief {
+    /// Height over the hob's pitch line, towards its root, at which it begins, mm.
+    pub height_mm: f64,
+    /// How much further the flank stands out per height than its own line does, along the pitch line in the normal
+    /// section.
+    pub slope: f64,
 }
 
 /// Motion that is even in time while the slide rests (Liu et al. 2013: the three methods).
