@@ -24,19 +24,15 @@ pub struct GearMaps {
 impl GearMaps {
     /// Finds the colours.
     pub fn new(flanks: Vec<FlankMaps>) -> Self {
-        let of_flanks_um: Vec<Vec<f32>> = flanks.iter().map(|map| um(map.deviation_mm())).collect();
-        let deviation_scale = deviations_um(of_flanks_um.iter().map(Vec::as_slice));
+        let deviation_scale = match ColourScale::diverging_over(flanks.iter().map(FlankMaps::deviation_mm)) {
+            ColourScale::Diverging { limit } => {
+                ColourScale::Diverging { limit: (limit * UM_PER_MM as f32).max(LEAST_DEVIATION_UM) }
+            }
+            scale @ ColourScale::Sequential { .. } => scale,
+        };
         let heights_um: Vec<Vec<f32>> = flanks.iter().map(finished_heights_um).collect();
         let height_scale = ColourScale::heights_over(heights_um.iter().map(Vec::as_slice));
         Self { flanks, deviation_scale, height_scale }
-    }
-}
-
-/// Colours of deviations, µm.
-pub fn deviations_um<'a>(flanks: impl Iterator<Item = &'a [f32]>) -> ColourScale {
-    match ColourScale::diverging_over(flanks) {
-        ColourScale::Diverging { limit } => ColourScale::Diverging { limit: limit.max(LEAST_DEVIATION_UM) },
-        scale @ ColourScale::Sequential { .. } => scale,
     }
 }
 

@@ -16,7 +16,7 @@ use std::fmt::Write as _;
 
 /// Size of the drawing, px: the flank is drawn in it as a plane seen askew, deviations go straight up.
 const WIDTH_PX: f64 = 900.0;
-const HEIGHT_PX: f64 = 380.0;
+const HEIGHT_PX: f64 = 430.0;
 const MARGIN_PX: f64 = 60.0;
 /// How far the tip line is pushed to the right and up, and how high the largest deviation is drawn, px.
 const TIP_PX: DVec2 = DVec2::new(110.0, -150.0);
@@ -83,7 +83,7 @@ pub fn svg(flank: &BevelReport, title: &str) -> Option<String> {
     let px_per_um = LARGEST_PX / largest_um;
     let width_px = WIDTH_PX - 2.0 * MARGIN_PX - TIP_PX.x;
     let share = |values: &[f64], i: usize| (values[i] - values[0]) / (values[values.len() - 1] - values[0]);
-    let root = DVec2::new(MARGIN_PX, HEIGHT_PX - MARGIN_PX - 20.0);
+    let root = DVec2::new(MARGIN_PX, HEIGHT_PX - MARGIN_PX - 70.0);
     let plane = |row: usize, column: usize| {
         root + DVec2::new(share(along_mm, row) * width_px, 0.0) + share(shares, column) * TIP_PX
     };
@@ -126,7 +126,7 @@ pub fn svg(flank: &BevelReport, title: &str) -> Option<String> {
         let x_px = at.x + if anchor == "end" { -8.0 } else { 8.0 };
         let _ = writeln!(out, "<text x=\"{x_px:.1}\" y=\"{:.1}\" text-anchor=\"{anchor}\">{value}</text>", at.y + down);
     }
-    let below = root.y + 40.0;
+    let below = HEIGHT_PX - 20.0;
     for (x_px, words) in [
         (root.x, "toe, root"),
         (root.x + width_px - 60.0, "heel, root"),

@@ -5,7 +5,7 @@ use crate::output::flank_maps::FlankMaps;
 use crate::output::grid::MapGrid;
 use crate::output::report::viewer::{Thinning, Viewer, ViewerFlank, ViewerQuantity};
 use crate::output::text::significant;
-use crate::steps::gear_maps::{GearMaps, deviations_um, finished_heights_um, um};
+use crate::steps::gear_maps::{GearMaps, finished_heights_um, um};
 use crate::steps::map_operations;
 use crate::steps::report::averaged::averaged;
 use crate::steps::view_mesh::{ViewFlank, ViewMesh};
@@ -74,14 +74,14 @@ fn quantities(job: &dyn GearJob, maps: &GearMaps) -> Vec<ViewerQuantity> {
         let values: Vec<Vec<f32>> = over(&|map| without_marks_um(map, spacing_mm));
         let [mark, feed] = spacing_mm.map(|mm| significant(mm, 3));
         ViewerQuantity {
-            name: format!("Deviation after {finishing}, marks averaged"),
+            name: "Deviation without marks".to_owned(),
             definition: format!(
                 "Mean normal deviation over one generating mark along the profile, {mark} mm, and one feed along the \
-                 tooth, {feed} mm: form and position without the marks, which lie half their height over it. Red: \
+                 tooth, {feed} mm: form and position, and the mean height of the marks, which only add material. Red: \
                  material left; blue: cut too deep. {GREY}"
             ),
             unit: "µm".to_owned(),
-            scale: deviations_um(values.iter().map(Vec::as_slice)),
+            scale: maps.deviation_scale,
             thinning: Thinning::Mean,
             evaluated_mm: evaluated_mm(last),
             values,

@@ -88,7 +88,12 @@ pub fn key_number(name: &str, quantity: &Quantity) -> KeyNumber {
         value,
         unit,
         definition: quantity.definition().to_owned(),
-        note: quantity.why().unwrap_or("").to_owned(),
+        note: match (quantity.why(), quantity.place()) {
+            (Some(why), _) => why.to_owned(),
+            // A place on a flank is a button of its own.
+            (None, Some(place)) if place.flank().is_none() => place.words_with_signs(),
+            _ => String::new(),
+        },
         place: quantity.place().cloned(),
     }
 }

@@ -6,7 +6,6 @@ use super::load::labels;
 use crate::findings::{Entry, Place, Quantity};
 use crate::measure::deviation::PitchDeviations;
 use crate::measure::verdict::JudgedFigure;
-use crate::output::text::significant;
 use crate::process::hobbing::measure::flank_report::HobbedReport;
 use crate::process::hobbing::measure::hob_load::OperationLoad;
 use crate::process::hobbing::measure::hoffmeister;
@@ -30,12 +29,16 @@ fn quality(inspected: &Inspected) -> Vec<Entry> {
     let nearest = nearest.max_by(|a, b| a.0.total_cmp(&b.0));
     entries.extend(nearest.and_then(|(share, judged)| {
         let (worst, limit) = (judged.worst()?, judged.limit?);
-        let (found, allowed) = (significant(worst.value_um, 3), significant(limit.0, 3));
-        let tooth = worst.tooth.map_or_else(String::new, |tooth| format!(", tooth {tooth}"));
-        let side = worst.side.map_or_else(String::new, |side| format!(" {}", side.name()));
-        let words = format!("{}: {found} of {allowed} um, {:.0} %{tooth}{side}", judged.figure.symbol(), 100.0 * share);
-        let definition = "figure that takes the largest share of its limit; the section inspection has all of them";
-        Some(Entry::headline("largest_of_limit", "largest against its limit", Quantity::text(words, definition)))
+        let mut place = Place::default()
+            .and("figure", judged.figure.symbol())
+            .and("value_um", worst.value_um)
+            .and("limit_um", limit.0);
+        if let (Some(tooth), Some(side)) = (worst.tooth, worst.side) {
+            place = place.and("tooth", tooth).and("flank", side.name());
+        }
+        let definition = "largest share of its limit that a figure takes; the section inspection has all of them";
+        let quantity = Quantity::number(100.0 * share, "%", definition).at(place);
+        Some(Entry::headline("largest_of_limit", "largest share of a limit", quantity))
     }));
     entries
 }
@@ -65,7 +68,7 @@ fn tool(job: &HobbingJob, measured: &Measured) -> Vec<Entry> {
         let definition = "thickest chip of the first operation by the formula of Hoffmeister (1970), fitted to standard \
                           racks on round gears";
         let quantity = Quantity::number(thickness_mm, "mm", definition);
-        entries.push(Entry::headline("thickest_chip_by_hoffmeister", "the same by Hoffmeister's formula", quantity));
+        entries.push(Entry::headline("thickest_chip_by_hoffmeister", "by Hoffmeister's formula", quantity));
     }
     let peaks = forces.iter().enumerate().filter_map(|(index, force)| Some((index, force.peak(|of| of.peak_n)?)));
     if let Some((operation, pass)) = peaks.max_by(|a, b| a.1.peak_n.total_cmp(&b.1.peak_n)) {
@@ -76,8 +79,8 @@ fn tool(job: &HobbingJob, measured: &Measured) -> Vec<Entry> {
     let hardest = largest(&|load| Some((load.peak_to_mean()?, load.peak(|of| of.volume_mm3)?)));
     if let Some((operation, (ratio, tooth))) = hardest {
         let definition = "volume of the hob tooth that takes most over the mean of all; 1 where all work alike";
-        let quantity = Quantity::number(ratio, "1", definition).at(at(operation, tooth));
-        entries.push(Entry::headline("hob_load_peak_to_mean", "hardest working hob tooth to the mean", quantity));
+        let quantity = Quantity::number(ratio, "times", definition).at(at(operation, tooth));
+        entries.push(Entry::headline("hob_load_peak_to_mean", "hardest hob tooth to mean", quantity));
     }
     let plan = &job.finishing().plan;
     let [from, to] = plan.shift_range_mm;
