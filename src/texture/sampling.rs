@@ -28,8 +28,8 @@ const MOST_POINTS: usize = 500_000;
 const MOST_TIMES_FINER: f64 = 16.0;
 /// The step becomes so much smaller than what is missing says: marks differ along a line.
 const ROOM: f64 = 1.1;
-/// Times that marks are counted: where they are shorter than points are apart, the first count is too high.
-const ATTEMPTS: usize = 3;
+/// Times that marks are counted: where they are shorter than points are apart, the first counts are too high.
+const ATTEMPTS: usize = 4;
 
 /// Marks of a window's operation on its middle lines.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -87,7 +87,9 @@ fn finer(
     direction: usize,
     points: Option<f64>,
 ) -> Result<Option<(Window, Facets)>> {
-    let finest_mm = window.spacing_mm()[direction] / MOST_TIMES_FINER;
+    let fields = job.scene().fields;
+    let dexels_mm = [fields.lead_spacing_mm, fields.profile_spacing_mm][direction];
+    let finest_mm = window.spacing_mm()[direction].min(dexels_mm) / MOST_TIMES_FINER;
     let mut finer = window.clone();
     let mut facets = (0, points);
     for attempt in 0..ATTEMPTS {

@@ -63,3 +63,18 @@ fn the_shops_formula_has_its_value() {
     let oval = process::load(Path::new("scenes/hobbing/third_order_plain.toml"), &[]).expect("a scene");
     assert_eq!(hoffmeister::thickest_chip_mm(&HobbingJob::new(&oval.scene).expect("a job")), None);
 }
+
+/// Marks of helical gears follow each other closely along the tooth: default windows have 20 points of each, wide faces
+/// in a part of them.
+#[test]
+fn default_windows_have_points_enough_for_every_mark() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let scene = folder.path().join("scene.toml");
+    std::fs::write(&scene, SCENE).expect("a scene");
+    let scene = scene.to_str().expect("a path");
+    for set in ["gear.face_width_mm=30", "gear.helix_angle_deg=30", "tool.hob.gashes=20", "gear.teeth=60"] {
+        let check = gearcut(&["check", scene, "--set", set]);
+        let words = check.out.split_whitespace().collect::<Vec<_>>().join(" ") + &check.err;
+        assert!(check.code == 0 && !words.contains("has only"), "{set}: {words}");
+    }
+}
