@@ -24,6 +24,9 @@ const LARGEST_PX: f64 = 70.0;
 /// On a finer scale a perfect flank would look faulty, um.
 const LEAST_UM: f64 = 1.0;
 
+/// Where a point of the grid is drawn, by row and column.
+type Place<'a> = &'a dyn Fn(usize, usize) -> DVec2;
+
 /// What is apart from a flank's form.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Position {
@@ -97,7 +100,6 @@ pub fn svg(flank: &BevelReport, title: &str) -> Option<String> {
          font-size=\"14\">\n<title>{title}</title>\n<rect width=\"{WIDTH_PX}\" height=\"{HEIGHT_PX}\" fill=\"#ffffff\"/>\n\
          <text x=\"{MARGIN_PX}\" y=\"26\" font-weight=\"bold\">{title}</text>\n"
     );
-    type Place<'a> = &'a dyn Fn(usize, usize) -> DVec2;
     for (place, looks) in [
         (&plane as Place, "fill=\"none\" stroke=\"#9aa0a6\" stroke-dasharray=\"4 3\""),
         (&raised as Place, "fill=\"none\" stroke=\"#1f4e79\" stroke-width=\"1.8\""),
