@@ -22,6 +22,7 @@ mod lines;
 mod maps;
 mod page;
 mod ranked;
+mod surfaces;
 mod table;
 
 use crate::findings::{Findings, Level};
@@ -31,6 +32,8 @@ use crate::output::text::Sheet;
 use gearcut_core::Result;
 use lines::Line;
 use std::path::PathBuf;
+
+pub use surfaces::SurfaceComparison;
 
 /// Most results that stand side by side: as many as a chart has colours for.
 pub const MOST_RESULTS: usize = 7;

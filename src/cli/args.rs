@@ -2,9 +2,11 @@
 
 mod errors;
 mod pairs;
+mod reading;
 
 use std::path::PathBuf;
 
+use gearcut::measure::topography::Form;
 use gearcut::process::PROCESSES;
 use gearcut::steps::parts::Parts;
 
@@ -13,6 +15,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 
 pub use errors::{BudgetArguments, CalibrateArguments, DiagnoseArguments, FlankSide, ScatterArguments};
 pub use pairs::{ContactArguments, FlankChoice, PairArguments};
+pub use reading::{AxisChoice, ReadingArguments};
 
 /// The whole command line.
 #[derive(Debug, Parser)]
@@ -280,9 +283,19 @@ pub struct AxesArguments {
 /// Arguments of `compare`.
 #[derive(Debug, Args)]
 pub struct CompareArguments {
-    /// Output folders of the runs (or their results.json), first the one that the others are compared with.
+    /// Output folders of the runs (or their results.json), first the one that the others are compared with; or two
+    /// surface files of one place, the second laid over the first.
     #[arg(required = true, num_args = 2..=gearcut::compare::MOST_RESULTS, value_name = "RESULTS")]
     pub results: Vec<PathBuf>,
+    /// F-operator of surfaces, on the points that both have.
+    #[arg(long, value_enum, default_value_t = FormChoice::Poly2)]
+    pub form: FormChoice,
+    /// Nesting index of the S-filter of surfaces.
+    #[arg(long, value_name = "UM")]
+    pub s_filter_um: Option<f64>,
+    /// Nesting index of the L-filter of surfaces.
+    #[arg(long, value_name = "UM")]
+    pub l_filter_um: Option<f64>,
     /// Folder to write [default: compare_<A>_<B>... beside the last one].
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
@@ -293,9 +306,9 @@ pub struct CompareArguments {
 pub struct TextureArguments {
     /// Surface file.
     pub file: PathBuf,
-    /// Distance of points along x and y, for files that carry none; one value holds for both.
-    #[arg(long, value_name = "DX [DY]", num_args = 1..=2)]
-    pub spacing_um: Vec<f64>,
+    /// How the file is read.
+    #[command(flatten)]
+    pub reading: ReadingArguments,
     /// F-operator: what is taken off before texture is evaluated; the default is that of texture windows in scenes.
     #[arg(long, value_enum, default_value_t = FormChoice::Poly2)]
     pub form: FormChoice,
@@ -320,9 +333,13 @@ pub struct TextureArguments {
     /// Profile parameters of lines.
     #[command(flatten)]
     pub lines: LineArguments,
-    /// Save the surface as it was read; the ending says how: x3p, sdf, ascii.sdf, sur, npy, csv; may be repeated.
+    /// Save the surface as it was read and prepared; the ending says how: x3p, sdf, ascii.sdf, sur, npy, csv; may be
+    /// repeated.
     #[arg(long, value_name = "FILE")]
     pub save: Vec<PathBuf>,
+    /// Let --save replace files; never the one that is read.
+    #[arg(long)]
+    pub force: bool,
     /// Print JSON: every value with unit and definition, or null and why.
     #[arg(long)]
     pub json: bool,
@@ -412,6 +429,18 @@ pub enum FormChoice {
     /// That polynomial together with a circular cylinder.
     #[value(name = "poly2-plus-cylinder")]
     Poly2PlusCylinder,
+}
+
+impl FormChoice {
+    /// The operator.
+    pub fn form(self) -> Form {
+        match self {
+            Self::None => Form::None,
+            Self::Plane => Form::Plane,
+            Self::Poly2 => Form::Poly2,
+            Self::Poly2PlusCylinder => Form::Poly2PlusCylinder,
+        }
+    }
 }
 
 /// Arguments of `mate`.

@@ -1,9 +1,12 @@
-//! `gearcut compare`: results side by side.
+//! `gearcut compare`: results side by side, or two surfaces of one place.
 
 use std::path::{Path, PathBuf};
 
-use gearcut::compare::{Compared, Comparison};
+use gearcut::Refusal;
+use gearcut::compare::{Compared, Comparison, SurfaceComparison};
 use gearcut::findings::Findings;
+use gearcut::measure::topography::Chain;
+use gearcut::output::surface_files::read_surface;
 use gearcut::output::text::Sheet;
 use serde_json::json;
 
@@ -14,6 +17,11 @@ use super::{folder, print};
 /// Runs the command.
 pub fn run(arguments: &CompareArguments) -> Result<(), Failure> {
     let paths = &arguments.results;
+    let is_surface = |path: &PathBuf| path.is_file() && path.extension().is_none_or(|ending| ending != "json");
+    match &paths[..] {
+        [first, second] if is_surface(first) && is_surface(second) => return surfaces(arguments, [first, second]),
+        _ => refuse_mixed(paths.iter().find(|path| is_surface(path)))?,
+    }
     let read = |path: &PathBuf| -> Result<Compared, Failure> {
         let folder = if path.is_file() { path.parent().unwrap_or(path) } else { path };
         Ok(Compared { name: folder::name_of(path), findings: Findings::read(path)?, folder: folder.to_owned() })
@@ -32,6 +40,43 @@ pub fn run(arguments: &CompareArguments) -> Result<(), Failure> {
     let mut sheet = Sheet::default();
     comparison.print(&mut sheet, print::width());
     Ok(print::sheet(&format!("{}\npage, table and charts are in {}\n", sheet.into_text(), path.display()))?)
+}
+
+/// Results and surfaces are not compared with each other, nor more than two surfaces.
+fn refuse_mixed(surface: Option<&PathBuf>) -> Result<(), Refusal> {
+    surface.map_or(Ok(()), |path| {
+        let problem = format!("{} is a file, but no results.json", path.display());
+        Err(Refusal::new("gearcut compare", problem, "give output folders, or two surface files"))
+    })
+}
+
+/// Compares two surface files.
+fn surfaces(arguments: &CompareArguments, paths: [&PathBuf; 2]) -> Result<(), Failure> {
+    let chain = Chain {
+        s_filter_um: arguments.s_filter_um,
+        l_filter_um: arguments.l_filter_um,
+        ..Chain::of_form(arguments.form.form())
+    };
+    for (option, index_um) in [("--s-filter-um", chain.s_filter_um), ("--l-filter-um", chain.l_filter_um)] {
+        if let Some(index_um) = index_um.filter(|um| !(um.is_finite() && *um > 0.0)) {
+            let problem = format!("{index_um} um is not a positive length");
+            return Err(Refusal::new(option, problem, "give a number above 0").into());
+        }
+    }
+    let files = [read_surface(paths[0], None)?, read_surface(paths[1], None)?];
+    let stems = paths.map(|path| path.file_stem().unwrap_or_default().to_string_lossy().into_owned());
+    let names = if stems[0] == stems[1] { paths.map(|path| path.display().to_string()) } else { stems.clone() };
+    let beside = paths[1].parent().unwrap_or(Path::new("")).join(format!("compare_{}_{}", stems[0], stems[1]));
+    let out = arguments.out.clone().unwrap_or(beside);
+    let comparison = SurfaceComparison::new(names, [&files[0].surface, &files[1].surface], &chain)
+        .map_err(|problem| Refusal::new("gearcut compare", problem, "compare two surfaces of one place"))?;
+    let (path, ()) = folder::fill(&out, "compare", |output, _| {
+        comparison.write(output)?;
+        Ok((vec![("surfaces", json!(paths))], ()))
+    })?;
+    let mut sheet = Sheet::default();
+    comparison.print(&mut sheet);
+    Ok(print::sheet(&format!("{}\npage, table, maps and charts are in {}\n", sheet.into_text(), path.display()))?)
 }
 
 /// A folder beside the one that holds the results.

@@ -1,50 +1,43 @@
 //! `gearcut texture`: parameters of a surface from any instrument or simulation.
 
 mod lines;
+mod reading;
 
 use std::path::Path;
 
 use gearcut::Refusal;
 use gearcut::interrupt::Interrupt;
 use gearcut::measure::topography::height_steps::coarse_step_um;
-use gearcut::measure::topography::{Arguments, Chain, Evaluation, Form, Parameter, Surface};
-use gearcut::output::surface_files::{Format, SurfaceFile, read_surface, write_surface};
+use gearcut::measure::topography::{Arguments, Chain, Evaluation, Parameter, Surface};
+use gearcut::output::surface_files::{SurfaceFile, write_surface};
 use gearcut::output::text::{Sheet, plain, significant};
 use gearcut::texture::quantities;
 use serde_json::{Value, json};
 
-use super::args::{FormChoice, TextureArguments};
+use super::args::TextureArguments;
 use super::failure::Failure;
 use super::folder::listening;
 use super::print;
 use lines::Lines;
+use reading::Reading;
 
 /// Runs the command.
 pub fn run(arguments: &TextureArguments) -> Result<(), Failure> {
     check(arguments)?;
-    let spacing_um = match arguments.spacing_um[..] {
-        [both] => Some([both, both]),
-        [x, y] => Some([x, y]),
-        _ => None,
-    };
-    let formats = arguments.save.iter().map(|path| format_of(path)).collect::<Result<Vec<_>, _>>()?;
-    let file = read_surface(&arguments.file, spacing_um)?;
+    let saves = reading::saves(arguments)?;
+    let file = reading::reading(arguments)?;
     // Only files have temporary names that Ctrl-C must not leave; without them it ends the program at once.
     let interrupt = match arguments.save.first() {
         Some(first) => Interrupt::listen().map_err(listening(first))?,
         None => Interrupt::default(),
     };
-    for (path, format) in arguments.save.iter().zip(formats) {
-        write_surface(path, format, &file)?;
+    for (path, format) in saves {
+        let saved = SurfaceFile { surface: file.surface.clone(), notes: file.notes.clone() };
+        write_surface(path, format, &saved)?;
         interrupt.check()?;
     }
     let chain = Chain {
-        form: match arguments.form {
-            FormChoice::None => Form::None,
-            FormChoice::Plane => Form::Plane,
-            FormChoice::Poly2 => Form::Poly2,
-            FormChoice::Poly2PlusCylinder => Form::Poly2PlusCylinder,
-        },
+        form: arguments.form.form(),
         s_filter_um: arguments.s_filter_um,
         l_filter_um: arguments.l_filter_um,
         robust: arguments.robust,
@@ -77,7 +70,7 @@ fn check(arguments: &TextureArguments) -> Result<(), Refusal> {
         Some(value) => Err(Refusal::new(name, format!("{value} um is not a positive length"), "give a number above 0")),
         None => Ok(()),
     };
-    positive("--spacing-um", &arguments.spacing_um)?;
+    positive("--spacing-um", &arguments.reading.spacing_um)?;
     positive("--s-filter-um", arguments.s_filter_um.as_slice())?;
     positive("--l-filter-um", arguments.l_filter_um.as_slice())?;
     lines::check(arguments)?;
@@ -95,25 +88,6 @@ fn check(arguments: &TextureArguments) -> Result<(), Refusal> {
     Ok(())
 }
 
-fn format_of(path: &Path) -> Result<Format, Refusal> {
-    let name = path.file_name().map(|name| name.to_string_lossy().to_lowercase()).unwrap_or_default();
-    let endings = [
-        ("ascii.sdf", Format::SdfAscii),
-        (".sdf", Format::SdfBinary),
-        (".x3p", Format::X3p),
-        (".sur", Format::Sur),
-        (".npy", Format::Npy),
-        (".csv", Format::Csv),
-    ];
-    endings.into_iter().find(|(ending, _)| name.ends_with(ending)).map(|(_, format)| format).ok_or_else(|| {
-        Refusal::new(
-            "--save",
-            format!("{} has no ending that names a format", path.display()),
-            "use .x3p, .sdf, ascii.sdf, .sur, .npy or .csv",
-        )
-    })
-}
-
 /// Parameters as an object.
 fn by_symbol(parameters: &[Parameter]) -> serde_json::Map<String, Value> {
     quantities(parameters).into_iter().map(|(symbol, quantity)| (symbol, json!(quantity))).collect()
@@ -121,7 +95,7 @@ fn by_symbol(parameters: &[Parameter]) -> serde_json::Map<String, Value> {
 
 fn document(
     path: &Path,
-    file: &SurfaceFile,
+    file: &Reading,
     surface: &Surface,
     chain: &[String],
     evaluation: &Evaluation,
@@ -141,6 +115,7 @@ fn document(
             "dx_um": file.surface.dx_um(),
             "dy_um": file.surface.dy_um(),
             "holes": file.surface.holes(),
+            "remarks": file.remarks,
         },
         "evaluated": {"nx": surface.nx(), "ny": surface.ny(), "holes": surface.holes()},
         "warnings": warnings(file),
@@ -153,7 +128,7 @@ fn document(
 
 fn sheet(
     path: &Path,
-    file: &SurfaceFile,
+    file: &Reading,
     surface: &Surface,
     chain: &[String],
     evaluation: &Evaluation,
@@ -170,6 +145,9 @@ fn sheet(
     sheet.line("size", format!("{} x {} mm", significant(x, 4), significant(y, 4)));
     if read.holes() > 0 {
         sheet.line("holes", read.holes().to_string());
+    }
+    for remark in &file.remarks {
+        sheet.line("as read", remark);
     }
     for warning in warnings(file) {
         sheet.line("warning", warning);
@@ -197,7 +175,7 @@ fn sheet(
 }
 
 /// What a reader must know of the heights as they were read.
-fn warnings(file: &SurfaceFile) -> Vec<String> {
+fn warnings(file: &Reading) -> Vec<String> {
     let coarse = |step: f64| {
         format!(
             "heights go in steps of {} um, more than a tenth of their root mean square height: slopes, peaks and the \
@@ -205,7 +183,7 @@ fn warnings(file: &SurfaceFile) -> Vec<String> {
             significant(step, 3)
         )
     };
-    coarse_step_um(&file.surface).map(coarse).into_iter().collect()
+    file.doubts.iter().cloned().chain(coarse_step_um(&file.surface).map(coarse)).collect()
 }
 
 /// Symbol, value with unit, definition.

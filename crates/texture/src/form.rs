@@ -149,7 +149,7 @@ fn map_points(surface: &Surface, frame: &UnitCoordinates, f: impl Fn(f64, f64, f
 }
 
 /// Gauss elimination of the first `terms` unknowns with pivoting; the others stay 0.
-fn solve(m: &mut [[f64; 7]; 6], terms: usize) -> Option<[f64; 6]> {
+pub(crate) fn solve(m: &mut [[f64; 7]; 6], terms: usize) -> Option<[f64; 6]> {
     for i in 0..terms {
         let pivot = (i..terms).max_by(|&a, &b| m[a][i].abs().total_cmp(&m[b][i].abs()))?;
         m.swap(i, pivot);

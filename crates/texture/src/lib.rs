@@ -35,7 +35,9 @@
 //! - `watershed`: hills and their pruning
 //! - [`features`]: Spd Spc Sha Svd Svc Sda S10z S5p S5v
 //! - [`parameters`]: all of them, with units and definitions
-//! - [`files`]: X3P, SDF, SUR, NPY, CSV and EXR maps, read and written
+//! - [`prepare`]: masks, outliers, filled holes, replicas turned back, before a chain
+//! - [`align`]: two surfaces laid over each other, and their marks
+//! - [`files`]: X3P, SDF, SUR, NPY, CSV and EXR maps, read and written; GWY and other text, read
 //!
 //! # Example
 //!
@@ -97,6 +99,7 @@
 //! Holes are left out of sums and curves, count as the edge of the map for hills, and keep Std and Ssw from being
 //! defined; the autocorrelation divides by the pairs that were measured.
 
+pub mod align;
 pub mod atomic;
 pub mod chain;
 pub mod core;
@@ -115,6 +118,7 @@ pub mod hybrid;
 pub mod line_filter;
 pub mod line_form;
 pub mod parameters;
+pub mod prepare;
 pub mod profile;
 pub mod profile_chain;
 pub mod ratio;

@@ -441,3 +441,50 @@ fn numbers_of_one_side_are_counted() {
     let after = gearcut_in(folder.path(), &["compare", "out/before", "out/after"]).done();
     after.says(&["nothing changed of what all results have", "1 number stands in some of the results only"]);
 }
+
+/// Marks 0.1 mm apart across 30 deg with two hills; a second surface of the same place, shifted, tilted and mirrored.
+#[test]
+fn two_surfaces_are_laid_over_each_other() {
+    use gearcut::measure::topography::Surface;
+    use gearcut::output::surface_files::{Format, SurfaceFile, write_surface};
+    let height = |x: f64, y: f64| {
+        let across = 0.866_025 * x + 0.5 * y;
+        let hill = |cx: f64, cy: f64| (-((x - cx).powi(2) + (y - cy).powi(2)) / 1.5e4).exp();
+        0.4 * (std::f64::consts::TAU * across / 100.0).cos() + hill(300.0, 250.0) - 0.7 * hill(620.0, 150.0)
+    };
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    let write = |name: &str, nx: usize, ny: usize, of: &dyn Fn(f64, f64) -> f64| {
+        let heights = (0..nx * ny).map(|i| of((i % nx) as f64 * 5.0, (i / nx) as f64 * 5.0)).collect();
+        let surface = Surface::new(nx, ny, 5.0, 5.0, heights).expect("a grid");
+        let file = SurfaceFile { surface, notes: Vec::new() };
+        write_surface(&folder.path().join(name), Format::X3p, &file).expect("written");
+    };
+    write("simulated.x3p", 180, 100, &height);
+    write("measured.x3p", 140, 90, &|x, y| height(695.0 - x + 57.0, y + 22.5) + 0.002 * x + 3.0);
+    write("replica.x3p", 180, 100, &|x, y| -height(x, y));
+    let run = |names: &[&str]| gearcut_in(folder.path(), &[&["compare"], names].concat());
+    let outcome = run(&["simulated.x3p", "measured.x3p", "--form", "plane"]).done();
+    outcome.says(&["mirror", "second along x", "correlation", "pitch", "Sa", "difference", "F-operator"]);
+    let shift = outcome.out.lines().find(|line| line.contains("first point lies at")).expect("a shift");
+    let numbers: Vec<f64> = shift.split_whitespace().filter_map(|word| word.parse().ok()).collect();
+    assert!((numbers[0] - 57.0).abs() < 0.2 && (numbers[1] - 22.5).abs() < 0.2, "{shift}");
+    let beside = folder.path().join("compare_simulated_measured");
+    for file in
+        ["report.html", "comparison.csv", "first.png", "second.png", "difference.png", "abbott.svg", "profiles.svg"]
+    {
+        assert!(beside.join(file).exists(), "{file}");
+    }
+    let rest = gearcut::output::surface_files::read_surface(&beside.join("difference.x3p"), None).expect("a surface");
+    assert!(rest.surface.heights_um().iter().all(|z| z.abs() < 0.02));
+    let csv = std::fs::read_to_string(beside.join("comparison.csv")).expect("a table");
+    let sa = csv.lines().find(|line| line.starts_with("Sa,um,")).expect("Sa");
+    let cells: Vec<f64> = sa.split(',').skip(2).take(4).map(|cell| cell.parse().expect("a number")).collect();
+    assert!((cells[3] - 1.0).abs() < 0.01 && cells[0] > 0.2, "{sa}");
+    if let Some(kept) = std::env::var_os("GEARCUT_KEEP") {
+        std::fs::copy(beside.join("report.html"), Path::new(&kept).join("surfaces.html")).expect("kept");
+    }
+    run(&["simulated.x3p", "replica.x3p"]).done().says(&["with its heights inverted", "--invert"]);
+    run(&["simulated.x3p", "measured.x3p", "replica.x3p"]).failed(1, &["two surface files"]);
+    run(&["simulated.x3p", "gone.x3p"]).failed(1, &["gone.x3p"]);
+    run(&["simulated.x3p", "measured.x3p", "--l-filter-um", "0"]).failed(1, &["--l-filter-um"]);
+}

@@ -110,3 +110,75 @@ fn what_cannot_be_done_is_refused_with_a_way_out() {
 fn help_teaches_with_examples() {
     gearcut(&["texture", "--help"]).done().says(&["gearcut texture measured.sdf", "ISO 16610-61", "--spacing-um"]);
 }
+
+/// A surface of ten by eight points in the dialects of other programs: heights whose Sa is 0.81284 um.
+#[test]
+fn dialects_arrive_with_their_heights() {
+    let table = |separator: &str, comma: bool, unit_um: f64| -> String {
+        let text = std::fs::read_to_string(format!("{SURFACES}/dialects/heights_um.txt")).expect("there");
+        let cell = |word: &str| format!("{:.9}", word.parse::<f64>().expect("a height") / unit_um);
+        let row = |line: &str| line.split_whitespace().map(cell).collect::<Vec<_>>().join(separator);
+        let text: String = text.lines().map(|line| row(line) + "\n").collect();
+        if comma { text.replace('.', ",") } else { text }
+    };
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    let write = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).expect("written");
+    write("comma.csv", &table(";", true, 1.0));
+    write("mm.txt", &format!("# Value units: mm\n{}", table("\t", false, 1e3)));
+    let run = |arguments: &[&str]| gearcut_in(folder.path(), &[&["texture"], arguments, &["--form", "none"]].concat());
+    let spacing = ["--spacing-um", "2", "3"];
+    run(&[&["comma.csv", "--height-unit", "um"][..], &spacing].concat()).done().says(&["0.81284 um", "decimal commas"]);
+    run(&[&["comma.csv"][..], &spacing].concat()).failed(1, &["a table of 10 x 8 heights", "--height-unit um"]);
+    run(&[&["comma.csv", "--height-unit", "m"][..], &spacing].concat()).done().says(&["doubt", "in another unit?"]);
+    run(&[&["mm.txt"][..], &spacing].concat()).done().says(&["0.81284 um"]);
+    run(&[&["mm.txt", "--height-unit", "nm"][..], &spacing].concat()).failed(1, &["in mm, not in nm"]);
+    run(&["mm.txt", "--height-unit", "furlong"]).failed(2, &["not a unit of length"]);
+}
+
+#[test]
+fn replicas_are_turned_back_and_said() {
+    let file = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join(SURFACES).join("dialects/bcr.sdf");
+    let file = file.to_str().expect("a plain path");
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    let run = |arguments: &[&str]| gearcut_in(folder.path(), &[&["texture"], arguments, &["--form", "none"]].concat());
+    run(&[file, "--invert", "--mirror", "x", "--save", "back.csv"]).done().says(&[
+        "0.81284 um",
+        "invert:",
+        "mirror: x",
+    ]);
+    let back = std::fs::read_to_string(folder.path().join("back.csv")).expect("saved");
+    let first = back.lines().find(|line| !line.starts_with('#')).expect("a row");
+    assert!(first.starts_with("0.732,-0.477,-0.155,"), "{first}");
+    run(&[file, "--crop-to-um", "0", "10", "3", "12", "--rotate", "90"]).done().says(&["4 x 6, 3 x 2 um apart"]);
+    run(&[file, "--mask-um", "0", "4", "0", "6"]).done().says(&["mask: 9 points left out"]);
+    run(&[file, "--mask-um", "0", "4", "0", "6", "--fill"]).done().says(&["fill: 9 holes"]);
+    run(&[file, "--outliers", "50"]).done().says(&["outliers: 0 points"]);
+    for (wrong, words) in [
+        (&["--outliers", "0"][..], "--outliers"),
+        (&["--rotate", "up"], "`up` is no angle"),
+        (&["--crop-to-um", "5", "5", "0", "1"], "no rectangle"),
+        (&["--crop-to-um", "50", "55", "0", "1"], "no point in"),
+        (&["--height-unit", "um"], "leave --height-unit"),
+    ] {
+        run(&[&[file], wrong].concat()).failed(1, &[words]);
+    }
+}
+
+#[test]
+fn saving_replaces_nothing_without_force_and_never_what_was_read() {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    let text = "# gearcut surface: heights in um\n# dx_um = 1\n# dy_um = 1\n1,2,3\n4,5,7\n";
+    std::fs::write(folder.path().join("s.csv"), text).expect("written");
+    std::fs::write(folder.path().join("thesis.csv"), "years of work").expect("written");
+    let run =
+        |arguments: &[&str]| gearcut_in(folder.path(), &[&["texture", "s.csv", "--form", "none"], arguments].concat());
+    let holds = |name: &str| std::fs::read_to_string(folder.path().join(name)).expect("there");
+    for own in ["s.csv", "./s.csv"] {
+        run(&["--save", own]).failed(1, &["is the file that is read"]);
+        run(&["--save", own, "--force"]).failed(1, &["is the file that is read"]);
+    }
+    run(&["--save", "thesis.csv"]).failed(1, &["thesis.csv exists", "--force"]);
+    assert_eq!((holds("s.csv").as_str(), holds("thesis.csv").as_str()), (text, "years of work"));
+    run(&["--save", "thesis.csv", "--force"]).done();
+    assert!(holds("thesis.csv").starts_with("# gearcut surface"));
+}

@@ -2,7 +2,7 @@
 //! same name beside it.
 //!
 //! Read: any little- or big-endian float or signed integer of 2 to 8 bytes in C order, one array of two axes, heights
-//! in um.
+//! in um where neither the file beside nor its reader says otherwise.
 //!
 //! Road not taken: a crate for the format. Its header is one line; the crates bring a parser of Python literals for it.
 
@@ -10,8 +10,10 @@ use std::path::{Path, PathBuf};
 
 use serde_json::{Value, json};
 
-use super::bounds::{self, points};
-use super::{SpacingUm, SurfaceFile};
+use super::SurfaceFile;
+use super::bounds::{self, kept_number, points};
+use super::content::{Content, Given, Measured};
+use super::units::LengthUnit;
 use crate::surface::Surface;
 use crate::text::quoted;
 
@@ -58,25 +60,33 @@ pub(super) fn facts_beside(path: &Path) -> Result<Option<Value>, String> {
     serde_json::from_slice(&text).map(Some).map_err(|reason| format!("{}: {reason}", beside.display()))
 }
 
-pub(super) fn decode(
-    bytes: &[u8],
-    facts: Option<&Value>,
-    spacing_um: Option<SpacingUm>,
-) -> Result<SurfaceFile, String> {
-    if let Some(unit) = facts.map(|f| &f["height_unit"]).filter(|unit| !unit.is_null() && **unit != "um") {
+pub(super) fn decode(bytes: &[u8], facts: Option<&Value>, given: &Given) -> Result<Measured, String> {
+    let unit = facts.map(|f| &f["height_unit"]).filter(|unit| !unit.is_null());
+    if let Some(unit) = unit.filter(|unit| **unit != "um") {
         return Err(format!(
             "the file beside it says its heights are in {}; only um are read",
             quoted(&unit.to_string())
         ));
     }
     let written = facts.and_then(|f| Some([f["dx_um"].as_f64()?, f["dy_um"].as_f64()?]));
-    let Some([dx_um, dy_um]) = written.or(spacing_um) else {
+    let Some([dx_um, dy_um]) = written.or(given.spacing_um) else {
         return Err("an NPY file carries no spacing; give it with --spacing-um".to_owned());
     };
     let notes = facts.and_then(|f| f["notes"].as_object()).into_iter().flatten();
     let notes = notes.map(|(name, text)| (name.clone(), text.as_str().unwrap_or_default().to_owned())).collect();
-    let (shape, heights) = array(bytes)?;
-    Ok(SurfaceFile { surface: Surface::new(shape[1], shape[0], dx_um, dy_um, heights)?, notes })
+    let (shape, mut heights) = array(bytes)?;
+    // The array itself is in um by the contract of this format, unless its reader says otherwise.
+    let own = given.height_unit.filter(|_| unit.is_none()).unwrap_or(LengthUnit::Micrometre);
+    for z in &mut heights {
+        *z = kept_number(*z, *z * own.um());
+    }
+    let mut measured = Measured::new(Content::new(shape[1], shape[0], dx_um, dy_um, heights)?, notes);
+    let said = Given { height_unit: given.height_unit.filter(|_| unit.is_some()), ..*given };
+    measured.agrees(&said)?;
+    if unit.or(given.height_unit.map(|_| &Value::Null)).is_none() {
+        measured.remarks.push("heights: um, as NPY files of no stated unit are read (--height-unit)".to_owned());
+    }
+    Ok(measured)
 }
 
 /// Shape and values.

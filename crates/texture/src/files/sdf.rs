@@ -2,12 +2,14 @@
 //!
 //! Little endian. 0 `bISO-1.0`, 8 maker, 18 and 30 dates, 42 points, 44 rows (16 bits: at most 65535 a side), 46, 54
 //! spacing in m, 62 metres per unit of height, 70 resolution (-1: unknown), 78 compression, 79 type of heights, 80
-//! check, 81 heights. Version ISO-2.0, whose sizes have 32 bits, is read too.
+//! check, 81 heights. Version ISO-2.0, whose sizes have 32 bits, and the older BCR dialect, which also has types without
+//! sign, are read too; one row is a trace.
 
+use super::SurfaceFile;
 use super::bounds::{factor, kept_number, points, side};
+use super::content::{Content, Measured};
+use super::raw::{Bytes, Raw};
 use super::sdf_parts::{MAKER, UNKNOWN_DATE, raw_type, trailer_notes, trailer_text, type_code};
-use super::{Bytes, Raw, SurfaceFile};
-use crate::surface::Surface;
 use crate::text::quoted;
 
 /// Micrometres in a metre.
@@ -31,10 +33,10 @@ pub(super) fn encode(file: &SurfaceFile) -> Result<Vec<u8>, String> {
     Ok(bytes)
 }
 
-pub(super) fn decode(bytes: &[u8]) -> Result<SurfaceFile, String> {
+pub(super) fn decode(bytes: &[u8]) -> Result<Measured, String> {
     let all = Bytes(bytes);
     let (nx, ny, rest) = match all.at(0, 8)? {
-        b"bISO-1.0" => (usize::from(all.u16(42)?), usize::from(all.u16(44)?), 46),
+        b"bISO-1.0" | b"bBCR-1.0" | b"bBCR-0.0" => (usize::from(all.u16(42)?), usize::from(all.u16(44)?), 46),
         b"bISO-2.0" => (side(all.i32(42)?)?, side(all.i32(46)?)?, 50),
         other => return Err(format!("SDF version `{}` is not known", quoted(&String::from_utf8_lossy(other)))),
     };
@@ -47,11 +49,11 @@ pub(super) fn decode(bytes: &[u8]) -> Result<SurfaceFile, String> {
     let raw = raw_type(code)?;
     let data = all.at(rest + 35, bytes.len().saturating_sub(rest + 35))?;
     let count = points(nx, ny)?;
-    let invalid = raw.smallest();
+    let mark = raw.mark_of_holes();
     let heights = raw.values(data, count)?.into_iter();
     let heights =
-        heights.map(|z| if z == invalid { f64::NAN } else { kept_number(z, z * (scale * UM_PER_M)) }).collect();
+        heights.map(|z| if Some(z) == mark { f64::NAN } else { kept_number(z, z * (scale * UM_PER_M)) }).collect();
     let trailer = String::from_utf8_lossy(&data[count * raw.bytes()..]).into_owned();
-    let surface = Surface::new(nx, ny, dx * UM_PER_M, dy * UM_PER_M, heights)?;
-    Ok(SurfaceFile { surface, notes: trailer_notes(&trailer) })
+    let content = Content::new(nx, ny, dx * UM_PER_M, dy * UM_PER_M, heights)?;
+    Ok(Measured::new(content, trailer_notes(&trailer)))
 }

@@ -1,14 +1,15 @@
 //! SDF ASCII (ISO 25178-71): header lines `Name = value`, a star, heights, a star, trailer, a star.
 //!
 //! Heights are written in um (`Zscale` 1e-6) with the fewest digits that read back the same, one line per row; holes as
-//! `NaN`, which every reader that was tried takes, where `BAD` fails in one. Both are read.
+//! `NaN`, which every reader that was tried takes, where `BAD` fails in one. Both are read, and so are header names in any case, the BCR dialect, and one row as a trace.
 
 use std::fmt::Write as _;
 
 use super::SurfaceFile;
 use super::bounds::{factor, height, kept_number, points};
+use super::content::{Content, Measured};
 use super::sdf_parts::{MAKER, UNKNOWN_DATE, raw_type, trailer_notes, trailer_text};
-use crate::surface::Surface;
+use super::text::characters;
 use crate::text::quoted;
 
 pub(super) fn encode(file: &SurfaceFile) -> Result<Vec<u8>, String> {
@@ -36,22 +37,29 @@ pub(super) fn encode(file: &SurfaceFile) -> Result<Vec<u8>, String> {
     Ok(text.into_bytes())
 }
 
-pub(super) fn decode(bytes: &[u8]) -> Result<SurfaceFile, String> {
-    let text = std::str::from_utf8(bytes).map_err(|_| "the file is no text".to_owned())?.trim_start();
+pub(super) fn decode(bytes: &[u8]) -> Result<Measured, String> {
+    let (text, _) = characters(bytes)?;
     let mut parts = text.splitn(3, '*');
     let (header, data) = (parts.next().unwrap_or_default(), parts.next().ok_or("the header does not end with a star")?);
     let field = |name: &str| {
-        let line = header.lines().filter_map(|line| line.split_once('=')).find(|(key, _)| key.trim() == name);
+        let line = header.lines().filter_map(|line| line.split_once('='));
+        let line = line.into_iter().find(|(key, _)| key.trim().eq_ignore_ascii_case(name));
         line.map(|(_, value)| value.trim()).ok_or_else(|| format!("the header has no `{name}`"))
     };
     let number = |name: &str| {
         let value = field(name)?;
         value.parse::<f64>().map_err(|_| format!("`{name} = {}` is not a number", quoted(value)))
     };
-    let (nx, ny) = (number("NumPoints")? as usize, number("NumProfiles")? as usize);
+    let side = |name: &str| {
+        let value = field(name)?;
+        value.parse::<usize>().map_err(|_| format!("`{name} = {}` is not a count", quoted(value)))
+    };
+    let (nx, ny) = (side("NumPoints")?, side("NumProfiles")?);
     let count = points(nx, ny)?;
     let (dx, dy, scale) = (number("Xscale")?, number("Yscale")?, factor("Zscale", number("Zscale")?)?);
-    let invalid = raw_type(number("DataType")? as u8).ok().map(super::Raw::smallest);
+    let code = number("DataType")?;
+    let mark =
+        if code.fract() == 0.0 && code >= 0.0 { raw_type(code as u8)? } else { raw_type(u8::MAX)? }.mark_of_holes();
     let heights = data
         .split_whitespace()
         // One more than there should be is enough to see that they do not fit.
@@ -60,10 +68,13 @@ pub(super) fn decode(bytes: &[u8]) -> Result<SurfaceFile, String> {
             if word.eq_ignore_ascii_case("bad") || word.eq_ignore_ascii_case("nan") {
                 return Ok(f64::NAN);
             }
-            let value = height(word)?;
-            Ok(if Some(value) == invalid { f64::NAN } else { kept_number(value, value * (scale * 1e6)) })
+            let value = height(word).map_err(|reason| {
+                let hint = if word.contains(',') { ": SDF has decimal points" } else { "" };
+                reason + hint
+            })?;
+            Ok(if Some(value) == mark { f64::NAN } else { kept_number(value, value * (scale * 1e6)) })
         })
         .collect::<Result<Vec<f64>, String>>()?;
-    let surface = Surface::new(nx, ny, dx * 1e6, dy * 1e6, heights)?;
-    Ok(SurfaceFile { surface, notes: trailer_notes(parts.next().unwrap_or_default()) })
+    let content = Content::new(nx, ny, dx * 1e6, dy * 1e6, heights)?;
+    Ok(Measured::new(content, trailer_notes(parts.next().unwrap_or_default())))
 }

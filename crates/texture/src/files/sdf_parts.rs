@@ -1,6 +1,7 @@
 //! What both forms of SDF share (ISO 25178-71): maker, dates, numbers of the types of heights, the trailer with notes.
 
-use super::{Raw, notes_json, notes_of};
+use super::raw::Raw;
+use super::{notes_json, notes_of};
 
 /// Who wrote the file.
 pub(super) const MAKER: &str = "gearcut";
@@ -26,6 +27,9 @@ pub(super) fn trailer_notes(trailer: &str) -> Vec<(String, String)> {
 /// Number of a type of heights.
 pub(super) fn type_code(raw: Raw) -> u8 {
     match raw {
+        Raw::U8 => 0,
+        Raw::U16 => 1,
+        Raw::U32 => 2,
         Raw::F32 => 3,
         Raw::I8 => 4,
         Raw::I16 => 5,
@@ -36,7 +40,7 @@ pub(super) fn type_code(raw: Raw) -> u8 {
 
 /// Type of heights by its number.
 pub(super) fn raw_type(code: u8) -> Result<Raw, String> {
-    [Raw::F32, Raw::I8, Raw::I16, Raw::I32, Raw::F64]
+    [Raw::U8, Raw::U16, Raw::U32, Raw::F32, Raw::I8, Raw::I16, Raw::I32, Raw::F64]
         .into_iter()
         .find(|&raw| type_code(raw) == code)
         .ok_or_else(|| format!("heights of SDF type {code} are not read"))

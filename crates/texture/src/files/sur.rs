@@ -1,13 +1,19 @@
-//! SUR (Digital Surf, uncompressed): 512 bytes of header, then whole numbers of height steps.
+//! SUR and PRO (Digital Surf): 512 bytes of header, then whole numbers of height steps.
 //!
 //! Numbers are little endian. Spacing and step are f32 here (1e-7 of the value): fine for looking at, not for
 //! archiving. Written with 32 bits, the steps spread over the range of heights, no offset (a reader loses it), the
-//! micro sign as the single byte 0xB5 (readers fail on two). Read: 16 and 32 bits, any metric unit, offset.
+//! micro sign as the single byte 0xB5 (readers fail on two). Read: 16 and 32 bits, any unit of length, offset, deflated
+//! heights (`DSCOMPRESSED`), profiles, and surfaces that call themselves profiles, as Gwyddion's do. What the header says
+//! of replicas, inversion and levelling is said, and nothing is turned for it.
 
+use super::SurfaceFile;
 use super::bounds::{factor, points, side};
-use super::{Bytes, Raw, SurfaceFile};
-use crate::surface::Surface;
+use super::content::{Content, Measured};
+use super::raw::{Bytes, Raw};
+use super::units::LengthUnit;
 use crate::text::quoted;
+use flate2::read::ZlibDecoder;
+use std::io::Read;
 
 const HEADER: usize = 512;
 /// Unit of every axis as it is written.
@@ -57,15 +63,15 @@ pub(super) fn encode(file: &SurfaceFile) -> Result<Vec<u8>, String> {
     Ok(bytes)
 }
 
-pub(super) fn decode(bytes: &[u8]) -> Result<SurfaceFile, String> {
+/// Kinds of objects that are read: a profile, a surface, a series of surfaces.
+const KINDS: [i16; 3] = [1, 2, 6];
+
+pub(super) fn decode(bytes: &[u8]) -> Result<Measured, String> {
     let all = Bytes(bytes);
-    if !bytes.starts_with(b"DIGITAL SURF") {
-        return Err("compressed SUR files are not read; save the surface uncompressed".to_owned());
-    }
     let kind = all.i16(18)?;
-    if ![2, 6].contains(&kind) {
+    if !KINDS.contains(&kind) {
         return Err(format!(
-            "the file holds an object of type {kind}; only surfaces (2) and surface series (6) are read"
+            "the file holds an object of type {kind}; only profiles (1), surfaces (2) and surface series (6) are read"
         ));
     }
     let raw = match all.i16(98)? {
@@ -76,33 +82,79 @@ pub(super) fn decode(bytes: &[u8]) -> Result<SurfaceFile, String> {
     let has_holes = all.i16(86)? != 0;
     let low = f64::from(all.i32(100)?);
     let (nx, ny) = (side(all.i32(108)?)?, side(all.i32(112)?)?);
-    let unit = |at: usize| all.at(at, 16).and_then(metres);
-    let [x_m, y_m, z_m] = [unit(180)?, unit(196)?, unit(212)?];
+    let unit = |at: usize| all.at(at, 16).and_then(micrometres);
+    // The second axis of a profile is none.
+    let y_um = if ny == 1 { 1.0 } else { unit(196)? };
+    let (x_um, z_um) = (unit(180)?, unit(212)?);
     let [dx, dy, step] = [all.f32(120)?, all.f32(124)?, all.f32(128)?].map(f64::from);
     let step = factor("the step of heights", step)?;
     let offset = f64::from(all.f32(474)?);
     if !offset.is_finite() {
         return Err(format!("the offset of heights is {offset}"));
     }
-    let comment = usize::from(all.u16(334)?);
-    let private = usize::from(all.u16(336)?);
-    let data = all.at(HEADER + comment + private, bytes.len().saturating_sub(HEADER + comment + private))?;
+    let start = HEADER + usize::from(all.u16(334)?) + usize::from(all.u16(336)?);
+    let data = all.at(start, bytes.len().saturating_sub(start))?;
     let count = points(nx, ny)?;
-    let height = |z: f64| if has_holes && z == low - 2.0 { f64::NAN } else { (z * step + offset) * z_m * 1e6 };
+    let inflated;
+    let data = if bytes.starts_with(b"DSCOMPRESSED") {
+        inflated = inflate(data, count * raw.bytes())?;
+        &inflated
+    } else {
+        data
+    };
+    let height = |z: f64| if has_holes && z == low - 2.0 { f64::NAN } else { (z * step + offset) * z_um };
     let heights = raw.values(data, count)?.into_iter().map(height).collect();
-    Ok(SurfaceFile { surface: Surface::new(nx, ny, dx * x_m * 1e6, dy * y_m * 1e6, heights)?, notes: Vec::new() })
+    let mut measured = Measured::new(Content::new(nx, ny, dx * x_um, dy * y_um, heights)?, Vec::new());
+    let mut remark = |condition: bool, words: String| {
+        if condition {
+            measured.remarks.push(words);
+        }
+    };
+    remark(kind == 1 && ny > 1, format!("the file calls itself a profile, but holds {ny} lines: read as a surface"));
+    let objects = all.i16(14)?;
+    remark(objects > 1, format!("the file holds {objects} objects: the first is read"));
+    let (replica, inverted) = (all.i16(288)? != 0, all.i16(290)? != 0);
+    let turned = if inverted { "and inverted" } else { "and not inverted (--invert)" };
+    remark(replica, format!("the file calls itself the surface of a replica {turned}"));
+    remark(inverted && !replica, "the file calls itself inverted".to_owned());
+    remark(all.i16(292)? != 0, "the file calls itself levelled".to_owned());
+    Ok(measured)
 }
 
-/// Metres in a unit of 16 bytes, whatever alphabet its micro sign is from.
-fn metres(unit: &[u8]) -> Result<f64, String> {
+/// The streams of a compressed file, together of `most` bytes: their number, the sizes of each in full and deflated,
+/// then the streams.
+fn inflate(data: &[u8], most: usize) -> Result<Vec<u8>, String> {
+    let all = Bytes(data);
+    let count = all.u32(0)?;
+    let mut start = usize::try_from(count).ok().and_then(|n| n.checked_mul(8)?.checked_add(4)).unwrap_or(usize::MAX);
+    let mut out = Vec::new();
+    // A stream has its sizes in the file, so that their number is bounded by its length.
+    all.at(4, start.saturating_sub(4))?;
+    for stream in 0..count as usize {
+        let (full, deflated) = (all.u32(4 + 8 * stream)? as usize, all.u32(8 + 8 * stream)? as usize);
+        if full > most - out.len() {
+            return Err(format!("its streams inflate to more than the {most} bytes of its points"));
+        }
+        let before = out.len();
+        let packed = all.at(start, deflated)?;
+        let limit = (full + 1) as u64;
+        let inflated = ZlibDecoder::new(packed).take(limit).read_to_end(&mut out);
+        inflated.map_err(|reason| format!("its compressed heights are damaged: {reason}"))?;
+        if out.len() - before != full {
+            return Err(format!("stream {} does not inflate to the {full} bytes of its header", stream + 1));
+        }
+        start += deflated;
+    }
+    Ok(out)
+}
+
+/// Micrometres in a unit of 16 bytes, whatever alphabet its micro sign is from.
+fn micrometres(unit: &[u8]) -> Result<f64, String> {
     let end = unit.iter().position(|&b| b == 0).unwrap_or(unit.len());
     let name = unit[..end].trim_ascii();
-    match name {
-        b"m" => Ok(1.0),
-        b"mm" => Ok(1e-3),
-        b"um" | b"\xB5m" | b"\xC2\xB5m" | b"\xCE\xBCm" | b"\xE6m" => Ok(1e-6),
-        b"nm" => Ok(1e-9),
-        b"pm" => Ok(1e-12),
-        other => Err(format!("the unit `{}` is not a metric length", quoted(&String::from_utf8_lossy(other)))),
-    }
+    // 0xE6 is the micro sign of old DOS programs; other single bytes are Latin-1.
+    let latin = || name.iter().map(|&b| if b == 0xe6 { '\u{b5}' } else { char::from(b) }).collect();
+    let name = std::str::from_utf8(name).map_or_else(|_| latin(), str::to_owned);
+    let found = LengthUnit::of(&name).map(LengthUnit::um);
+    found.ok_or_else(|| format!("the unit `{}` is not a length", quoted(&name)))
 }

@@ -4,8 +4,10 @@
 //! 2000`; MD5 of `main.xml` in lower case; NaN for what was not measured. Record 2 carries the notes in its comment.
 //! The format demands dates: the epoch stands for "not recorded", because the same scene must give the same bytes.
 //!
-//! Read: types D, F, L and I (with increment and offset), validity bits, both revisions. A checksum of `data.bin` where
-//! one of `main.xml` should stand is accepted, because a common writer puts it there.
+//! Read: surfaces (SUR) and profiles (PRF), types D, F, L and I (with increment and offset), heights in a binary file or
+//! as text in the record, validity bits, both revisions; archives with everything in a folder, or with backslashes in
+//! their names; records in UTF-8, UTF-16 and Latin-1. A checksum of `data.bin` where one of `main.xml` should be is
+//! accepted, because a common writer puts it there.
 
 use std::fmt::{Display, Write as _};
 use std::io::{Cursor, Read, Write};
@@ -14,9 +16,11 @@ use md5::{Digest, Md5};
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, DateTime, ZipArchive, ZipWriter};
 
-use super::bounds::{factor, kept_number, points};
-use super::{Raw, SurfaceFile, notes_json, notes_of};
-use crate::surface::Surface;
+use super::bounds::{factor, height, kept_number, points};
+use super::content::{Content, Measured};
+use super::raw::Raw;
+use super::text::characters;
+use super::{SurfaceFile, notes_json, notes_of};
 use crate::text::quoted;
 
 const MAIN: &str = "main.xml";
@@ -27,8 +31,9 @@ const NOT_RECORDED: &str = "1970-01-01T00:00:00Z";
 const NAMESPACE: &str = "http://www.opengps.eu/2008/ISO5436_2";
 /// Namespace of schema instances.
 const INSTANCE: &str = "http://www.w3.org/2001/XMLSchema-instance";
-/// Most bytes of the XML record: notes hold a scene and the record of a run.
-const MOST_MAIN: usize = 16 << 20;
+/// Most bytes of the XML record, which may hold heights as text: some two million of them, of which the document takes
+/// half a gigabyte.
+const MOST_MAIN: usize = 64 << 20;
 /// Most bytes of the file with the checksum.
 const MOST_CHECKSUM: usize = 4 << 10;
 /// Micrometres in a metre.
@@ -131,23 +136,20 @@ fn hex(bytes: &[u8]) -> String {
     })
 }
 
-pub(super) fn decode(bytes: &[u8]) -> Result<SurfaceFile, String> {
-    let mut zip = ZipArchive::new(Cursor::new(bytes)).map_err(|reason| reason.to_string())?;
-    let main = entry(&mut zip, MAIN, MOST_MAIN)?;
-    let text = std::str::from_utf8(&main).map_err(|_| format!("{MAIN} is not UTF-8"))?;
-    let document = roxmltree::Document::parse(text).map_err(|reason| format!("{MAIN}: {reason}"))?;
+pub(super) fn decode(bytes: &[u8]) -> Result<Measured, String> {
+    let mut archive = Archive::open(bytes)?;
+    let main = archive.entry(MAIN, MOST_MAIN)?;
+    let (text, encoding) = characters(&main).map_err(|reason| format!("{MAIN}: {reason}"))?;
+    let document = roxmltree::Document::parse(&text).map_err(|reason| format!("{MAIN}: {reason}"))?;
     let record = XmlRecord(document.root_element());
     let feature = record.text("Record1/FeatureType")?;
-    if feature != "SUR" {
-        return Err(format!("the file holds `{}`, not a surface (SUR)", quoted(feature)));
+    if !["SUR", "PRF"].contains(&feature) {
+        return Err(format!("the file holds `{}`, neither a surface (SUR) nor a profile (PRF)", quoted(feature)));
     }
     let (nx, ny, nz) = (record.size("SizeX")?, record.size("SizeY")?, record.size("SizeZ")?);
     if nz != 1 {
         return Err(format!("the file holds {nz} layers; only one is read"));
     }
-    let link = record
-        .text("Record3/DataLink/PointDataLink")
-        .map_err(|_| "the heights stand as text in the XML record; only those in a binary file are read".to_owned())?;
     let raw = match record.text("Record1/Axes/CZ/DataType")? {
         "D" => Raw::F64,
         "F" => Raw::F32,
@@ -156,16 +158,24 @@ pub(super) fn decode(bytes: &[u8]) -> Result<SurfaceFile, String> {
         other => return Err(format!("heights of type `{}` are not read", quoted(other))),
     };
     let count = points(nx, ny)?;
-    let data = entry(&mut zip, link, count * raw.bytes())?;
-    if let Ok(name) = record.text("Record4/ChecksumFile") {
-        check_main(&entry(&mut zip, name, MOST_CHECKSUM)?, &main, &data)?;
+    // The place of the heights: a file of the archive, or the record itself.
+    let link = record.text("Record3/DataLink/PointDataLink").ok();
+    let data = link.map(|link| archive.entry(link, count * raw.bytes())).transpose()?.unwrap_or_default();
+    if let Ok(name) = record.text("Record4/ChecksumFile")
+        && (link.is_some() || archive.has(name))
+    {
+        check_main(&archive.entry(name, MOST_CHECKSUM)?, &main, &data)?;
     }
-    if let Ok(checksum) = record.text("Record3/DataLink/MD5ChecksumPointData")
+    if let (Some(link), Ok(checksum)) = (link, record.text("Record3/DataLink/MD5ChecksumPointData"))
         && !checksum.is_empty()
         && !checksum.eq_ignore_ascii_case(&hex(&data))
     {
         return Err(format!("{} does not have the checksum that {MAIN} gives: the file is damaged", quoted(link)));
     }
+    let numbers = match link {
+        Some(_) => raw.values(&data, count)?,
+        None => record.list(count)?,
+    };
     let [step, offset] = if matches!(raw, Raw::F64 | Raw::F32) {
         [1.0, 0.0]
     } else {
@@ -174,10 +184,9 @@ pub(super) fn decode(bytes: &[u8]) -> Result<SurfaceFile, String> {
             record.number("Record1/Axes/CZ/Offset").unwrap_or(0.0),
         ]
     };
-    let mut heights: Vec<f64> =
-        raw.values(&data, count)?.into_iter().map(|z| kept_number(z, (z * step + offset) * UM_PER_M)).collect();
+    let mut heights: Vec<f64> = numbers.into_iter().map(|z| kept_number(z, (z * step + offset) * UM_PER_M)).collect();
     if let Ok(link) = record.text("Record3/DataLink/ValidPointsLink") {
-        let valid = entry(&mut zip, link, count.next_multiple_of(64) / 8)?;
+        let valid = archive.entry(link, count.next_multiple_of(64) / 8)?;
         for (i, z) in heights.iter_mut().enumerate() {
             if valid.get(i / 8).is_some_and(|byte| byte >> (i % 8) & 1 == 0) {
                 *z = f64::NAN;
@@ -190,8 +199,14 @@ pub(super) fn decode(bytes: &[u8]) -> Result<SurfaceFile, String> {
             other => Err(format!("axis {axis} is of type `{}`; only regular grids (I) are read", quoted(other))),
         }
     };
-    let surface = Surface::new(nx, ny, spacing("CX")?, spacing("CY")?, heights)?;
-    Ok(SurfaceFile { surface, notes: notes_of(record.text("Record2/Comment").unwrap_or_default()) })
+    let dx = spacing("CX")?;
+    // A profile has one axis; what it says of the other is nothing.
+    let dy = if ny == 1 { dx } else { spacing("CY")? };
+    let content = Content::new(nx, ny, dx, dy, heights)?;
+    let mut measured = Measured::new(content, notes_of(record.text("Record2/Comment").unwrap_or_default()));
+    measured.remarks.extend(encoding.map(|encoding| format!("encoding of {MAIN}: {encoding}")));
+    measured.remarks.extend(record.rotation());
+    Ok(measured)
 }
 
 fn check_main(checksum: &[u8], main: &[u8], data: &[u8]) -> Result<(), String> {
@@ -202,18 +217,62 @@ fn check_main(checksum: &[u8], main: &[u8], data: &[u8]) -> Result<(), String> {
     Err(format!("{MAIN} does not have the checksum in {CHECKSUM}: the file is damaged"))
 }
 
-/// One file of the archive, of `most` bytes at most: what its directory says is looked at before it is inflated, and
-/// what comes out is counted.
-fn entry(zip: &mut ZipArchive<Cursor<&[u8]>>, name: &str, most: usize) -> Result<Vec<u8>, String> {
-    let failed = |reason: &dyn Display| format!("{}: {reason}", quoted(name));
-    let file = zip.by_name(name).map_err(|reason| failed(&reason))?;
-    let too_large = || failed(&format!("it inflates to more than the {most} bytes that the record gives it"));
-    if file.size() > most as u64 {
-        return Err(too_large());
+/// The zip, whose files may all be in one folder.
+struct Archive<'a> {
+    zip: ZipArchive<Cursor<&'a [u8]>>,
+    /// Names as they are written in it.
+    names: Vec<String>,
+    /// What is before `main.xml` in its name.
+    folder: String,
+}
+
+impl<'a> Archive<'a> {
+    fn open(bytes: &'a [u8]) -> Result<Self, String> {
+        let zip = ZipArchive::new(Cursor::new(bytes)).map_err(|reason| reason.to_string())?;
+        let names: Vec<String> = zip.file_names().filter_map(|name| Some(name.ok()?.into_owned())).collect();
+        let plain: Vec<String> = names.iter().map(|name| slashed(name)).collect();
+        let mut places = plain.iter().filter(|name| name.rsplit('/').next() == Some(MAIN));
+        let folder = match (places.next(), places.next()) {
+            // Several: that of the archive itself counts.
+            _ if plain.iter().any(|name| name == MAIN) => String::new(),
+            (Some(only), None) => only[..only.len() - MAIN.len()].to_owned(),
+            (None, _) => return Err(format!("the archive has no {MAIN}: it is a zip, but no X3P")),
+            _ => return Err(format!("the archive has several {MAIN}: keep one")),
+        };
+        Ok(Self { zip, names, folder })
     }
-    let mut bytes = Vec::new();
-    file.take(most as u64 + 1).read_to_end(&mut bytes).map_err(|reason| failed(&reason))?;
-    if bytes.len() > most { Err(too_large()) } else { Ok(bytes) }
+
+    /// The name in the archive of a file that the record names.
+    fn name(&self, name: &str) -> Option<&String> {
+        let wanted = slashed(name);
+        let wanted = wanted.trim_start_matches("./").trim_start_matches('/');
+        let wanted = format!("{}{wanted}", self.folder);
+        self.names.iter().find(|name| slashed(name) == wanted)
+    }
+
+    fn has(&self, name: &str) -> bool {
+        self.name(name).is_some()
+    }
+
+    /// One file of the archive, of `most` bytes at most: what its directory says is looked at before it is inflated,
+    /// and what comes out is counted.
+    fn entry(&mut self, name: &str, most: usize) -> Result<Vec<u8>, String> {
+        let failed = |reason: &dyn Display| format!("{}: {reason}", quoted(name));
+        let found = self.name(name).ok_or_else(|| failed(&"the archive has no such file"))?.clone();
+        let file = self.zip.by_name(&found).map_err(|reason| failed(&reason))?;
+        let too_large = || failed(&format!("it inflates to more than the {most} bytes that the record gives it"));
+        if file.size() > most as u64 {
+            return Err(too_large());
+        }
+        let mut bytes = Vec::new();
+        file.take(most as u64 + 1).read_to_end(&mut bytes).map_err(|reason| failed(&reason))?;
+        if bytes.len() > most { Err(too_large()) } else { Ok(bytes) }
+    }
+}
+
+/// A name with slashes between its folders, as the format has them.
+fn slashed(name: &str) -> String {
+    name.replace('\\', "/")
 }
 
 /// The XML record.
@@ -240,5 +299,39 @@ impl<'a> XmlRecord<'a> {
     fn size(&self, name: &str) -> Result<usize, String> {
         let text = self.text(&format!("Record3/MatrixDimension/{name}"))?;
         text.parse().map_err(|_| format!("{name} in {MAIN} is `{}`, not a count", quoted(text)))
+    }
+
+    /// `count` heights that are text in the record; an empty one is a hole.
+    fn list(&self, count: usize) -> Result<Vec<f64>, String> {
+        let list = self.0.descendants().find(|node| node.tag_name().name() == "DataList");
+        let list =
+            list.ok_or_else(|| format!("{MAIN} has neither Record3/DataLink nor Record3/DataList: no heights"))?;
+        let data = list.children().filter(|node| node.tag_name().name() == "Datum");
+        let value = |(i, node): (usize, roxmltree::Node)| {
+            let text = node.text().unwrap_or_default().trim();
+            let hole = text.is_empty() || text.eq_ignore_ascii_case("nan");
+            if hole {
+                Ok(f64::NAN)
+            } else {
+                height(text).map_err(|reason| format!("Datum {} in {MAIN}: {reason}", i + 1))
+            }
+        };
+        // One more than there should be is enough to see that they do not fit.
+        let values = data.take(count + 1).enumerate().map(value).collect::<Result<Vec<f64>, String>>()?;
+        if values.len() == count {
+            Ok(values)
+        } else {
+            Err(format!("{count} points, but not as many heights in {MAIN}"))
+        }
+    }
+
+    /// A remark where the record turns the surface in space, which is not done.
+    fn rotation(&self) -> Option<String> {
+        let is = |i: usize, j: usize| {
+            let text = self.text(&format!("Record1/Axes/Rotation/r{i}{j}")).ok()?;
+            Some((text.parse::<f64>().ok()? - f64::from(u8::from(i == j))).abs() < 1e-9)
+        };
+        let turned = (1..=3).any(|i| (1..=3).any(|j| is(i, j) == Some(false)));
+        turned.then(|| "the record turns the surface in space, which is not done: axes are the instrument's".to_owned())
     }
 }

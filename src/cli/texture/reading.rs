@@ -1,0 +1,127 @@
+//! How `gearcut texture` reads its file, what it does to the surface first, and where it saves it.
+
+use gearcut::Refusal;
+use gearcut::measure::topography::Surface;
+use gearcut::measure::topography::prepare::{Axis, Preparation, RectangleUm, Turn};
+use gearcut::output::surface_files::{Content, Format, Given, read};
+use std::path::Path;
+
+use crate::cli::args::{AxisChoice, ReadingArguments, TextureArguments};
+use crate::cli::failure::Failure;
+
+/// A surface that was read and made ready.
+pub struct Reading {
+    pub surface: Surface,
+    pub notes: Vec<(String, String)>,
+    /// How it was read and what was done to it.
+    pub remarks: Vec<String>,
+    /// What is hardly right about it.
+    pub doubts: Vec<String>,
+}
+
+/// Reads the file and makes its surface ready.
+pub fn reading(arguments: &TextureArguments) -> Result<Reading, Failure> {
+    let reading = &arguments.reading;
+    let preparation = preparation(reading)?;
+    let given = Given {
+        spacing_um: match reading.spacing_um[..] {
+            [both] => Some([both, both]),
+            [x, y] => Some([x, y]),
+            _ => None,
+        },
+        height_unit: reading.height_unit,
+        spacing_unit: reading.spacing_unit,
+        use_mask: reading.use_mask,
+    };
+    let measured = read(&arguments.file, &given)?;
+    let mut doubts: Vec<String> = measured.doubt().into_iter().collect();
+    if let Content::Surface(surface) = &measured.content
+        && reading.use_mask
+        && surface.holes() == 0
+    {
+        doubts.push("--use-mask: the file has no mask, or one that marks nothing".to_owned());
+    }
+    let mut remarks = measured.remarks.clone();
+    let file = measured.into_surface().map_err(|reason| unsuited(&arguments.file, reason))?;
+    let (surface, words) = preparation.apply(&file.surface).map_err(|reason| unsuited(&arguments.file, reason))?;
+    remarks.extend(words);
+    Ok(Reading { surface, notes: file.notes, remarks, doubts })
+}
+
+fn unsuited(path: &Path, reason: String) -> Refusal {
+    let way_out = "see `gearcut texture --help` for what can be done to a surface before it is evaluated";
+    Refusal::new("gearcut texture", format!("{}: {reason}", path.display()), way_out)
+}
+
+fn preparation(reading: &ReadingArguments) -> Result<Preparation, Refusal> {
+    if let Some(sigmas) = reading.outliers.filter(|sigmas| !(sigmas.is_finite() && *sigmas > 0.0)) {
+        let problem = format!("{sigmas} is no number of standard deviations");
+        return Err(Refusal::new("--outliers", problem, "give a number above 0; 6 takes spikes and leaves textures"));
+    }
+    let rotate = reading.rotate.as_deref().map(|wish| match (wish, wish.parse::<f64>()) {
+        ("lay", _) => Ok(Turn::Lay),
+        (_, Ok(degrees)) if degrees.is_finite() => Ok(Turn::Degrees(degrees)),
+        _ => Err(Refusal::new("--rotate", format!("`{wish}` is no angle"), "give degrees, or `lay`")),
+    });
+    Ok(Preparation {
+        masks_um: rectangles("--mask-um", &reading.mask_um)?,
+        outliers: reading.outliers,
+        fill: reading.fill,
+        invert: reading.invert,
+        mirror: reading.mirror.map(|axis| match axis {
+            AxisChoice::X => Axis::X,
+            AxisChoice::Y => Axis::Y,
+        }),
+        crop_um: rectangles("--crop-to-um", &reading.crop_to_um)?.pop(),
+        rotate: rotate.transpose()?,
+    })
+}
+
+fn rectangles(option: &str, numbers: &[f64]) -> Result<Vec<RectangleUm>, Refusal> {
+    let rectangle = |four: &[f64]| {
+        let sound = four.iter().all(|edge| edge.is_finite()) && four[0] < four[1] && four[2] < four[3];
+        let problem = || format!("{four:?} is no rectangle");
+        let way_out = "give four numbers of um: first and last x, first and last y; the first point is 0 0";
+        sound.then(|| [[four[0], four[1]], [four[2], four[3]]]).ok_or_else(|| Refusal::new(option, problem(), way_out))
+    };
+    numbers.chunks_exact(4).map(rectangle).collect()
+}
+
+/// Where the surface is to be saved, and how. Said before anything is read: an ending that names no format, a file that
+/// exists, and the measured file itself, which is never replaced.
+pub fn saves(arguments: &TextureArguments) -> Result<Vec<(&Path, Format)>, Refusal> {
+    let read_at = arguments.file.canonicalize().ok();
+    let save = |path: &std::path::PathBuf| {
+        let refuse = |problem: &str, way_out: &str| {
+            Err(Refusal::new("--save", format!("{} {problem}", path.display()), way_out))
+        };
+        let format = format_of(path)?;
+        if path.canonicalize().is_ok_and(|there| read_at.as_ref() == Some(&there)) {
+            return refuse("is the file that is read, and is never replaced", "choose another name");
+        }
+        if path.exists() && !arguments.force {
+            return refuse("exists", "choose another name, or let it be replaced with --force");
+        }
+        Ok((path.as_path(), format))
+    };
+    arguments.save.iter().map(save).collect()
+}
+
+fn format_of(path: &Path) -> Result<Format, Refusal> {
+    let name = path.file_name().map(|name| name.to_string_lossy().to_lowercase()).unwrap_or_default();
+    let endings = [
+        ("ascii.sdf", Format::SdfAscii),
+        (".sdf", Format::SdfBinary),
+        (".x3p", Format::X3p),
+        (".sur", Format::Sur),
+        (".npy", Format::Npy),
+        (".csv", Format::Csv),
+    ];
+    endings.into_iter().find(|(ending, _)| name.ends_with(ending)).map(|(_, format)| format).ok_or_else(|| {
+        Refusal::new(
+            "--save",
+            format!("{} has no ending that names a format", path.display()),
+            "use .x3p, .sdf, ascii.sdf, .sur, .npy or .csv",
+        )
+    })
+}
