@@ -87,23 +87,25 @@ fn differences(first: &Path, other: &Path) -> Result<Vec<DifferenceMap>> {
         if of(&a) != of(&b) {
             continue;
         }
-        let axis = |name: &str, meaning: &str, step_um: f64, count: usize| MapAxis {
-            name: name.to_owned(),
-            meaning: meaning.to_owned(),
-            start_mm: 0.0,
-            step_mm: step_um / UM_PER_MM,
-            count,
-        };
         maps.push(DifferenceMap {
             label: name.trim_end_matches(".exr").trim_start_matches("tooth_").replace('_', " "),
-            grid: MapGrid {
-                u: axis("u", "along the profile from the form point", a.dy_um(), a.ny()),
-                v: axis("v", "along the tooth", a.dx_um(), a.nx()),
-            },
+            grid: grid_of(&a, [("u", "along the profile from the form point"), ("v", "along the tooth")]),
             values_um: a.heights_um().iter().zip(b.heights_um()).map(|(a, b)| (b - a) as f32).collect(),
         });
     }
     Ok(maps)
+}
+
+/// The grid of a surface for pictures, y upwards; its axes y and x by name and meaning.
+pub(super) fn grid_of(surface: &gearcut_texture::Surface, [y, x]: [(&str, &str); 2]) -> MapGrid {
+    let axis = |(name, meaning): (&str, &str), step_um: f64, count: usize| MapAxis {
+        name: name.to_owned(),
+        meaning: meaning.to_owned(),
+        start_mm: 0.0,
+        step_mm: step_um / UM_PER_MM,
+        count,
+    };
+    MapGrid { u: axis(y, surface.dy_um(), surface.ny()), v: axis(x, surface.dx_um(), surface.nx()) }
 }
 
 /// Names of the maps in a folder; none where it has no such folder.

@@ -17,13 +17,13 @@
 
 mod page;
 
+use super::maps::grid_of;
 use crate::colormap::ColourScale;
 use crate::findings::Datum;
 use crate::measure::topography::align::{self, Aligned, Marks};
 use crate::measure::topography::{Arguments, Chain, Evaluation, Surface};
 use crate::output::atomic::file_error;
 use crate::output::folder::OutputFolder;
-use crate::output::grid::{MapAxis, MapGrid};
 use crate::output::line_chart::{LineChart, LineSeries, Panel};
 use crate::output::map_png::{MapPicture, write_map_png};
 use crate::output::report::REPORT_FILE;
@@ -278,7 +278,7 @@ impl SurfaceComparison {
                 "difference, levelled",
             ),
         ] {
-            let grid = grid_of(surface);
+            let grid = grid_of(surface, [("y", "from row to row"), ("x", "along the rows")]);
             let picture = MapPicture {
                 title: &title,
                 quantity,
@@ -345,19 +345,4 @@ fn fact(name: &str, value: String) -> [String; 2] {
 
 fn correlation_text(value: f64) -> String {
     if value.is_finite() { format!("{value:.4}") } else { "none".to_owned() }
-}
-
-/// The grid of a surface for pictures: y upwards.
-fn grid_of(surface: &Surface) -> MapGrid {
-    let axis = |name: &str, meaning: &str, step_um: f64, count: usize| MapAxis {
-        name: name.to_owned(),
-        meaning: meaning.to_owned(),
-        start_mm: 0.0,
-        step_mm: step_um / UM_PER_MM,
-        count,
-    };
-    MapGrid {
-        u: axis("y", "from row to row", surface.dy_um(), surface.ny()),
-        v: axis("x", "along the rows", surface.dx_um(), surface.nx()),
-    }
 }

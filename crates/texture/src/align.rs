@@ -7,7 +7,7 @@
 //! 2. For the second as it is and mirrored in x, in y and in both, the normalised cross-correlation of every shift is
 //!    taken at once by Fourier transforms, each shift over the cells that overlap and were measured (Padfield 2012). The
 //!    largest of overlaps of at least half of the smaller surface counts. A mirror is taken only where it correlates
-//!    better by [`CLEARLY`]: symmetrical marks fit either way.
+//!    better by [`CLEARLY`], or leaves less than half of the variance: symmetrical marks fit either way.
 //! 3. Shift and plane are refined together by least squares on the points themselves (Gauss and Newton), the second
 //!    interpolated by cubic convolution.
 //!
@@ -28,8 +28,10 @@ use super::surface::{Surface, transposed};
 
 /// Cells a side of the averaged surfaces: marks of 20 points keep five cells on maps of 1500 points.
 const COARSE: usize = 384;
-/// How much better a mirrored surface must correlate to be taken.
-const CLEARLY: f64 = 0.05;
+/// How much better a mirrored surface must correlate to be taken, or the better of two good ones by [`HARDLY`] where it
+/// halves the variance that is left.
+const CLEARLY: f64 = 0.1;
+const HARDLY: f64 = 0.005;
 /// Overlap that counts, as a share of the smaller surface's points.
 const LEAST_OVERLAP: f64 = 0.5;
 /// Points that the refinement looks at, about.
@@ -90,7 +92,10 @@ pub fn aligned(first: &Surface, second: &Surface) -> Result<Aligned, String> {
     let found = correlations(&coarse_a, &coarse_b);
     let by_mirror = [0, 1, 2, 3].map(|k| found[k].0.0);
     let best = (1..4).fold(0, |best, k| if by_mirror[k] > by_mirror[best] { k } else { best });
-    let taken = if by_mirror[best] > by_mirror[0] + CLEARLY { best } else { 0 };
+    let [as_it_is, mirrored] = [by_mirror[0], by_mirror[best]];
+    let left = |correlation: f64| 1.0 - correlation * correlation;
+    let halved = mirrored > as_it_is + HARDLY && left(mirrored) < 0.5 * left(as_it_is);
+    let taken = if mirrored > as_it_is + CLEARLY || halved { best } else { 0 };
     let (correlation, cells) = found[taken].0;
     if correlation == f64::NEG_INFINITY {
         return Err("the surfaces share too few measured points to be laid over each other".to_owned());

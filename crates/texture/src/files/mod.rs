@@ -115,20 +115,24 @@ pub fn read_surface(path: &Path, spacing_um: Option<SpacingUm>) -> Result<Surfac
 /// formats, hold heights or spacings out of range ([`Surface::new`]), or leave open what is not given.
 pub fn read(path: &Path, given: &Given) -> Result<Measured> {
     let (kind, bytes) = bounds::read(path, |head| FileKind::of(head, path).map(|kind| (kind, kind.most_bytes())))?;
-    let found = match kind {
-        FileKind::X3p => x3p::decode(&bytes),
-        FileKind::SdfBinary => sdf::decode(&bytes),
-        FileKind::SdfAscii => sdf_ascii::decode(&bytes),
-        FileKind::Sur => sur::decode(&bytes),
-        FileKind::Gwy => gwy::decode(&bytes, given.use_mask),
-        FileKind::Npy => npy::facts_beside(path).and_then(|facts| npy::decode(&bytes, facts.as_ref(), given)),
-        FileKind::Exr => exr::decode(&bytes),
-        FileKind::Text => text::decode(&bytes, given),
-    };
-    let measured = found.map_err(unreadable(path))?;
+    decoded(kind, &bytes, path, given).map_err(unreadable(path))
+}
+
+/// What the bytes of a file of a kind hold; `path` for the file beside it.
+fn decoded(kind: FileKind, bytes: &[u8], path: &Path, given: &Given) -> std::result::Result<Measured, String> {
+    let measured = match kind {
+        FileKind::X3p => x3p::decode(bytes),
+        FileKind::SdfBinary => sdf::decode(bytes),
+        FileKind::SdfAscii => sdf_ascii::decode(bytes),
+        FileKind::Sur => sur::decode(bytes),
+        FileKind::Gwy => gwy::decode(bytes, given.use_mask),
+        FileKind::Npy => npy::facts_beside(path).and_then(|facts| npy::decode(bytes, facts.as_ref(), given)),
+        FileKind::Exr => exr::decode(bytes),
+        FileKind::Text => text::decode(bytes, given),
+    }?;
     // Text and NPY compare what they say themselves: they may say nothing.
     if !matches!(kind, FileKind::Text | FileKind::Npy) {
-        measured.agrees(given).map_err(unreadable(path))?;
+        measured.agrees(given)?;
     }
     Ok(measured)
 }

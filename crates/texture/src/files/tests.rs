@@ -350,7 +350,6 @@ fn damaged_files_are_refused() {
     };
     for source in &sources {
         let bytes = std::fs::read(source).expect("there");
-        let path = folder.path().join(source.file_name().expect("a name"));
         for _ in 0..5000 / sources.len() {
             let mut changed = bytes.clone();
             for _ in 0..=random(4) {
@@ -368,8 +367,9 @@ fn damaged_files_are_refused() {
                     changed.push(0);
                 }
             }
-            std::fs::write(&path, &changed).expect("written");
-            let _refused_or_read = read(&path, &Given::default());
+            if let Ok(kind) = FileKind::of(&changed[..changed.len().min(64)], source) {
+                let _refused_or_read = decoded(kind, &changed, source, &Given::default());
+            }
         }
     }
     let path = folder.path().join("map.exr");
