@@ -8,7 +8,7 @@ use std::path::Path;
 use gearcut::Refusal;
 use gearcut::interrupt::Interrupt;
 use gearcut::measure::topography::height_steps::coarse_step_um;
-use gearcut::measure::topography::{Arguments, Chain, Evaluation, Parameter, Surface};
+use gearcut::measure::topography::{Arguments, Chain, Evaluation, Parameter, Surface, Trace};
 use gearcut::output::surface_files::{SurfaceFile, write_surface};
 use gearcut::output::text::{Sheet, plain, significant};
 use gearcut::texture::quantities;
@@ -19,13 +19,16 @@ use super::failure::Failure;
 use super::folder::listening;
 use super::print;
 use lines::Lines;
-use reading::Reading;
+use reading::{Found, Reading};
 
 /// Runs the command.
 pub fn run(arguments: &TextureArguments) -> Result<(), Failure> {
     check(arguments)?;
     let saves = reading::saves(arguments)?;
-    let file = reading::reading(arguments)?;
+    let file = match reading::reading(arguments)? {
+        Found::Surface(file) => file,
+        Found::Profile(file) => return profile(arguments, file),
+    };
     // Only files have temporary names that Ctrl-C must not leave; without them it ends the program at once.
     let interrupt = match arguments.save.first() {
         Some(first) => Interrupt::listen().map_err(listening(first))?,
@@ -64,6 +67,35 @@ pub fn run(arguments: &TextureArguments) -> Result<(), Failure> {
     Ok(print::sheet(&sheet(&arguments.file, &file, &surface, &words, &evaluation, &lines))?)
 }
 
+/// A file that is a profile: its parameters through the chain of profiles.
+fn profile(arguments: &TextureArguments, file: Reading<Trace>) -> Result<(), Failure> {
+    let (count, spacing_um) = (file.surface.heights_um().len(), file.surface.spacing_um());
+    let holes = file.surface.heights_um().iter().filter(|z| z.is_nan()).count();
+    let lines = lines::of_traces(arguments, "profile".to_owned(), vec![0.0], Ok(vec![file.surface]));
+    if arguments.json {
+        let document = json!({
+            "program": "gearcut",
+            "program_version": env!("CARGO_PKG_VERSION"),
+            "file": arguments.file.display().to_string(),
+            "read": {"points": count, "spacing_um": spacing_um, "holes": holes, "remarks": file.remarks},
+            "warnings": file.doubts,
+            "profiles": [lines.document()],
+        });
+        return Ok(print::to_stdout(&format!("{document:#}\n"))?);
+    }
+    let mut sheet = Sheet::default();
+    sheet.heading(&format!("{}", arguments.file.display()));
+    sheet.line("points", format!("{count}, {} um apart: a profile", plain(spacing_um)));
+    for remark in &file.remarks {
+        sheet.line("as read", remark);
+    }
+    for doubt in &file.doubts {
+        sheet.line("warning", doubt);
+    }
+    lines.write(&mut sheet);
+    Ok(print::sheet(&sheet.into_text())?)
+}
+
 /// Numbers that no file can make sensible.
 fn check(arguments: &TextureArguments) -> Result<(), Refusal> {
     let positive = |name: &str, values: &[f64]| match values.iter().find(|v| !(v.is_finite() && **v > 0.0)) {
@@ -95,7 +127,7 @@ fn by_symbol(parameters: &[Parameter]) -> serde_json::Map<String, Value> {
 
 fn document(
     path: &Path,
-    file: &Reading,
+    file: &Reading<Surface>,
     surface: &Surface,
     chain: &[String],
     evaluation: &Evaluation,
@@ -128,7 +160,7 @@ fn document(
 
 fn sheet(
     path: &Path,
-    file: &Reading,
+    file: &Reading<Surface>,
     surface: &Surface,
     chain: &[String],
     evaluation: &Evaluation,
@@ -175,7 +207,7 @@ fn sheet(
 }
 
 /// What a reader must know of the heights as they were read.
-fn warnings(file: &Reading) -> Vec<String> {
+fn warnings(file: &Reading<Surface>) -> Vec<String> {
     let coarse = |step: f64| {
         format!(
             "heights go in steps of {} um, more than a tenth of their root mean square height: slopes, peaks and the \

@@ -75,6 +75,11 @@ impl Trace {
         }
     }
 
+    /// All heights, um; NaN in holes.
+    pub fn heights_um(&self) -> &[f64] {
+        &self.heights_um
+    }
+
     /// Distance of points, um.
     pub fn spacing_um(&self) -> f64 {
         self.spacing_um

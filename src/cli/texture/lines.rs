@@ -67,21 +67,13 @@ pub(super) fn check(arguments: &TextureArguments) -> Result<(), Refusal> {
 /// # Errors
 /// A line that cannot be read as one or lies beside the surface.
 pub(super) fn evaluated(arguments: &TextureArguments, surface: &Surface) -> Result<Vec<Lines>, Refusal> {
-    let chain = chain(arguments);
     let wished = &arguments.lines;
-    let limits = [("Ra", wished.ra_limit_um), ("Rz", wished.rz_limit_um)];
-    let limits: Vec<(&str, f64)> = limits.into_iter().filter_map(|(name, um)| Some((name, um?))).collect();
     let lines_at = |title: String, across: char, indices: &[usize]| {
         let trace = |&i: &usize| if across == 'y' { Trace::row(surface, i) } else { Trace::column(surface, i) };
         let traces = indices.iter().map(trace).collect::<Result<Vec<Trace>, String>>();
-        let profiles = traces.and_then(|traces| chain.evaluate(&traces));
-        let found = profiles.map(|profiles| {
-            let spread = of_profiles(&profiles, &arguments.at_height_um);
-            (profiles, spread)
-        });
         let step_um = if across == 'y' { surface.dy_um() } else { surface.dx_um() };
         let places_um = indices.iter().map(|&i| i as f64 * step_um).collect();
-        Lines { title, places_um, found, limits: limits.clone() }
+        of_traces(arguments, title, places_um, traces)
     };
     let along = |across: char| if across == 'y' { 'x' } else { 'y' };
     let mut all = Vec::new();
@@ -98,6 +90,22 @@ pub(super) fn evaluated(arguments: &TextureArguments, surface: &Surface) -> Resu
         all.push(lines_at(format!("{} profiles along {}", indices.len(), along(across)), across, &indices));
     }
     Ok(all)
+}
+
+/// Traces with the places that they were taken at.
+pub(super) fn of_traces(
+    arguments: &TextureArguments,
+    title: String,
+    places_um: Vec<f64>,
+    traces: Result<Vec<Trace>, String>,
+) -> Lines {
+    let found = traces.and_then(|traces| chain(arguments).evaluate(&traces)).map(|profiles| {
+        let spread = of_profiles(&profiles, &arguments.at_height_um);
+        (profiles, spread)
+    });
+    let limits = [("Ra", arguments.lines.ra_limit_um), ("Rz", arguments.lines.rz_limit_um)];
+    let limits = limits.into_iter().filter_map(|(name, um)| Some((name, um?))).collect();
+    Lines { title, places_um, found, limits }
 }
 
 fn chain(arguments: &TextureArguments) -> ProfileChain {

@@ -1,17 +1,23 @@
 //! How `gearcut texture` reads its file, what it does to the surface first, and where it saves it.
 
 use gearcut::Refusal;
-use gearcut::measure::topography::Surface;
 use gearcut::measure::topography::prepare::{Axis, Preparation, RectangleUm, Turn};
+use gearcut::measure::topography::{Surface, Trace};
 use gearcut::output::surface_files::{Content, Format, Given, read};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use crate::cli::args::{AxisChoice, ReadingArguments, TextureArguments};
 use crate::cli::failure::Failure;
 
-/// A surface that was read and made ready.
-pub struct Reading {
-    pub surface: Surface,
+/// A file that was read and made ready.
+pub enum Found {
+    Surface(Reading<Surface>),
+    Profile(Reading<Trace>),
+}
+
+/// A surface or a profile.
+pub struct Reading<T> {
+    pub surface: T,
     pub notes: Vec<(String, String)>,
     /// How it was read and what was done to it.
     pub remarks: Vec<String>,
@@ -20,7 +26,7 @@ pub struct Reading {
 }
 
 /// Reads the file and makes its surface ready.
-pub fn reading(arguments: &TextureArguments) -> Result<Reading, Failure> {
+pub fn reading(arguments: &TextureArguments) -> Result<Found, Failure> {
     let reading = &arguments.reading;
     let preparation = preparation(reading)?;
     let given = Given {
@@ -34,21 +40,29 @@ pub fn reading(arguments: &TextureArguments) -> Result<Reading, Failure> {
         use_mask: reading.use_mask,
     };
     let measured = read(&arguments.file, &given)?;
-    let mut doubts: Vec<String> = measured.doubt().into_iter().collect();
-    if let Content::Surface(surface) = &measured.content
-        && reading.use_mask
-        && surface.holes() == 0
-    {
-        doubts.push("--use-mask: the file has no mask, or one that marks nothing".to_owned());
+    let doubts = measured.doubt().into_iter().collect();
+    let (notes, mut remarks) = (measured.notes, measured.remarks);
+    match measured.content {
+        Content::Surface(surface) => {
+            let prepared = preparation.apply(&surface).map_err(|reason| unsuited(&arguments.file, &reason));
+            let (surface, words) = prepared?;
+            remarks.extend(words);
+            Ok(Found::Surface(Reading { surface, notes, remarks, doubts }))
+        }
+        Content::Trace(surface) => {
+            if preparation != Preparation::default() || !arguments.save.is_empty() {
+                let reason = "it is a profile, and masks, outliers, turns, crops and --save are for surfaces";
+                return Err(unsuited(&arguments.file, reason).into());
+            }
+            if !arguments.lines.line.is_empty() || !arguments.lines.lines.is_empty() {
+                return Err(unsuited(&arguments.file, "it is a profile, which has no lines to choose from").into());
+            }
+            Ok(Found::Profile(Reading { surface, notes, remarks, doubts }))
+        }
     }
-    let mut remarks = measured.remarks.clone();
-    let file = measured.into_surface().map_err(|reason| unsuited(&arguments.file, reason))?;
-    let (surface, words) = preparation.apply(&file.surface).map_err(|reason| unsuited(&arguments.file, reason))?;
-    remarks.extend(words);
-    Ok(Reading { surface, notes: file.notes, remarks, doubts })
 }
 
-fn unsuited(path: &Path, reason: String) -> Refusal {
+fn unsuited(path: &Path, reason: &str) -> Refusal {
     let way_out = "see `gearcut texture --help` for what can be done to a surface before it is evaluated";
     Refusal::new("gearcut texture", format!("{}: {reason}", path.display()), way_out)
 }
@@ -89,9 +103,9 @@ fn rectangles(option: &str, numbers: &[f64]) -> Result<Vec<RectangleUm>, Refusal
 
 /// Where the surface is to be saved, and how. Said before anything is read: an ending that names no format, a file that
 /// exists, and the measured file itself, which is never replaced.
-pub fn saves(arguments: &TextureArguments) -> Result<Vec<(&Path, Format)>, Refusal> {
+pub fn saves<'a>(arguments: &'a TextureArguments) -> Result<Vec<(&'a Path, Format)>, Refusal> {
     let read_at = arguments.file.canonicalize().ok();
-    let save = |path: &std::path::PathBuf| {
+    let save = |path: &'a PathBuf| {
         let refuse = |problem: &str, way_out: &str| {
             Err(Refusal::new("--save", format!("{} {problem}", path.display()), way_out))
         };

@@ -464,7 +464,7 @@ fn two_surfaces_are_laid_over_each_other() {
     write("replica.x3p", 180, 100, &|x, y| -height(x, y));
     let run = |names: &[&str]| gearcut_in(folder.path(), &[&["compare"], names].concat());
     let outcome = run(&["simulated.x3p", "measured.x3p", "--form", "plane"]).done();
-    outcome.says(&["mirror", "second along x", "correlation", "pitch", "Sa", "difference", "F-operator"]);
+    let outcome = outcome.says(&["mirror", "second along x", "correlation", "pitch", "Sa", "difference", "F-operator"]);
     let shift = outcome.out.lines().find(|line| line.contains("first point lies at")).expect("a shift");
     let numbers: Vec<f64> = shift.split_whitespace().filter_map(|word| word.parse().ok()).collect();
     assert!((numbers[0] - 57.0).abs() < 0.2 && (numbers[1] - 22.5).abs() < 0.2, "{shift}");

@@ -129,7 +129,7 @@ fn dialects_arrive_with_their_heights() {
     let spacing = ["--spacing-um", "2", "3"];
     run(&[&["comma.csv", "--height-unit", "um"][..], &spacing].concat()).done().says(&["0.81284 um", "decimal commas"]);
     run(&[&["comma.csv"][..], &spacing].concat()).failed(1, &["a table of 10 x 8 heights", "--height-unit um"]);
-    run(&[&["comma.csv", "--height-unit", "m"][..], &spacing].concat()).done().says(&["doubt", "in another unit?"]);
+    run(&[&["comma.csv", "--height-unit", "m"][..], &spacing].concat()).done().says(&["warning", "in another unit?"]);
     run(&[&["mm.txt"][..], &spacing].concat()).done().says(&["0.81284 um"]);
     run(&[&["mm.txt", "--height-unit", "nm"][..], &spacing].concat()).failed(1, &["in mm, not in nm"]);
     run(&["mm.txt", "--height-unit", "furlong"]).failed(2, &["not a unit of length"]);
@@ -181,4 +181,31 @@ fn saving_replaces_nothing_without_force_and_never_what_was_read() {
     assert_eq!((holds("s.csv").as_str(), holds("thesis.csv").as_str()), (text, "years of work"));
     run(&["--save", "thesis.csv", "--force"]).done();
     assert!(holds("thesis.csv").starts_with("# gearcut surface"));
+}
+
+/// 8 waves of amplitude 0.5 um, 25 um long: without a cut-off Pa = 2A / pi and Pq = A / sqrt 2, in every format.
+#[test]
+fn a_file_that_is_a_profile_has_its_parameters() {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    let height = |i: u32| 0.5 * (std::f64::consts::TAU * f64::from(i) / 50.0).sin();
+    let lines: Vec<String> = (0..400).map(|i| format!("{:.3}\t{:.6}", 0.5 * f64::from(i), height(i))).collect();
+    std::fs::write(folder.path().join("trace.txt"), lines.join("\n")).expect("written");
+    let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
+    let pro = root.join(SURFACES).join("dialects/profile.pro");
+    let units = ["trace.txt", "--spacing-unit", "um", "--height-unit", "um"];
+    for file in [&[pro.to_str().expect("a plain path")][..], &units] {
+        let arguments =
+            [&["texture"], file, &["--profile", "p", "--line-form", "none", "--lambda-s-um", "0", "--json"]];
+        let out = gearcut_in(folder.path(), &arguments.concat()).done().out;
+        let json: Value = serde_json::from_str(&out).expect("JSON");
+        assert_eq!((&json["read"]["points"], &json["read"]["spacing_um"]), (&400.into(), &0.5.into()), "{file:?}");
+        let value = |symbol: &str| json["profiles"][0]["parameters"][symbol]["value"].as_f64().expect(symbol);
+        assert!((value("Pa") / std::f64::consts::FRAC_1_PI - 1.0).abs() < 2e-3, "{}", value("Pa"));
+        assert!((value("Pq") / 0.125_f64.sqrt() - 1.0).abs() < 2e-3, "{}", value("Pq"));
+    }
+    let run = |arguments: &[&str]| gearcut_in(folder.path(), &[&["texture"], arguments].concat());
+    run(&["trace.txt", "--spacing-um", "0.5"]).failed(1, &["a profile of 400 points", "--spacing-unit"]);
+    run(&[&units[..], &["--save", "t.csv"]].concat()).failed(1, &["it is a profile"]);
+    run(&[&units[..], &["--invert"]].concat()).failed(1, &["it is a profile"]);
+    run(&[&units[..], &["--line", "y=1"]].concat()).failed(1, &["no lines to choose from"]);
 }

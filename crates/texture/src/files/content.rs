@@ -5,7 +5,8 @@
 
 use super::units::LengthUnit;
 use super::{SpacingUm, SurfaceFile};
-use crate::surface::{SPACINGS_UM, Surface, check_heights};
+use crate::surface::Surface;
+use crate::trace::Trace;
 
 /// What is known of a file beside it: needed where the file does not say it, refused where the file says otherwise.
 #[derive(Debug, Clone, Copy, Default)]
@@ -27,50 +28,6 @@ impl Given {
     }
 }
 
-/// Heights along one line.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Trace {
-    heights_um: Vec<f64>,
-    spacing_um: f64,
-}
-
-impl Trace {
-    /// Heights at equal distances; infinite ones become holes.
-    ///
-    /// # Errors
-    /// Fewer than two points, a spacing out of [`SPACINGS_UM`], heights beyond
-    /// [`crate::surface::LARGEST_HEIGHT_UM`], or no height at all.
-    pub fn new(spacing_um: f64, mut heights_um: Vec<f64>) -> Result<Self, String> {
-        let [least, most] = SPACINGS_UM;
-        if heights_um.len() < 2 {
-            return Err(format!("a profile needs at least 2 points, not {}", heights_um.len()));
-        }
-        if !(least..=most).contains(&spacing_um) {
-            return Err(format!(
-                "a spacing of {spacing_um:e} um is out of range, {least:e} to {most:e} um: is it in another unit?"
-            ));
-        }
-        for height in heights_um.iter_mut().filter(|height| !height.is_finite()) {
-            *height = f64::NAN;
-        }
-        if heights_um.iter().all(|height| height.is_nan()) {
-            return Err("no point of the profile was measured".to_owned());
-        }
-        check_heights(&heights_um).map_err(|(i, reason)| format!("the height of point {} {reason}", i + 1))?;
-        Ok(Self { heights_um, spacing_um })
-    }
-
-    /// All heights, um; NaN in holes.
-    pub fn heights_um(&self) -> &[f64] {
-        &self.heights_um
-    }
-
-    /// Distance of points, um.
-    pub fn spacing_um(&self) -> f64 {
-        self.spacing_um
-    }
-}
-
 /// A surface or a trace.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Content {
@@ -87,8 +44,8 @@ impl Content {
             return Err(format!("{} heights do not fill a grid of {nx} x {ny}", heights_um.len()));
         }
         match (nx, ny) {
-            (_, 1) => Trace::new(dx_um, heights_um).map(Self::Trace),
-            (1, _) => Trace::new(dy_um, heights_um).map(Self::Trace),
+            (_, 1) => Trace::new(heights_um, dx_um).map(Self::Trace),
+            (1, _) => Trace::new(heights_um, dy_um).map(Self::Trace),
             _ => Surface::new(nx, ny, dx_um, dy_um, heights_um).map(Self::Surface),
         }
     }
@@ -130,7 +87,7 @@ impl Measured {
         }
         let (x, y) = match &self.content {
             Content::Surface(surface) => (surface.dx_um(), surface.dy_um()),
-            Content::Trace(trace) => (trace.spacing_um, trace.spacing_um),
+            Content::Trace(trace) => (trace.spacing_um(), trace.spacing_um()),
         };
         match given.spacing_um {
             Some([ax, ay]) if (x - ax).abs() > 1e-6 * ax || (y - ay).abs() > 1e-6 * ay => {
@@ -162,9 +119,10 @@ impl Measured {
     pub fn into_surface(self) -> Result<SurfaceFile, String> {
         match self.content {
             Content::Surface(surface) => Ok(SurfaceFile { surface, notes: self.notes }),
-            Content::Trace(trace) => {
-                Err(format!("the file holds a profile of {} points, where a surface is needed", trace.heights_um.len()))
-            }
+            Content::Trace(trace) => Err(format!(
+                "the file holds a profile of {} points, where a surface is needed",
+                trace.heights_um().len()
+            )),
         }
     }
 }

@@ -36,6 +36,10 @@ pub(super) fn decode(bytes: &[u8], use_mask: bool) -> Result<Measured, String> {
     let mut problem = "it has no channel".to_owned();
     for (number, channel) in &channels {
         let mask = components.iter().find(|c| c.kind == b'o' && c.name == format!("/{number}/mask"));
+        if use_mask && mask.is_none() {
+            problem = format!("channel {number} has no mask: leave --use-mask out");
+            continue;
+        }
         let masked = mask.filter(|_| use_mask).map(|mask| values(mask.value)).transpose()?;
         match field(channel.value, masked.as_deref()) {
             Ok(content) => {

@@ -45,7 +45,7 @@ use crate::surface::Surface;
 use crate::{Error, Result};
 pub use bounds::MOST_POINTS;
 use bounds::unreadable;
-pub use content::{Content, Given, Measured, Trace};
+pub use content::{Content, Given, Measured};
 use kind::FileKind;
 pub use units::LengthUnit;
 
@@ -130,6 +130,9 @@ fn decoded(kind: FileKind, bytes: &[u8], path: &Path, given: &Given) -> std::res
         FileKind::Exr => exr::decode(bytes),
         FileKind::Text => text::decode(bytes, given),
     }?;
+    if given.use_mask && kind != FileKind::Gwy {
+        return Err("the file has no mask of its own: leave --use-mask out".to_owned());
+    }
     // Text and NPY compare what they say themselves: they may say nothing.
     if !matches!(kind, FileKind::Text | FileKind::Npy) {
         measured.agrees(given)?;

@@ -279,12 +279,14 @@ fn one_row_is_a_profile() {
     let x3p = folder.path().join("p.x3p");
     let record = "<p xmlns=\"x\"><Record1><FeatureType>PRF</FeatureType><Axes><CX><AxisType>I</AxisType>\
                   <Increment>5e-7</Increment></CX><CZ><DataType>L</DataType><Increment>1e-9</Increment></CZ></Axes></Record1>\
-                  <Record3><MatrixDimension><SizeX>3</SizeX><SizeY>1</SizeY><SizeZ>1</SizeZ></MatrixDimension><DataLink>\
+                  <Record3><MatrixDimension><SizeX>12</SizeX><SizeY>1</SizeY><SizeZ>1</SizeZ></MatrixDimension><DataLink>\
                   <PointDataLink>d</PointDataLink></DataLink></Record3></p>";
-    let heights: Vec<u8> = [100_i32, -250, 7].iter().flat_map(|z| z.to_le_bytes()).collect();
+    let steps = [100_i32, -250, 7, 0, 1, 2, 3, 4, 5, 6, 7, -8];
+    let heights: Vec<u8> = steps.iter().flat_map(|z| z.to_le_bytes()).collect();
     std::fs::write(&x3p, zipped(&[("main.xml", record.as_bytes()), ("d", &heights)])).expect("written");
     let trace = profile(&x3p);
-    assert!(trace.heights_um().iter().zip([0.1, -0.25, 0.007]).all(|(a, b)| (a - b).abs() < 1e-12), "{trace:?}");
+    let near = |(um, &step): (&f64, &i32)| (um - f64::from(step) * 1e-3).abs() < 1e-12;
+    assert!(trace.heights_um().iter().zip(&steps).all(near), "{trace:?}");
     assert!((trace.spacing_um() - 0.5).abs() < 1e-12);
 }
 
@@ -298,6 +300,8 @@ fn channels_of_gwyddion_are_read_by_their_units() {
     let expected = Surface::new(4, 3, 500.0, 1000.0, heights.clone()).expect("a grid");
     assert!(close(surface_of(&whole), &expected, 1e-12), "{whole:?}");
     assert!(whole.remarks[0].contains("channel 1 `Topography` of 2") && whole.remarks[1].contains("mask"), "{whole:?}");
+    let unmasked = read(&data("formats/tiny.gwy"), &Given { use_mask: true, ..Given::default() });
+    assert!(unmasked.expect_err("no mask").to_string().contains("has no mask"));
     let masked = read(&path, &Given { use_mask: true, ..Given::default() }).expect("a surface");
     let mut holed = heights;
     holed[5] = f64::NAN;

@@ -236,8 +236,13 @@ fn positions_and_heights_are_a_profile() {
     assert!(refused("0 1\n1 2\n3 5\n4 1\n", &given).contains("equal distances"));
     assert!(refused("5 1\n3 2\n4 5\n4 1\n", &given).contains("equal distances"));
     // One column and one row are profiles as well.
-    let column = read("# spacing = 0.5 um\n1\n2\n4\n", &Given { spacing_um: None, ..UM }).expect("a profile");
-    assert_eq!(trace(&column), (&[1.0, 2.0, 4.0][..], 0.5));
+    let column: String = (0..12).map(|i| (i * i % 5).to_string() + "\n").collect();
+    let said = format!("# spacing = 0.5 um\n{column}");
+    for text in [said.clone(), said.replace("\n", " ").replacen("um ", "um\n", 1)] {
+        let found = read(&text, &Given { spacing_um: None, ..UM }).expect("a profile");
+        let (heights, spacing_um) = trace(&found);
+        assert_eq!((heights.len(), &heights[..4], spacing_um), (12, &[0.0, 1.0, 4.0, 4.0][..], 0.5));
+    }
     let more: Vec<String> = lines.lines().map(|line| format!("{line}\t1.5\t{}", line.len() % 3)).collect();
     assert!(refused(&more.join("\n"), &UM).contains("positions beside heights"));
 }
