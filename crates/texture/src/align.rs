@@ -274,9 +274,8 @@ fn refined(a: &Surface, b: &Surface, start: [f64; 2]) -> [f64; 2] {
         let mut damped = *matrix;
         // Along marks a shift changes nothing: there it stays.
         let steepest = matrix[3][3].max(matrix[4][4]);
-        for k in 3..5 {
-            damped[k][k] += damping * steepest;
-        }
+        damped[3][3] += damping * steepest;
+        damped[4][4] += damping * steepest;
         let Some(solution) = solved(&damped, right, 5) else { return shift };
         let step = [solution[3] * b.dx_um(), solution[4] * b.dy_um()];
         // No further than a few points at once: beyond them the slopes say nothing.

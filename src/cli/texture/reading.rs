@@ -113,7 +113,8 @@ pub fn saves<'a>(arguments: &'a TextureArguments) -> Result<Vec<(&'a Path, Forma
         if path.canonicalize().is_ok_and(|there| read_at.as_ref() == Some(&there)) {
             return refuse("is the file that is read, and is never replaced", "choose another name");
         }
-        if path.exists() && !arguments.force {
+        let beside = (format == Format::Npy).then(|| PathBuf::from(format!("{}.json", path.display())));
+        if !arguments.force && [Some(path.clone()), beside].into_iter().flatten().any(|path| path.exists()) {
             return refuse("exists", "choose another name, or let it be replaced with --force");
         }
         Ok((path.as_path(), format))
