@@ -238,7 +238,7 @@ fn positions_and_heights_are_a_profile() {
     // One column and one row are profiles as well.
     let column: String = (0..12).map(|i| (i * i % 5).to_string() + "\n").collect();
     let said = format!("# spacing = 0.5 um\n{column}");
-    for text in [said.clone(), said.replace("\n", " ").replacen("um ", "um\n", 1)] {
+    for text in [said.clone(), said.replace('\n', " ").replacen("um ", "um\n", 1)] {
         let found = read(&text, &Given { spacing_um: None, ..UM }).expect("a profile");
         let (heights, spacing_um) = trace(&found);
         assert_eq!((heights.len(), &heights[..4], spacing_um), (12, &[0.0, 1.0, 4.0, 4.0][..], 0.5));
