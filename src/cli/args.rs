@@ -94,7 +94,7 @@ pub enum Command {
         none with the reason (null in JSON).\n\
         Angles count counter-clockwise from +x (along a row) towards +y (from row to row). Writes no \
         files but those named by --save.")]
-    Texture(TextureArguments),
+    Texture(Box<TextureArguments>),
     /// List what can compute here.
     #[command(after_help = "Example:\n  gearcut devices")]
     Devices,
