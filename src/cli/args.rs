@@ -86,9 +86,10 @@ pub enum Command {
         gearcut texture measured.sdf --form plane --s-filter-um 8 --l-filter-um 800 --crop-um 400\n  \
         gearcut texture heights.npy --spacing-um 2 5 --line y=500 --json\n  \
         gearcut texture measured.sur --save measured.x3p\n\n\
-        Reads X3P, SDF (binary and ASCII), SUR, NPY, CSV and gearcut's EXR maps; heights become um \
-        whatever the file counts in (m in X3P and SDF, the unit of the axis in SUR, mm or um in the \
-        channels of EXR maps); NPY and CSV name no unit, their heights are um. \
+        Reads X3P, SDF, SUR, GWY, text, NPY and gearcut's EXR maps, surfaces and profiles; heights become um \
+        whatever the file counts in. What text does not say of its units and spacing is given with \
+        --height-unit, --spacing-unit and --spacing-um; nothing is guessed. NPY is in um unless the file beside it \
+        or --height-unit says otherwise. \
         The chain is applied in this order and printed beside the numbers: form, S-filter, L-filter, \
         crop. Holes are left out where a parameter allows it. A value that does not exist is printed as \
         none with the reason (null in JSON).\n\
