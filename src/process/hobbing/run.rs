@@ -4,7 +4,6 @@ pub mod blank;
 mod findings;
 mod flank_table;
 pub mod force;
-mod headline;
 pub mod load;
 mod marks;
 mod points;

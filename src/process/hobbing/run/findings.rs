@@ -1,6 +1,7 @@
 //! What a run finds on a hobbed gear: names, units, definitions, places.
 
-use super::headline::headline;
+mod headline;
+
 use super::{blank, flank_table, force, load, marks, points};
 use crate::findings::warning::ranked;
 use crate::findings::{Findings, Quantity, Section, Warning};
@@ -18,9 +19,10 @@ use crate::steps::machine_errors::{self, tool_words};
 use crate::texture::{self, WindowTexture};
 use gearcut_core::error::Result;
 use gearcut_core::units::UM_PER_MM;
+use headline::headline;
 
 /// Why a pitch is not known.
-pub(super) const NOT_CROSSED: &str = "a flank was not cut or does not cross the pitch curve";
+const NOT_CROSSED: &str = "a flank was not cut or does not cross the pitch curve";
 
 /// What the ends of the evaluated profile are.
 const START: &str = "lower end of the evaluated profile, as height over the pitch curve along its normal in the middle \

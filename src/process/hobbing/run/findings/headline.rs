@@ -1,14 +1,14 @@
 //! What to look at first on a hobbed gear: the class that it reaches and what decides it, the thickest chip, the force
 //! and the work of the hob, where the hob can be shifted to, then marks, deviations and times.
 
-use super::findings::{Measured, NOT_CROSSED};
-use super::load::labels;
+use super::{Measured, NOT_CROSSED};
 use crate::findings::{Entry, Place, Quantity};
 use crate::measure::deviation::PitchDeviations;
 use crate::measure::verdict::JudgedFigure;
 use crate::process::hobbing::measure::flank_report::HobbedReport;
 use crate::process::hobbing::measure::hob_load::OperationLoad;
 use crate::process::hobbing::measure::hoffmeister;
+use crate::process::hobbing::run::load::labels;
 use crate::process::hobbing::{HobbedGear, HobbingJob};
 use crate::steps::axes;
 use crate::steps::inspection::{Inspected, class_words, verdict_words};
