@@ -1,6 +1,6 @@
 //! Other people's crates: under which licences they come, from where, and how many of one name.
 //!
-//! The same as `cargo deny check licenses sources bans` asks, from `cargo metadata` alone: cargo-deny itself takes
+//! The same as `cargo deny check licenses sources bans` asks by `deny.toml`, from `cargo metadata` alone: cargo-deny itself takes
 //! minutes to build on a fresh machine. Advisories need a list that changes every day and are no test of the code. And
 //! how builds are made: from locked versions, a release with checks for overflow.
 
@@ -8,11 +8,14 @@ use serde_json::Value;
 use std::collections::BTreeMap;
 use std::process::Command;
 
-/// Licences of which one must be offered for every part of a crate: permissive ones, all compatible with both of ours.
-const LICENCES: [&str; 9] =
-    ["MIT", "Apache-2.0", "BSD-2-Clause", "BSD-3-Clause", "ISC", "Zlib", "0BSD", "Unicode-3.0", "Unlicense"];
-/// Crates of which two versions are linked, since others ask for both; a new one wants a reason.
-const TWICE: [&str; 4] = ["cpufeatures", "hashbrown", "miniz_oxide", "syn"];
+/// Words of a list in `deny.toml`: the licences of which one must be offered for every part of a crate, permissive ones
+/// that are compatible with both of ours, and the crates of which two versions are linked, since others ask for both.
+fn rules(section: &str, list: &str) -> Vec<String> {
+    let text = std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/deny.toml")).expect("the rules");
+    let rules: toml::Table = text.parse().expect("TOML");
+    let list = rules[section][list].as_array().expect("a list");
+    list.iter().map(|word| word.as_str().expect("a word").to_owned()).collect()
+}
 
 /// Packages of the lock file for all platforms.
 fn packages() -> Vec<Value> {
@@ -38,7 +41,8 @@ fn packages() -> Vec<Value> {
 }
 
 /// Whether an SPDX expression offers only licences of the list: every part joined by AND, one of those joined by OR.
-fn is_free(expression: &str) -> bool {
+fn is_free(expression: &str, licences: &[String]) -> bool {
+    let is_free = |part: &str| is_free(part, licences);
     let plain = expression.replace(" WITH LLVM-exception", "").replace('/', " OR ");
     match plain.split_once(')') {
         // "(A OR B) AND C"
@@ -46,13 +50,15 @@ fn is_free(expression: &str) -> bool {
             let rest = rest.trim().trim_start_matches("AND").trim();
             is_free(first.trim_start_matches('(')) && (rest.is_empty() || is_free(rest))
         }
-        None => plain.split(" AND ").all(|part| part.split(" OR ").any(|one| LICENCES.contains(&one.trim()))),
+        None => plain
+            .split(" AND ")
+            .all(|part| part.split(" OR ").any(|one| licences.iter().any(|known| known == one.trim()))),
     }
 }
 
 #[test]
 fn every_crate_comes_from_the_registry_under_a_free_licence_and_once() {
-    let packages = packages();
+    let (packages, licences, double) = (packages(), rules("licenses", "allow"), rules("bans", "skip"));
     assert!(packages.len() > 100, "{} packages", packages.len());
     let mut wrong = Vec::new();
     let mut versions: BTreeMap<&str, Vec<&str>> = BTreeMap::new();
@@ -60,7 +66,7 @@ fn every_crate_comes_from_the_registry_under_a_free_licence_and_once() {
         let text = |key: &str| package[key].as_str().unwrap_or_default();
         let (name, version) = (text("name"), text("version"));
         versions.entry(name).or_default().push(version);
-        if !is_free(text("license")) {
+        if !is_free(text("license"), &licences) {
             wrong.push(format!("{name} {version}: licence `{}`", text("license")));
         }
         let ours = package["source"].is_null() && name.starts_with("gearcut");
@@ -75,13 +81,19 @@ fn every_crate_comes_from_the_registry_under_a_free_licence_and_once() {
         }
     }
     let twice: Vec<&&str> = versions.iter().filter(|(_, of)| of.len() > 1).map(|(name, _)| name).collect();
-    wrong.extend(twice.iter().filter(|name| !TWICE.contains(**name)).map(|name| format!("{name} is linked twice")));
-    wrong.extend(TWICE.iter().filter(|name| !twice.contains(name)).map(|name| format!("{name} is linked once now")));
+    wrong.extend(
+        twice.iter().filter(|name| !double.iter().any(|of| of == **name)).map(|name| format!("{name} is linked twice")),
+    );
+    wrong.extend(
+        double.iter().filter(|name| !twice.contains(&&name.as_str())).map(|name| format!("{name} is linked once now")),
+    );
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
 #[test]
 fn licences_that_are_not_free_are_noticed() {
+    let licences = rules("licenses", "allow");
+    let is_free = |expression: &str| is_free(expression, &licences);
     for free in ["MIT", "MIT/Apache-2.0", "MIT OR LGPL-2.1-or-later", "(MIT OR Apache-2.0) AND Unicode-3.0"] {
         assert!(is_free(free), "{free}");
     }
