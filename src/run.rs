@@ -10,7 +10,7 @@
 use crate::backend::Choice;
 use crate::findings::Findings;
 use crate::interrupt::Interrupt;
-use crate::output::folder::{OutputFolder, RUN_RECORD};
+use crate::output::folder::OutputFolder;
 use crate::output::progress::{Progress, ProgressMode};
 use crate::process::{CutDone, ProcessJob};
 use crate::scene::LoadedScene;
@@ -105,8 +105,12 @@ impl<'a> Run<'a> {
         };
         let written = || -> Result<CutDone> {
             let done = prepared.cut(&tools, frames)?;
-            let record = record::run_record(&tools, &done.work, done.findings.complete)?;
-            folder.write_json(RUN_RECORD, &record)?;
+            let checksums = record::checksums(&tools)?;
+            let step = progress.step("to the disk", 1, "folder");
+            folder.force_to_disk()?;
+            step.advance(1);
+            step.finish();
+            folder.write_record(record::run_record(&tools, &done.work, done.findings.complete, &checksums))?;
             Ok(done)
         };
         let CutDone { findings, summary, work } = written().map_err(|error| folder.explain(error))?;

@@ -3,11 +3,14 @@
 use super::{Choice, OnFailure, native};
 use gearcut_core::cut::Backend;
 use gearcut_core::cut::cpu::Cpu;
-use gearcut_core::error::Result;
 use gearcut_gpu::adapter::{self, AdapterFacts, AdapterWish, FoundAdapter};
 use gearcut_gpu::{Gpu, GpuOptions, GpuProblem, OnGpuFailure};
 use serde::Serialize;
 use std::fmt;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{self, RecvTimeoutError};
+use std::thread;
+use std::time::Duration;
 
 fn options(on_failure: OnFailure) -> GpuOptions {
     let on_failure = match on_failure {
@@ -21,7 +24,7 @@ fn options(on_failure: OnFailure) -> GpuOptions {
 ///
 /// # Errors
 /// There is none, or it does not work.
-pub(super) fn gpu(on_failure: OnFailure) -> Result<Choice> {
+pub(super) fn gpu(on_failure: OnFailure) -> gearcut_core::error::Result<Choice> {
     let found = adapter::choose(AdapterWish::RealFirst)?;
     let why = if found.facts.kind.is_real() {
         "asked for".into()
@@ -31,8 +34,43 @@ pub(super) fn gpu(on_failure: OnFailure) -> Result<Choice> {
     Ok(Choice { backend: Box::new(Gpu::on(&found, options(on_failure))?), why })
 }
 
-/// A real GPU, else the processor.
+/// How long the drivers of all adapters may take to say what they are and to open the one that is taken: ten times what
+/// they take on a cold start.
+const PATIENCE: Duration = Duration::from_secs(10);
+
+/// Whether a driver was left that did not answer.
+static HANGS: AtomicBool = AtomicBool::new(false);
+
+/// Whether a driver hangs: the process cannot wait for the ends of its libraries then.
+pub fn driver_hangs() -> bool {
+    HANGS.load(Ordering::SeqCst)
+}
+
+/// A real GPU, else the processor; a driver that hangs is none.
 pub(super) fn any(on_failure: OnFailure) -> Choice {
+    match in_time(PATIENCE, move || answered(on_failure)) {
+        Ok(choice) => choice,
+        Err(why) => native(format!("auto: {why}; `--backend gpu` waits for it")),
+    }
+}
+
+/// What work on a thread of its own gives within that time; it goes on alone where it takes longer.
+fn in_time<T: Send + 'static>(patience: Duration, work: impl FnOnce() -> T + Send + 'static) -> Result<T, String> {
+    let (answer, wait) = mpsc::channel();
+    let started = thread::Builder::new().name("drivers".to_owned()).spawn(move || {
+        let _nobody_waits = answer.send(work());
+    });
+    started.map_err(|reason| format!("the system starts no thread for the graphics driver: {reason}"))?;
+    wait.recv_timeout(patience).map_err(|failed| match failed {
+        RecvTimeoutError::Timeout => {
+            HANGS.store(true, Ordering::SeqCst);
+            format!("the graphics driver did not answer within {} s", patience.as_secs_f64())
+        }
+        RecvTimeoutError::Disconnected => "the graphics driver failed".to_owned(),
+    })
+}
+
+fn answered(on_failure: OnFailure) -> Choice {
     let found = adapter::adapters();
     let facts: Vec<AdapterFacts> = found.iter().map(|a| a.facts.clone()).collect();
     match auto(&facts) {
@@ -111,6 +149,16 @@ mod tests {
             timestamps: true,
             lacks: None,
         }
+    }
+
+    #[test]
+    fn a_driver_that_hangs_or_fails_is_left_alone() {
+        let patience = Duration::from_millis(50);
+        let hung = in_time(patience, || thread::sleep(Duration::from_secs(3600)));
+        assert_eq!(hung, Err("the graphics driver did not answer within 0.05 s".to_owned()));
+        let failed: Result<(), String> = in_time(Duration::from_secs(60), || panic!("planted"));
+        assert_eq!(failed, Err("the graphics driver failed".to_owned()));
+        assert_eq!(in_time(Duration::from_secs(60), || 7), Ok(7));
     }
 
     #[test]

@@ -28,6 +28,11 @@ pub(super) fn any(_: OnFailure) -> Choice {
     native(format!("auto: {NONE}"))
 }
 
+/// Never a driver.
+pub fn driver_hangs() -> bool {
+    false
+}
+
 /// What `gearcut devices` shows.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Devices {

@@ -13,7 +13,9 @@ use gearcut::steps::parts::Parts;
 use clap::builder::PossibleValuesParser;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
-pub use errors::{BudgetArguments, CalibrateArguments, DiagnoseArguments, FlankSide, ScatterArguments};
+pub use errors::{
+    BudgetArguments, CalibrateArguments, DiagnoseArguments, FewPlacesArguments, FlankSide, ScatterArguments,
+};
 pub use pairs::{ContactArguments, FlankChoice, PairArguments};
 pub use reading::{AxisChoice, ReadingArguments};
 
@@ -78,7 +80,8 @@ pub enum Command {
         curve, and all teeth) and each on its own scale.\n\
         Hobbed gears: what each tooth of the hob does over the whole process: volume (mm3), largest \
         uncut chip thickness (mm), travel in the cut (mm).\n\
-        Load is no life: wear follows heat and chip thickness besides. Prints headline and summary.")]
+        Load is no life: wear follows heat and chip thickness besides. Prints what changed most; with --all headline and \
+        summary.")]
     Compare(CompareArguments),
     /// Evaluate the texture of a surface, measured or cut: ISO 25178-2 and ISO 21920-2 parameters.
     #[command(after_help = "Example:\n  \
@@ -221,7 +224,7 @@ pub struct CutArguments {
     /// Folder to write [default: out/<scene>, or out/<scene>_draft and out/<scene>_part with --draft and --only].
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
-    /// What computes: auto takes a GPU if there is a real one.
+    /// What computes: auto takes a GPU if there is a real one that answers within ten seconds.
     #[arg(long, value_enum, default_value_t = BackendChoice::Auto)]
     pub backend: BackendChoice,
     /// What happens to a flank whose GPU is lost or runs out of memory.
@@ -300,6 +303,9 @@ pub struct CompareArguments {
     /// Folder to write [default: compare_<A>_<B>... beside the last one].
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
+    /// Print every number of headline and summary, not the eight that changed most alone.
+    #[arg(long)]
+    pub all: bool,
 }
 
 /// Arguments of `texture`.

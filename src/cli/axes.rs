@@ -22,7 +22,8 @@ pub fn run(arguments: &AxesArguments) -> Result<(), Failure> {
     let out = arguments.out.clone().unwrap_or_else(default);
     let mut sheet = Sheet::default();
     let write = |output: &OutputFolder, interrupt: &Interrupt| -> Result<(Record, Vec<Warning>), Error> {
-        let warnings = process::prepare(&scene.scene)?.axes(output, interrupt, &mut sheet)?;
+        let axes = || process::prepare(&scene.scene)?.axes(output, interrupt, &mut sheet);
+        let warnings = print::waiting("axes", axes)?;
         Ok((vec![("scene", json!(scene.resolved_toml()))], warnings))
     };
     let (path, warnings) = folder::fill(&out, "axes", write).map_err(|error| Failure::of_scene(&scene, error))?;

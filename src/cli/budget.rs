@@ -2,9 +2,7 @@
 
 use std::path::PathBuf;
 
-use gearcut::backend::{BackendWish, OnFailure, choose};
 use gearcut::influence::budget::{self, BudgetOptions};
-use gearcut::output::progress::{Progress, ProgressMode};
 use gearcut::output::text::{Sheet, plain};
 use gearcut::terms::Side;
 use gearcut::{Refusal, Result, process};
@@ -12,7 +10,7 @@ use serde_json::json;
 
 use super::args::BudgetArguments;
 use super::failure::Failure;
-use super::{folder, print};
+use super::{backend, folder, print};
 
 /// Runs the command; what Ctrl-C ended early is a failure that tells where its results are.
 pub fn run(arguments: &BudgetArguments) -> Result<(), Failure> {
@@ -21,12 +19,11 @@ pub fn run(arguments: &BudgetArguments) -> Result<(), Failure> {
     let out = arguments.out.clone().unwrap_or_else(|| PathBuf::from("out").join(format!("{name}_budget")));
     let flanks = arguments.flanks.iter().map(|text| flank(text)).collect::<Result<_, _>>()?;
     let options = BudgetOptions { parameters: arguments.parameters.clone(), flanks, numbers: arguments.numbers };
-    let progress = Progress::new(ProgressMode::choose(false, false));
-    let choice = choose(BackendWish::Cpu, OnFailure::default())?;
+    let (choice, progress) = backend::of_few_places(&arguments.few_places)?;
     let filled = folder::fill_partly(&out, "budget", |folder, interrupt, known| {
         let found = budget::budget(&loaded, &options, &choice, &progress, interrupt, known)?;
         let tree = budget::findings(&loaded.scene, &found);
-        budget::write(&loaded.scene, &found, &tree, folder)?;
+        budget::write(&loaded, &choice.backend.name_in_files(), &found, &tree, folder)?;
         let record = vec![("parameters", json!(options.parameters)), ("scene", json!(loaded.resolved_toml()))];
         Ok((record, (budget::printed(&found), tree.warnings), found.complete))
     });

@@ -2,10 +2,8 @@
 
 use std::path::PathBuf;
 
-use gearcut::backend::{BackendWish, OnFailure, choose};
 use gearcut::influence::budget::chosen;
 use gearcut::influence::calibrate::{self, Calibrated, Calibration, MeasuredGear, MeasuredNumber, MeasuredWish};
-use gearcut::output::progress::{Progress, ProgressMode};
 use gearcut::output::summary;
 use gearcut::output::text::{Sheet, plain, significant};
 use gearcut::scene::LoadedScene;
@@ -14,21 +12,21 @@ use serde_json::json;
 
 use super::args::CalibrateArguments;
 use super::failure::Failure;
-use super::{folder, print};
+use super::{backend, folder, print};
 
 /// Runs the command; what Ctrl-C ended early is a failure that tells where its results are.
 pub fn run(arguments: &CalibrateArguments) -> Result<(), Failure> {
     let loaded = process::load(&arguments.scene.scene, &arguments.scene.settings)?;
-    let parameters = chosen(&loaded, &arguments.fit)?;
+    let of_fit = |refusal: Refusal| Refusal { key: "--fit".to_owned(), ..refusal };
+    let parameters = chosen(&loaded, &arguments.fit).map_err(of_fit)?;
     let measured = read(&loaded, arguments).map_err(|error| Failure::of_scene(&loaded, error))?;
     let name = &loaded.scene.name;
     let out = arguments.out.clone().unwrap_or_else(|| PathBuf::from("out").join(format!("{name}_calibration")));
-    let progress = Progress::new(ProgressMode::choose(false, false));
-    let choice = choose(BackendWish::Cpu, OnFailure::default())?;
+    let (choice, progress) = backend::of_few_places(&arguments.few_places)?;
     let filled = folder::fill_partly(&out, "calibrate", |folder, interrupt, known| {
         let found = Calibration::new(&loaded, &parameters, &measured, &choice, &progress, interrupt, known)?;
         let tree = calibrate::findings(&loaded.scene, &measured, &found);
-        calibrate::write(&loaded.scene, &measured, &found, &tree, folder)?;
+        calibrate::write(&loaded, &choice.backend.name_in_files(), &measured, &found, &tree, folder)?;
         let record = vec![
             ("measured", json!(arguments.measured)),
             ("noise_um", json!(arguments.noise_um)),
@@ -46,15 +44,10 @@ pub fn run(arguments: &CalibrateArguments) -> Result<(), Failure> {
     let mut sheet = Sheet::default();
     sheet.heading(&format!("{name}: {} teeth, module {} mm; fitted", gear.teeth, plain(gear.module_mm)));
     sheet.words("fitted: shifts beyond the scene, with 95 % intervals");
-    for (parameter, fitted) in &found.fitted {
-        let value = fitted.map_or_else(
-            || "cannot be identified".to_owned(),
-            |[shift, half]| {
-                let unit = if parameter.unit == "1" { "" } else { parameter.unit };
-                format!("{} +- {} {unit}", significant(shift, 4), significant(half, 2)).trim_end().to_owned()
-            },
-        );
-        summary::line(&mut sheet, &parameter.title, &value);
+    for [title, value, unit] in found.printed() {
+        let is_number = value.ends_with(|last: char| last.is_ascii_digit());
+        let unit = if is_number && unit != "1" { unit } else { String::new() };
+        summary::line(&mut sheet, &title, format!("{value} {unit}").trim_end());
     }
     if !measured.numbers.is_empty() {
         sheet.heading("Numbers");

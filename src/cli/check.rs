@@ -13,7 +13,7 @@ use gearcut::process;
 pub fn run(arguments: &SceneArguments) -> Result<(), Failure> {
     let scene = process::load(&arguments.scene, &arguments.settings)?;
     let mut sheet = Sheet::default();
-    let checked = process::prepare(&scene.scene).and_then(|job| job.check(&mut sheet));
+    let checked = print::waiting("check", || process::prepare(&scene.scene).and_then(|job| job.check(&mut sheet)));
     let warnings = checked.map_err(|error| Failure::of_scene(&scene, error))?;
     print::sheet(&sheet.into_text())?;
     print::warnings(&warnings);

@@ -2,7 +2,6 @@
 
 use std::path::PathBuf;
 
-use gearcut::backend::{BackendWish, OnFailure, choose};
 use gearcut::interrupt::Interrupt;
 use gearcut::output::progress::{Progress, ProgressMode};
 use gearcut::scene::Scene;
@@ -10,16 +9,13 @@ use gearcut::steps::parts::{Part, Parts};
 use gearcut::units::UM_PER_MM;
 use gearcut::{Error, Job, process};
 
-use super::args::{BackendChoice, CutArguments, GpuFailureChoice, SceneArguments};
+use super::args::{CutArguments, SceneArguments};
 use super::failure::Failure;
 use super::folder::listening;
-use super::{drivers, print};
+use super::{backend, print};
 
 /// Runs the command; what Ctrl-C ended early is a failure that tells where its results are.
 pub fn run(arguments: &CutArguments) -> Result<(), Failure> {
-    if arguments.backend != BackendChoice::Cpu {
-        drivers::without_window_system();
-    }
     let SceneArguments { scene: path, settings } = &arguments.scene;
     let mut scene = process::load(path, settings)?;
     if arguments.draft {
@@ -38,17 +34,8 @@ pub fn run(arguments: &CutArguments) -> Result<(), Failure> {
     });
     let progress = Progress::new(ProgressMode::choose(arguments.quiet, arguments.json));
     let interrupt = Interrupt::listen().map_err(listening(&out))?;
-    let wish = match arguments.backend {
-        BackendChoice::Auto => BackendWish::Auto,
-        BackendChoice::Gpu => BackendWish::Gpu,
-        BackendChoice::Cpu => BackendWish::Cpu,
-    };
-    let on_failure = match arguments.on_gpu_failure {
-        GpuFailureChoice::Redo => OnFailure::RedoNatively,
-        GpuFailureChoice::Stop => OnFailure::Stop,
-    };
-    let choice = choose(wish, on_failure)?;
-    progress.note(&format!("backend: {} ({})", choice.backend.name(), choice.why));
+    let choice = backend::chosen(arguments.backend, arguments.on_gpu_failure)?;
+    progress.note(&backend::note(&choice));
     if arguments.draft {
         progress.note(
             "draft: dexels 8, rays and cells of maps 4 times as far apart; deviations, chips and texture are rough",

@@ -2,17 +2,15 @@
 
 use std::path::PathBuf;
 
-use gearcut::backend::{BackendWish, OnFailure, choose};
 use gearcut::influence::diagnose::{self, MeasuredCuts};
 use gearcut::influence::measured;
-use gearcut::output::progress::{Progress, ProgressMode};
 use gearcut::output::text::{Sheet, plain};
 use gearcut::{Refusal, Result, process};
 use serde_json::json;
 
 use super::args::DiagnoseArguments;
 use super::failure::Failure;
-use super::{folder, print};
+use super::{backend, folder, print};
 
 /// Runs the command; what Ctrl-C ended early is a failure that tells where its results are.
 pub fn run(arguments: &DiagnoseArguments) -> Result<(), Failure> {
@@ -25,15 +23,14 @@ pub fn run(arguments: &DiagnoseArguments) -> Result<(), Failure> {
     let points = measured::read(&arguments.measured)?;
     let name = &loaded.scene.name;
     let out = arguments.out.clone().unwrap_or_else(|| PathBuf::from("out").join(format!("{name}_diagnosis")));
-    let progress = Progress::new(ProgressMode::choose(false, false));
-    let backend = choose(BackendWish::Cpu, OnFailure::default())?.backend;
+    let (choice, progress) = backend::of_few_places(&arguments.few_places)?;
     let names = &arguments.parameters;
     let filled = folder::fill_partly(&out, "diagnose", |folder, interrupt, known| {
-        let cuts = MeasuredCuts::new(&loaded, &points, backend.as_ref(), known)?;
+        let cuts = MeasuredCuts::new(&loaded, &points, choice.backend.as_ref(), known)?;
         let measured_um: Vec<f64> = points.iter().map(|point| point.deviation_um).collect();
         let (model, found) = diagnose::diagnose(&cuts, &measured_um, noise_um, names, &progress, interrupt)?;
         let tree = diagnose::findings(&loaded.scene, &model, &points, noise_um, &found);
-        diagnose::write(&loaded.scene, &model, &found, &tree, folder)?;
+        diagnose::write(&loaded, &choice.backend.name_in_files(), (&model, &found), &tree, folder)?;
         let record = vec![
             ("measured", json!(arguments.measured)),
             ("noise_um", json!(noise_um)),

@@ -4,7 +4,6 @@ use super::print::to_stderr;
 use gearcut::findings::{Severity, Warning};
 use gearcut::output::atomic::file_error;
 use std::path::Path;
-use std::process::ExitCode;
 
 use gearcut::interrupt::INTERRUPTED_EXIT_CODE;
 use gearcut::scene::{LoadedScene, SceneErrors};
@@ -36,6 +35,11 @@ impl Failure {
     pub fn without_place(what: &str, refusal: &Refusal) -> Self {
         let text = format!("error: {what}: {}\n  way out: {}", refusal.problem, refusal.way_out);
         Self { text, code: FAILED }
+    }
+
+    /// What the system refuses, with the way out.
+    pub fn of_system(reason: &str) -> Self {
+        Self { text: format!("error: {reason}"), code: FAILED }
     }
 
     /// A run that Ctrl-C ended early: its results are in `partial`, beside what is at `out`.
@@ -73,10 +77,10 @@ impl Failure {
         Self { text: format!("verdict: {what}"), code: BAD_VERDICT }
     }
 
-    /// Prints the reason on standard error.
-    pub fn report(&self) -> ExitCode {
+    /// Prints the reason on standard error; gives the exit code.
+    pub fn report(&self) -> u8 {
         to_stderr(self.text.trim_end());
-        self.code.into()
+        self.code
     }
 }
 

@@ -11,7 +11,7 @@ use std::path::{Component, Path, PathBuf};
 use super::print::to_stderr;
 use gearcut::influence::known_cuts::KnownCuts;
 use gearcut::interrupt::Interrupt;
-use gearcut::output::folder::{OutputFolder, RUN_RECORD};
+use gearcut::output::folder::OutputFolder;
 use gearcut::{Error, Result};
 use serde_json::{Map, Value, json};
 
@@ -56,10 +56,10 @@ pub fn fill_partly<T>(
     let known = KnownCuts::growing_in(&folder.results_path(false), record_of(command, false))?;
     let written = || {
         let (more, value, complete) = write(&folder, &interrupt, &known)?;
-        write_record(&folder, command, complete, more)?;
         if !complete {
             known.write(&folder)?;
         }
+        write_record(&folder, command, complete, more)?;
         Ok((value, complete))
     };
     let written = written().map_err(|error| folder.explain(error));
@@ -74,9 +74,17 @@ pub fn fill_partly<T>(
             let path = if complete { folder.finish()? } else { folder.finish_partial()? };
             Ok((path, value, complete))
         }
-        Err(Error::Interrupted) => Err(Error::Interrupted),
-        Err(failed) => {
+        // What is refused of the scene is refused again: cuts for it are of no use to anybody.
+        Err(refused @ (Error::Refused(_) | Error::Scene(_) | Error::Unreadable { .. })) => {
             known.forget()?;
+            Err(refused)
+        }
+        // A full disk is emptied, a driver comes back: as after a kill, the next run takes the cuts up.
+        Err(failed) => {
+            if let Some((count, place)) = known.kept() {
+                let place = place.display();
+                to_stderr(&format!("note: {count} finished cuts stay in {place}; the same command goes on with them"));
+            }
             Err(failed)
         }
     }
@@ -97,7 +105,7 @@ fn record_of(command: &str, complete: bool) -> Map<String, Value> {
 fn write_record(folder: &OutputFolder, command: &str, complete: bool, more: Record) -> Result<()> {
     let mut record = record_of(command, complete);
     record.extend(more.into_iter().map(|(key, value)| (key.to_owned(), value)));
-    folder.write_json(RUN_RECORD, &Value::Object(record))
+    folder.write_record(record)
 }
 
 /// What could not be listened for.

@@ -4,6 +4,7 @@
 
 pub mod args;
 mod axes;
+mod backend;
 mod budget;
 mod calibrate;
 mod check;
@@ -21,6 +22,7 @@ mod pair;
 mod print;
 mod scatter;
 mod texture;
+mod threads;
 
 use std::process::ExitCode;
 
@@ -29,6 +31,10 @@ use failure::Failure;
 
 /// Runs the command and reports what went wrong.
 pub fn run(arguments: CommandLine) -> ExitCode {
+    let computes = !matches!(arguments.command, Command::Schema | Command::New(_) | Command::Devices);
+    if let Err(failure) = if computes { threads::start() } else { Ok(()) } {
+        return failure.report().into();
+    }
     let done = match arguments.command {
         Command::Cut(arguments) => cut::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
@@ -48,8 +54,9 @@ pub fn run(arguments: CommandLine) -> ExitCode {
         Command::Diagnose(arguments) => diagnose::run(&arguments),
         Command::Calibrate(arguments) => calibrate::run(&arguments),
     };
-    match done {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(failure) => failure.report(),
+    let code = done.map_or_else(|failure| failure.report(), |()| 0);
+    if gearcut::backend::driver_hangs() {
+        gearcut::interrupt::end_now(code);
     }
+    code.into()
 }

@@ -4,6 +4,7 @@ use std::io::{self, ErrorKind, IsTerminal, Write};
 
 use gearcut::findings::Warning;
 use gearcut::findings::warning::count_words;
+use gearcut::output::progress::{Progress, ProgressMode};
 use gearcut::wrap::{fitted, printable};
 use gearcut::{Error, Result};
 
@@ -36,6 +37,14 @@ pub fn sheet(text: &str) -> Result<()> {
 /// Characters in a line of standard output; none where it is no terminal.
 pub fn width() -> Option<usize> {
     io::stdout().is_terminal().then_some(WIDTH)
+}
+
+/// Runs work that knows no steps: a terminal shows that it goes on, and for how long.
+pub fn waiting<T>(what: &str, work: impl FnOnce() -> T) -> T {
+    let progress = Progress::new(if io::stderr().is_terminal() { ProgressMode::Bar } else { ProgressMode::Quiet });
+    // Dropped and not finished, it leaves no line behind.
+    let _bar = progress.step(what, 1, "scene");
+    work()
 }
 
 /// Prints warnings and how many they are on standard error, where they are seen when the report goes into a file.

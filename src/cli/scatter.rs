@@ -5,9 +5,9 @@
 
 use std::path::PathBuf;
 
-use gearcut::cut::cpu::Cpu;
+use gearcut::cut::Backend;
 use gearcut::interrupt::Interrupt;
-use gearcut::output::progress::{Progress, ProgressMode};
+use gearcut::output::progress::Progress;
 use gearcut::scatter::folder::ScatterFolder;
 use gearcut::scatter::layers::{cases, measure_cases};
 use gearcut::scatter::rows::{self, Rows};
@@ -21,7 +21,7 @@ use serde_json::{Map, Value, json};
 use super::args::{FlankSide, ScatterArguments};
 use super::failure::Failure;
 use super::folder::listening;
-use super::print;
+use super::{backend, print};
 
 /// Runs the command.
 pub fn run(arguments: &ScatterArguments) -> Result<(), Failure> {
@@ -42,15 +42,16 @@ pub fn run(arguments: &ScatterArguments) -> Result<(), Failure> {
     let flank = FlankWish { tooth: arguments.tooth, side };
     let out = arguments.out.clone().unwrap_or_else(|| PathBuf::from("out").join(format!("{}_scatter", scene.name)));
     let interrupt = Interrupt::listen().map_err(listening(&out))?;
-    let progress = Progress::new(ProgressMode::choose(arguments.quiet, false));
-    let folder = ScatterFolder::open(&out, record(&loaded, flank, tolerances))?;
+    let (choice, progress) = backend::of_few_places(&arguments.few_places)?;
+    let cutter = choice.backend.as_ref();
+    let folder = ScatterFolder::open(&out, record(&loaded, flank, tolerances, &cutter.name()))?;
     let watch = (&progress, &interrupt);
     let of_scene = |error| Failure::of_scene(&loaded, error);
-    let cases = measure_cases(scene, cases(&layers), flank, &Cpu::default(), watch).map_err(of_scene)?;
+    let cases = measure_cases(scene, cases(&layers), flank, cutter, watch).map_err(of_scene)?;
     let differs = !tolerances.is_empty() || layers.iter().any(|layer| layer.is_random());
     let gears = Some(arguments.seeds).filter(|&gears| gears > 0 && differs);
     let rows = match gears {
-        Some(gears) => seeds(arguments, gears, flank, &folder, watch).map_err(of_scene)?,
+        Some(gears) => seeds(arguments, gears, (flank, cutter), &folder, watch).map_err(of_scene)?,
         None => Rows::new(),
     };
     let done = rows.range(..=gears.unwrap_or(0)).count();
@@ -77,7 +78,7 @@ pub fn run(arguments: &ScatterArguments) -> Result<(), Failure> {
 fn seeds(
     arguments: &ScatterArguments,
     gears: u32,
-    flank: FlankWish,
+    (flank, backend): (FlankWish, &dyn Backend),
     folder: &ScatterFolder,
     watch: (&Progress, &Interrupt),
 ) -> Result<Rows, Error> {
@@ -88,7 +89,7 @@ fn seeds(
         settings.extend(tolerance::settings(&arguments.tolerances, seed));
         Ok(process::load(&arguments.scene.scene, &settings).map_err(|errors| Error::Scene(Box::new(errors)))?.scene)
     };
-    measure_seeds((known, &file), gears, with_seed, flank, &Cpu::default(), watch)
+    measure_seeds((known, &file), gears, with_seed, flank, backend, watch)
 }
 
 /// The tolerances, each of which makes a gear at both of its limits.
@@ -109,7 +110,7 @@ fn checked(arguments: &ScatterArguments) -> Result<&[Tolerance], Failure> {
 }
 
 /// What the rows of a folder belong to.
-fn record(scene: &LoadedScene, flank: FlankWish, tolerances: &[Tolerance]) -> Map<String, Value> {
+fn record(scene: &LoadedScene, flank: FlankWish, tolerances: &[Tolerance], backend: &str) -> Map<String, Value> {
     let limits: Map<String, Value> = tolerances.iter().map(|of| (of.key.clone(), json!(of.limits))).collect();
     let entries = [
         ("program", json!("gearcut")),
@@ -118,6 +119,7 @@ fn record(scene: &LoadedScene, flank: FlankWish, tolerances: &[Tolerance]) -> Ma
         ("tooth", json!(flank.tooth)),
         ("side", json!(flank.side.name())),
         ("tolerances", json!(limits)),
+        ("backend", json!(backend)),
         ("scene", json!(scene.resolved_toml())),
     ];
     entries.into_iter().map(|(key, value)| (key.to_owned(), value)).collect()

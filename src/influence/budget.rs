@@ -21,6 +21,7 @@ use crate::interrupt::Interrupt;
 use crate::output::progress::Progress;
 use crate::process;
 use crate::scene::error_parameters::{ErrorParameter, error_parameters};
+use crate::scene::suggest::did_you_mean;
 use crate::scene::{LoadedScene, Scene};
 use gearcut_core::error::{Error, Refusal, Result};
 use gearcut_core::terms::Side;
@@ -154,7 +155,10 @@ pub fn chosen(loaded: &LoadedScene, names: &[String]) -> Result<Vec<ErrorParamet
     if let Some(unknown) = names.iter().find(|name| !all.iter().any(|parameter| parameter.is_meant_by(name))) {
         let mut sources: Vec<&str> = all.iter().map(|parameter| parameter.source.as_str()).collect();
         sources.dedup();
-        let problem = format!("`{unknown}` is no error of this process");
+        // A name may be a section as well.
+        let sections = sources.iter().flat_map(|source| source.match_indices('.').map(|(end, _)| &source[..end]));
+        let nearest = did_you_mean(sources.iter().copied().chain(sections), unknown);
+        let problem = format!("`{unknown}` is no error of this process{nearest}");
         return Err(Refusal::new("--parameters", problem, format!("choose among {}", sources.join(", "))));
     }
     Ok(all.into_iter().filter(|parameter| names.iter().any(|name| parameter.is_meant_by(name))).collect())

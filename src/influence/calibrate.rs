@@ -10,6 +10,9 @@
 //! counted in its natural steps. Derivatives are central differences of cuts; what is random keeps its seed, so that
 //! both sides of a difference have the same noise. Intervals are those of the linear fit at the end.
 //!
+//! Every key stays in its range: a step ends where a parameter meets the end of it, which then holds that parameter as
+//! long as the fit draws it further out. It is said to have no interval, for the least squares lie beyond.
+//!
 //! A parameter whose derivatives are nothing, or a combination of the others', cannot be identified, and is said to:
 //! its shift means nothing then. After Ctrl-C the fit is that of the rounds that are done; cuts
 //! are kept, and the next run goes the same way through them ([`super::known_cuts`]). Road not taken: a crate for
@@ -57,8 +60,11 @@ const MOST_DAMPING: f64 = 1e6;
 /// What was fitted.
 #[derive(Debug, Clone)]
 pub struct Calibration {
-    /// Parameters with their shifts from the scene and half their intervals; `None`: they cannot be identified.
+    /// Parameters with their shifts from the scene and half their intervals; `None`: they cannot be identified, or are
+    /// at the end of their range.
     pub fitted: Vec<(ErrorParameter, Option<[f64; 2]>)>,
+    /// Shifts of parameters that the end of their key's range holds; `None` for the others.
+    pub at_end: Vec<Option<f64>>,
     /// Measured numbers, then the places of measured lines, with what the scene predicted for them, and what the
     /// fitted scene does.
     pub values: Vec<Calibrated>,
@@ -72,6 +78,8 @@ pub struct Calibration {
     pub chance: Option<f64>,
     /// Whether the last round moved them no more.
     pub settled: bool,
+    /// Whether it led beyond what a scene may say, or what can be cut.
+    pub beyond: bool,
     /// Whether Ctrl-C left it all its rounds.
     pub complete: bool,
 }
@@ -96,6 +104,10 @@ struct FitState {
     left: f64,
     /// Derivatives of the last round that has all of them.
     columns: Vec<Vec<f64>>,
+    /// Parameters that the ends of their ranges hold.
+    held: Vec<bool>,
+    /// Whether a step of the last round led to shifts that the scene may not have, or that no gear can be cut with.
+    beyond: bool,
     settled: bool,
 }
 
@@ -108,14 +120,18 @@ impl FitState {
             let column = |index| trial.column(&self.shifts, &self.here, index);
             self.columns = (0..count).map(column).collect::<Result<Vec<_>>>()?;
             let residuals = trial.residuals(&self.here);
+            self.hold(trial, parameters, &residuals, damping);
             // The derivatives of the intervals are those at the end.
             let gain = self.left - alive(&self.columns).left_of(&residuals);
             self.settled = gain < SETTLED;
             let before_round = self.left;
+            self.beyond = false;
             while !self.settled && self.left >= before_round && damping < MOST_DAMPING {
                 let by = damped(&self.columns, &residuals, damping);
-                let moved: Vec<f64> = (0..count).map(|i| self.shifts[i] + by[i] * parameters[i].step).collect();
+                let wanted: Vec<f64> = (0..count).map(|i| self.shifts[i] + by[i] * parameters[i].step).collect();
+                let moved = trial.within(&self.shifts, &wanted);
                 let there = trial.predicted(&moved)?;
+                self.beyond |= moved != wanted || there.is_none();
                 let better = there.map(|there| (norm(&trial.residuals(&there)).powi(2), there));
                 if let Some((least, there)) = better.filter(|(least, _)| *least < self.left) {
                     (self.left, self.here, self.shifts) = (least, there, moved);
@@ -130,6 +146,18 @@ impl FitState {
             }
         }
         Ok(())
+    }
+
+    /// Holds the parameters that the next step would draw beyond their ranges: their columns count no more.
+    fn hold(&mut self, trial: &Trial, parameters: &[ErrorParameter], residuals: &[f64], damping: f64) {
+        self.held = vec![false; parameters.len()];
+        loop {
+            let by = damped(&self.columns, residuals, damping);
+            let ends = (0..by.len()).find(|&i| trial.is_at_end(&self.shifts, i, by[i] * parameters[i].step));
+            let Some(index) = ends else { break };
+            self.held[index] = true;
+            self.columns[index].fill(0.0);
+        }
     }
 
     /// Which parameters the columns say anything of, beside all others.
@@ -169,7 +197,15 @@ impl Calibration {
         let shifts = vec![0.0; count];
         let before = trial.predicted(&shifts)?.expect("nothing is shifted");
         let left = norm(&trial.residuals(&before)).powi(2);
-        let mut fit = FitState { shifts, here: before.clone(), left, columns: Vec::new(), settled: false };
+        let mut fit = FitState {
+            shifts,
+            here: before.clone(),
+            left,
+            columns: Vec::new(),
+            held: Vec::new(),
+            beyond: false,
+            settled: false,
+        };
         let complete = match fit.run(&trial, parameters) {
             Err(Error::Interrupted) if !fit.columns.is_empty() => false,
             other => other.map(|()| true)?,
@@ -195,12 +231,14 @@ impl Calibration {
         let noise = (freedom > 0).then(|| ChiSquared::new(freedom as f64).expect("freedom is above 0"));
         let found = Self {
             fitted: fitted.collect(),
+            at_end: fit.held.iter().zip(&fit.shifts).map(|(&held, &shift)| held.then_some(shift)).collect(),
             values: trial.compared(&before, &fit.here),
             settings: trial.shifted(&fit.shifts).map_or_else(Vec::new, |shifted| shifted.settings()),
             chi_square: fit.left,
             freedom,
             chance: noise.map(|noise| noise.sf(fit.left)),
             settled: fit.settled,
+            beyond: fit.beyond,
             complete,
         };
         drop(trial);

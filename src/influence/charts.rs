@@ -11,8 +11,7 @@
 //! curve's tangent.
 
 use super::gear_grid::{FlankGrid, GearGrid, turn_um_per_arcsec};
-use super::measured::{COLUMNS, MeasuredPlaces, MeasuredPoint, PITCH, SAME_MM, refuse_off_flank, refuse_tooth};
-use super::measured_table::MeasuredTable;
+use super::measured::{Chart, MeasuredPlaces, MeasuredPoint, SAME_MM, read_charts, refuse_off_flank, refuse_tooth};
 use crate::job::GearJob;
 use crate::process::ProcessJob;
 use gearcut_core::cut::Backend;
@@ -24,35 +23,6 @@ use std::path::Path;
 
 /// Places along a profile among which its crossing with the pitch curve is looked for; between them it is straight.
 const CROSSING_PLACES: f64 = 256.0;
-
-/// What a line is.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Chart {
-    /// Loose places.
-    Places,
-    /// Along the profile.
-    Profile,
-    /// Along the tooth.
-    Helix,
-    /// Cumulative pitch deviations of all flanks of a side.
-    Pitch,
-}
-
-impl Chart {
-    /// As files and tables call it.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Places => "places",
-            Self::Profile => "profile",
-            Self::Helix => "helix",
-            Self::Pitch => PITCH,
-        }
-    }
-
-    fn of(name: &str) -> Option<Self> {
-        [Self::Profile, Self::Helix, Self::Pitch].into_iter().find(|chart| chart.name() == name)
-    }
-}
 
 /// A line of a chart.
 #[derive(Debug, Clone, PartialEq)]
@@ -82,24 +52,14 @@ impl MeasuredLine {
 /// Reads lines of charts, or loose places where the file has no column `chart`.
 ///
 /// # Errors
-/// A file that cannot be read; columns that are missing; cells that are not what their column says; lines that do not
-/// run along the flank, or with fewer than two places.
+/// As for [`read_charts`]; lines that do not run along the flank, or with fewer than two places.
 pub fn read_lines(path: &Path) -> Result<Vec<MeasuredLine>> {
-    let table = MeasuredTable::read(path, COLUMNS, &["chart"])?;
     let mut lines: BTreeMap<(Chart, u32, Side), Vec<MeasuredPoint>> = BTreeMap::new();
-    for row in table.rows.iter().filter(|row| !row.cell(4).is_empty()) {
-        let chart = match row.cell(5) {
-            "" => Chart::Places,
-            name => Chart::of(name).ok_or_else(|| row.wrong(5, "profile, helix or pitch"))?,
-        };
-        let (tooth, side) = MeasuredPoint::flank_of(row)?;
-        let (key, point) = match chart {
-            Chart::Places => ((chart, 0, Side::Left), MeasuredPoint::of(row)?),
-            Chart::Profile | Chart::Helix => ((chart, tooth, side), MeasuredPoint::of(row)?),
-            Chart::Pitch => {
-                let deviation_um = row.number(4)?;
-                ((chart, 0, side), MeasuredPoint { tooth, side, u_mm: f64::NAN, v_mm: f64::NAN, deviation_um })
-            }
+    for (chart, point) in read_charts(path)? {
+        let key = match chart {
+            Chart::Places => (chart, 0, Side::Left),
+            Chart::Profile | Chart::Helix => (chart, point.tooth, point.side),
+            Chart::Pitch => (chart, 0, point.side),
         };
         lines.entry(key).or_default().push(point);
     }
@@ -115,9 +75,6 @@ pub fn read_lines(path: &Path) -> Result<Vec<MeasuredLine>> {
         if line.points.len() < 2 {
             return Err(line.refuse("has a single place", "a line says nothing without a second one").into());
         }
-        if chart != Chart::Places && line.points.windows(2).any(|pair| along(&pair[1]) - along(&pair[0]) < SAME_MM) {
-            return Err(line.refuse("has two values at one place", "write each place once").into());
-        }
         let across = |point: &MeasuredPoint| if chart == Chart::Profile { point.v_mm } else { point.u_mm };
         let wanders = |point: &MeasuredPoint| (across(point) - across(&line.points[0])).abs() > SAME_MM;
         if matches!(chart, Chart::Profile | Chart::Helix) && line.points.iter().any(wanders) {
@@ -126,11 +83,7 @@ pub fn read_lines(path: &Path) -> Result<Vec<MeasuredLine>> {
         }
         Ok(line)
     };
-    let lines: Vec<MeasuredLine> = lines.into_iter().map(line).collect::<Result<_>>()?;
-    if lines.is_empty() {
-        return Err(Refusal::new("--measured", "no row has a deviation_um", "measure some places").into());
-    }
-    Ok(lines)
+    lines.into_iter().map(line).collect()
 }
 
 /// Lines on the flanks of a gear.

@@ -12,6 +12,11 @@
 //! each other, and intervals of the named sources alone would hold too seldom: they are taken over all sets of sources
 //! that explain the gear about as well (`averaging`).
 //!
+//! Errors of a machine make all teeth alike, or wave from tooth to tooth. Single teeth, steps along the face and hollow
+//! profiles that none of them explains are looked for where something is left unexplained, named as what they are, and
+//! fitted beside the sources (`standing_out`): two displaced teeth are no waves. Where deviations are still left that
+//! nothing explains, intervals rest on noise that is not there, and none is said.
+//!
 //! A source B that would explain as much in place of a named A, within what noise can hide, cannot be told apart from
 //! A. What no source explains is compared with the noise: chi-square of the residuals.
 //!
@@ -28,6 +33,7 @@ mod model;
 mod page;
 mod refit;
 mod selection;
+mod standing_out;
 
 use fit::LinearFit;
 use gearcut_core::error::Result;
@@ -37,6 +43,7 @@ pub use findings::{findings, sheet};
 pub use model::{ErrorModel, ModelledSource};
 pub use page::write;
 pub use refit::diagnose;
+pub use standing_out::{StandingOut, StandingShape};
 
 /// What explains a measured gear.
 #[derive(Debug, Clone, PartialEq)]
@@ -45,6 +52,9 @@ pub struct Diagnosis {
     pub named: Vec<NamedSource>,
     /// How far the gear was turned on the measuring machine, arc seconds; `None` where no place shows it.
     pub turn_arcsec: Option<FittedSize>,
+    /// Sizes of what stands out of the gear, um: in the order of [`ErrorModel::standing_out`], the columns of each one
+    /// after the other; `None` where the others say all of it.
+    pub standing_out_um: Vec<Option<FittedSize>>,
     /// Share of the variance beside that turn that the named sources explain together; `None` where there is none.
     pub explained: Option<f64>,
     /// Root mean square of the residuals, um.

@@ -109,6 +109,12 @@ impl KnownCuts {
         [&self.made, &self.taken].map(|count| count.load(Ordering::Relaxed))
     }
 
+    /// How many finished cuts are on disk, and in which folder; none before the first one.
+    pub fn kept(&self) -> Option<(usize, &Path)> {
+        let place = self.place.as_ref()?;
+        Some((locked(&self.rows).len(), place.folder.as_path())).filter(|(count, _)| *count > 0)
+    }
+
     /// Writes all rows into the folder of a run that ends early, which takes the place of the one that grew.
     ///
     /// # Errors

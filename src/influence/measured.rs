@@ -8,6 +8,7 @@
 use super::gear_grid::{FlankGrid, GearGrid, evenly};
 use super::measured_table::{MeasuredRow, MeasuredTable};
 use crate::job::GearJob;
+use crate::measure::topography::surface::LARGEST_HEIGHT_UM;
 use gearcut_core::error::{Error, Refusal, Result};
 use gearcut_core::terms::Side;
 use std::collections::BTreeMap;
@@ -18,6 +19,8 @@ use std::path::Path;
 const MOST_PLACES: [usize; 2] = [33, 17];
 /// Places nearer to each other than this are one, mm.
 pub(super) const SAME_MM: f64 = 1e-6;
+/// Deviations beyond this are none, um: a metre, as of heights of surfaces.
+const LARGEST_DEVIATION_UM: f64 = LARGEST_HEIGHT_UM;
 
 /// A measured place.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -35,43 +38,98 @@ pub struct MeasuredPoint {
 }
 
 /// Columns of a table of measured places.
-pub const COLUMNS: [&str; 6] = ["tooth", "flank", "u_mm", "v_mm", "deviation_um", "chart"];
-/// The chart of cumulative pitch deviations.
-pub const PITCH: &str = "pitch";
+const COLUMNS: [&str; 6] = ["tooth", "flank", "u_mm", "v_mm", "deviation_um", "chart"];
+
+/// What a line of an inspection is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Chart {
+    /// Loose places.
+    Places,
+    /// Along the profile.
+    Profile,
+    /// Along the tooth.
+    Helix,
+    /// Cumulative pitch deviations of all flanks of a side.
+    Pitch,
+}
+
+impl Chart {
+    /// As files and tables call it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Places => "places",
+            Self::Profile => "profile",
+            Self::Helix => "helix",
+            Self::Pitch => "pitch",
+        }
+    }
+
+    fn of(row: &MeasuredRow<6>) -> Result<Self> {
+        let name = row.cell(5);
+        if name.is_empty() {
+            return Ok(Self::Places);
+        }
+        let known = [Self::Profile, Self::Helix, Self::Pitch].into_iter().find(|chart| chart.name() == name);
+        known.ok_or_else(|| row.wrong(5, "profile, helix or pitch"))
+    }
+}
 
 impl MeasuredPoint {
-    /// Tooth and side of a row with [`COLUMNS`].
-    ///
-    /// # Errors
-    /// Cells that are not what their column says.
-    pub fn flank_of(row: &MeasuredRow<6>) -> Result<(u32, Side)> {
+    fn of(row: &MeasuredRow<6>, chart: Chart) -> Result<Self> {
         let side = [Side::Left, Side::Right].into_iter().find(|side| side.name() == row.cell(1));
         let tooth = row.cell(0).parse().map_err(|_| row.wrong(0, "the number of a tooth"))?;
-        Ok((tooth, side.ok_or_else(|| row.wrong(1, "left or right"))?))
+        let side = side.ok_or_else(|| row.wrong(1, "left or right"))?;
+        let [u_mm, v_mm] = match chart {
+            Chart::Pitch => [f64::NAN; 2],
+            Chart::Places | Chart::Profile | Chart::Helix => [row.number(2)?, row.number(3)?],
+        };
+        Ok(Self { tooth, side, u_mm, v_mm, deviation_um: row.number_within(4, LARGEST_DEVIATION_UM)? })
     }
+}
 
-    /// A row with [`COLUMNS`].
-    ///
-    /// # Errors
-    /// Cells that are not what their column says.
-    pub fn of(row: &MeasuredRow<6>) -> Result<Self> {
-        let (tooth, side) = Self::flank_of(row)?;
-        Ok(Self { tooth, side, u_mm: row.number(2)?, v_mm: row.number(3)?, deviation_um: row.number(4)? })
+/// Reads measured deviations in the order of the file, each with its chart; pitch has no place on its flank. Rows
+/// without a deviation are left out: what was not measured has no value.
+///
+/// # Errors
+/// A file that cannot be read; columns that are missing; cells that are not what their column says; a place that a
+/// chart has twice; no rows.
+pub fn read_charts(path: &Path) -> Result<Vec<(Chart, MeasuredPoint)>> {
+    let table = MeasuredTable::read(path, COLUMNS, &["chart"])?;
+    let mut found = Vec::new();
+    let mut places = BTreeMap::new();
+    for row in table.rows.iter().filter(|row| !row.cell(4).is_empty()) {
+        let chart = Chart::of(row)?;
+        let point = MeasuredPoint::of(row, chart)?;
+        let MeasuredPoint { tooth, side, u_mm, v_mm, .. } = point;
+        // NaN, where pitch is, becomes 0.
+        let [u, v] = [u_mm, v_mm].map(|mm| (mm / SAME_MM).round() as i64);
+        if let Some(first) = places.insert((chart, tooth, side, u, v), row) {
+            let flank = format!("tooth {tooth} {}", side.name());
+            let what = match chart {
+                Chart::Pitch => format!("the pitch of {flank}"),
+                _ => format!("u {u_mm} mm, v {v_mm} mm of {flank}"),
+            };
+            return Err(row.repeats(first, &what));
+        }
+        found.push((chart, point));
     }
+    if found.is_empty() {
+        let reason = "no row has a deviation_um".to_owned();
+        return Err(Error::Unreadable { path: path.to_owned(), reason });
+    }
+    Ok(found)
 }
 
 /// Reads measured deviations. The charts of an inspection have them as well, in a column `chart`: of these, profiles
 /// and helices are taken, and pitch is left out, for the profiles have it.
 ///
 /// # Errors
-/// A file that cannot be read; columns that are missing; cells that are not what their column says; no rows.
+/// As for [`read_charts`]; nothing but pitch.
 pub fn read(path: &Path) -> Result<Vec<MeasuredPoint>> {
-    let table = MeasuredTable::read(path, COLUMNS, &["chart"])?;
-    // What was not measured has no value.
-    let rows = table.rows.iter().filter(|row| !row.cell(4).is_empty() && row.cell(5) != PITCH);
-    let points: Vec<MeasuredPoint> = rows.map(MeasuredPoint::of).collect::<Result<_>>()?;
+    let on_flanks = read_charts(path)?.into_iter().filter(|(chart, _)| *chart != Chart::Pitch);
+    let points: Vec<MeasuredPoint> = on_flanks.map(|(_, point)| point).collect();
     if points.is_empty() {
-        let reason = "no row has a deviation_um".to_owned();
+        let reason = "pitch is all that it has; a diagnosis takes places on flanks".to_owned();
         return Err(Error::Unreadable { path: path.to_owned(), reason });
     }
     Ok(points)

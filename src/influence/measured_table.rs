@@ -2,6 +2,9 @@
 //!
 //! In: a file and the names of the columns that it must have, in any order, others beside them. Out: rows whose cells
 //! are asked for by the column's number in that list, and errors that name file, line, column and value.
+//!
+//! Tables of spreadsheets with semicolons, tabs, UTF-16 or other spellings of the heads are refused by these words. Road
+//! not taken: reading them. Where semicolons divide columns, commas may divide decimals, and a guess is no measure.
 
 use crate::regular_file;
 use gearcut_core::error::{Error, Result};
@@ -9,6 +12,8 @@ use std::path::{Path, PathBuf};
 
 /// Largest file that is read, bytes: some ten million rows.
 const LARGEST_FILE: u64 = 1 << 29;
+/// Numbers beyond this are no measures, whatever their unit: squares of residuals would overflow.
+const LARGEST_NUMBER: f64 = 1e12;
 
 /// A table.
 #[derive(Debug, Clone)]
@@ -33,13 +38,15 @@ impl<const N: usize> MeasuredTable<N> {
     /// A file that cannot be read or is no CSV; columns that are missing; no rows.
     pub fn read(path: &Path, names: [&'static str; N], optional: &[&str]) -> Result<Self> {
         let unreadable = |reason: String| Error::Unreadable { path: path.to_owned(), reason };
-        let text = regular_file::read(path, LARGEST_FILE).map_err(unreadable)?;
+        let text = text(path)?;
         let mut reader = reader(&text);
         let heads = reader.headers().map_err(|reason| unreadable(reason.to_string()))?.clone();
         let place = |name: &str| heads.iter().position(|head| head == name);
         if let Some(missing) = names.iter().find(|name| !optional.contains(name) && place(name).is_none()) {
-            let all = names.join(", ");
-            return Err(unreadable(format!("it has no column {missing}; its first line must have {all}")));
+            let heads: Vec<&str> = heads.iter().collect();
+            let spelled = other_spelling(&heads, &names);
+            let why = spelled.unwrap_or_else(|| format!("it has no column {missing}"));
+            return Err(unreadable(format!("{why}; its first line must have {}", names.join(", "))));
         }
         let mut rows = Vec::new();
         for record in reader.records() {
@@ -55,15 +62,69 @@ impl<const N: usize> MeasuredTable<N> {
     }
 }
 
-/// Columns that a table has.
-///
-/// # Errors
-/// A file that cannot be read or is no CSV.
-pub fn heads(path: &Path) -> Result<Vec<String>> {
-    let unreadable = |reason: String| Error::Unreadable { path: path.to_owned(), reason };
-    let text = regular_file::read(path, LARGEST_FILE).map_err(unreadable)?;
-    let heads = reader(&text).headers().map_err(|reason| unreadable(reason.to_string()))?.clone();
-    Ok(heads.iter().map(str::to_owned).collect())
+/// What a file is by its first line.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum FirstLine {
+    /// Numbers alone: the heights of a surface.
+    Numbers,
+    /// The names of columns.
+    Columns(Vec<String>),
+}
+
+impl FirstLine {
+    /// Reads it; `known` are the columns by which a table is known.
+    ///
+    /// # Errors
+    /// A file that cannot be read, is empty, or is no CSV; columns of which none is known.
+    pub fn of(path: &Path, known: &[&str]) -> Result<Self> {
+        let unreadable = |reason: String| Error::Unreadable { path: path.to_owned(), reason };
+        let text = text(path)?;
+        let heads = reader(&text).headers().map_err(|reason| unreadable(reason.to_string()))?.clone();
+        let heads: Vec<&str> = heads.iter().collect();
+        if heads.iter().any(|head| known.contains(head)) {
+            return Ok(Self::Columns(heads.into_iter().map(str::to_owned).collect()));
+        }
+        // Surfaces have other separators as well, and words for holes.
+        let is_height = |cell: &str| ["", "bad", "---"].contains(&cell) || cell.parse::<f64>().is_ok();
+        let cells = || heads.iter().flat_map(|head| head.split([';', '\t', ' ']));
+        if cells().all(is_height) || heads[0].starts_with('#') {
+            return Ok(Self::Numbers);
+        }
+        let spelled = other_spelling(&heads, known);
+        let why = spelled.unwrap_or_else(|| format!("its first line, `{}`, names no known column", heads.join(",")));
+        Err(unreadable(format!("{why}; a table of measured values has a column {}", known.join(" or "))))
+    }
+}
+
+/// The bytes of a table, which are text in UTF-8.
+fn text(path: &Path) -> Result<Vec<u8>> {
+    let unreadable = |reason: &str| Error::Unreadable { path: path.to_owned(), reason: reason.to_owned() };
+    let text =
+        regular_file::read(path, LARGEST_FILE).map_err(|reason| Error::Unreadable { path: path.to_owned(), reason })?;
+    if text.is_empty() {
+        return Err(unreadable("it is empty"));
+    }
+    // Letters of UTF-16 are two bytes, of which one is 0 in European alphabets.
+    if text.starts_with(&[0xff, 0xfe]) || text.starts_with(&[0xfe, 0xff]) || text.iter().take(64).any(|&byte| byte == 0)
+    {
+        return Err(unreadable("it is a table in UTF-16; save it as CSV in UTF-8"));
+    }
+    Ok(text)
+}
+
+/// In which other way a first line is written that has columns by their names; nothing where it has none of them.
+fn other_spelling(heads: &[&str], names: &[&str]) -> Option<String> {
+    for (separator, word) in [(';', "semicolons"), ('\t', "tabs")] {
+        let mut cells = heads.iter().flat_map(|head| head.split(separator)).map(str::trim);
+        if heads.iter().any(|head| head.contains(separator))
+            && cells.any(|cell| names.iter().any(|name| cell.eq_ignore_ascii_case(name)))
+        {
+            return Some(format!("{word} stand between its columns; write commas there, and points before decimals"));
+        }
+    }
+    let other = |head: &&&str| names.iter().find(|name| head.eq_ignore_ascii_case(name) && head != name);
+    let head = heads.iter().find(|head| other(head).is_some())?;
+    Some(format!("its column `{head}` must be written `{}`", head.to_lowercase()))
 }
 
 fn reader(text: &[u8]) -> csv::Reader<&[u8]> {
@@ -79,10 +140,24 @@ impl<const N: usize> MeasuredRow<N> {
     /// A cell as a number.
     ///
     /// # Errors
-    /// It is no finite number.
+    /// It is no number, or none that a measure can be.
     pub fn number(&self, column: usize) -> Result<f64> {
-        let value = self.cells[column].parse::<f64>().ok().filter(|value| value.is_finite());
-        value.ok_or_else(|| self.wrong(column, "a number"))
+        self.number_within(column, LARGEST_NUMBER)
+    }
+
+    /// A cell as a number from `-most` to `most`.
+    ///
+    /// # Errors
+    /// It is no such number.
+    pub fn number_within(&self, column: usize, most: f64) -> Result<f64> {
+        let value = self.cells[column].parse::<f64>().ok().filter(|value| value.abs() <= most);
+        value.ok_or_else(|| self.wrong(column, &format!("a number from {:e} to {most:e}", -most)))
+    }
+
+    /// The error of a row that says once more what another one says.
+    pub fn repeats(&self, first: &Self, what: &str) -> Error {
+        let reason = format!("line {}: {what} has a value in line {} already; write each once", self.line, first.line);
+        Error::Unreadable { path: self.path.clone(), reason }
     }
 
     /// The error of a cell that is not what it should be.

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use gearcut_core::{Error, Result};
 
-pub use gearcut_texture::atomic::Sink;
+pub use gearcut_texture::atomic::{Sink, is_temporary};
 
 /// Writes `path` completely or not at all.
 ///

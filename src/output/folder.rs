@@ -7,8 +7,8 @@
 //! The rules:
 //! - A complete result is replaced by a complete one with the same parts at least, in one step, and not before that is
 //!   whole. What Ctrl-C leaves of a run goes to `NAME.partial`; the next complete run removes it.
-//! - What gearcut did not write is never replaced: `run.json` proves what it wrote. Whatever else has the name is
-//!   refused before any work is done.
+//! - What gearcut did not write is never replaced: `run.json` proves what it wrote, file by file. Whatever else has the
+//!   name is refused before any work is done, and so is a folder of gearcut's with a file of somebody else in it.
 //! - One run at a time writes to a name; a second one is refused.
 //! - A run that fails or is killed leaves the names as they were. What a killed run leaves under its hidden name is
 //!   removed by the next run to the same name.
@@ -23,19 +23,27 @@ mod workplace;
 #[cfg(test)]
 mod deaths;
 
+use std::collections::HashSet;
 use std::ffi::OsString;
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use crate::output::atomic::write_bytes_atomically;
+use crate::output::atomic::{is_temporary, write_bytes_atomically};
 use gearcut_core::{Error, Result};
-use serde_json::Value;
+use serde_json::{Map, Value};
 use steps::{Disk, Steps};
 use workplace::{Workplace, with_ending};
 
 /// File by which gearcut knows its own folders again.
 pub const RUN_RECORD: &str = "run.json";
+
+/// Key of the run record under which the names of all other files are.
+pub const FILES: &str = "files";
+/// Key of the run record under which they are with their checksums.
+pub const CHECKSUMS: &str = "sha256";
+/// What file managers write into folders that somebody looks at.
+const OF_FILE_MANAGERS: [&str; 4] = [".DS_Store", "Thumbs.db", "desktop.ini", ".directory"];
 
 /// What stands behind the name of a run that Ctrl-C ended early.
 const PARTIAL: &str = ".partial";
@@ -118,22 +126,19 @@ impl OutputFolder {
     /// # Errors
     /// A subfolder cannot be read.
     pub fn written(&self) -> Result<Vec<String>> {
-        fn inside(folder: &Path, before: &str, found: &mut Vec<String>) -> Result<()> {
-            for entry in fs::read_dir(folder).map_err(Error::reading(folder))? {
-                let entry = entry.map_err(Error::reading(folder))?;
-                let name = format!("{before}{}", entry.file_name().to_string_lossy());
-                if entry.file_type().map_err(Error::reading(folder))?.is_dir() {
-                    inside(&entry.path(), &format!("{name}/"), found)?;
-                } else {
-                    found.push(name);
-                }
-            }
-            Ok(())
+        files_in(&self.workplace.new_files())
+    }
+
+    /// Writes the run record, the last file of all: with the names of all others, by which the next run to this name
+    /// knows what it may replace. A record with their checksums has the names already.
+    ///
+    /// # Errors
+    /// A subfolder cannot be read; the file cannot be written.
+    pub fn write_record(&self, mut record: Map<String, Value>) -> Result<()> {
+        if !record.contains_key(CHECKSUMS) {
+            record.insert(FILES.to_owned(), self.written()?.into());
         }
-        let mut found = Vec::new();
-        inside(&self.workplace.new_files(), "", &mut found)?;
-        found.sort_unstable();
-        Ok(found)
+        self.write_json(RUN_RECORD, &Value::Object(record))
     }
 
     /// Writes a JSON document, indented, ending with a newline.
@@ -219,6 +224,16 @@ impl OutputFolder {
         Ok(partial)
     }
 
+    /// Forces everything that is written to the disk, as [`finish`](Self::finish) does with what is not there yet: a run
+    /// that measures its time calls it before it writes its record.
+    ///
+    /// # Errors
+    /// The disk is full or refuses.
+    pub fn force_to_disk(&self) -> Result<()> {
+        let new = self.workplace.new_files();
+        self.workplace.force_to_disk().map_err(Error::writing(&new))
+    }
+
     fn check_record(&self) -> Result<()> {
         if is_ours(&self.workplace.new_files()) {
             return Ok(());
@@ -285,7 +300,12 @@ fn check_replaceable(final_path: &Path) -> Result<()> {
         Ok(found) if !found.is_dir() => {
             refuse("a file or a link of this name is in the way; remove it or choose another folder with --out".into())
         }
-        Ok(_) if is_ours(final_path) => Ok(()),
+        Ok(_) if is_ours(final_path) => match foreign_file(final_path)? {
+            None => Ok(()),
+            Some(name) => refuse(format!(
+                "the folder holds {name}, which gearcut did not write; move it away or choose another folder with --out"
+            )),
+        },
         Ok(_) if is_empty(final_path) => Ok(()),
         Ok(_) => refuse(format!(
             "the folder exists and was not written by gearcut (it has no {RUN_RECORD} of gearcut's); \
@@ -307,6 +327,42 @@ fn check_partial(partial: &Path) -> Result<()> {
         });
     }
     Ok(())
+}
+
+/// A file in a folder of gearcut's that its record does not name; none where the record has no names, as those of
+/// earlier versions and of runs that are still growing.
+fn foreign_file(folder: &Path) -> Result<Option<String>> {
+    let Some(record) = record_of(folder) else { return Ok(None) };
+    let names: HashSet<&str> = match (record.get(CHECKSUMS), record.get(FILES)) {
+        (Some(Value::Object(checksums)), _) => checksums.keys().map(String::as_str).collect(),
+        (_, Some(Value::Array(files))) => files.iter().filter_map(Value::as_str).collect(),
+        _ => return Ok(None),
+    };
+    let is_known = |file: &str| {
+        let name = file.rsplit('/').next().unwrap_or(file);
+        file == RUN_RECORD || names.contains(file) || OF_FILE_MANAGERS.contains(&name) || is_temporary(name)
+    };
+    Ok(files_in(folder)?.into_iter().find(|file| !is_known(file)))
+}
+
+/// Files below a folder, relative to it, with `/` between names, in order.
+fn files_in(folder: &Path) -> Result<Vec<String>> {
+    fn inside(folder: &Path, before: &str, found: &mut Vec<String>) -> Result<()> {
+        for entry in fs::read_dir(folder).map_err(Error::reading(folder))? {
+            let entry = entry.map_err(Error::reading(folder))?;
+            let name = format!("{before}{}", entry.file_name().to_string_lossy());
+            if entry.file_type().map_err(Error::reading(folder))?.is_dir() {
+                inside(&entry.path(), &format!("{name}/"), found)?;
+            } else {
+                found.push(name);
+            }
+        }
+        Ok(())
+    }
+    let mut found = Vec::new();
+    inside(folder, "", &mut found)?;
+    found.sort_unstable();
+    Ok(found)
 }
 
 /// Whether gearcut wrote the folder.

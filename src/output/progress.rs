@@ -115,6 +115,11 @@ impl Progress {
         locked(&self.whole).ahead = steps.into_iter().map(|(name, expected_s)| (name.to_owned(), expected_s)).collect();
     }
 
+    /// Time since the first thing that is reported could be.
+    pub fn elapsed(&self) -> Duration {
+        locked(&self.whole).started.elapsed()
+    }
+
     /// Steps that are finished, with the seconds they took, in order.
     pub fn stages(&self) -> Vec<(String, f64)> {
         locked(&self.whole).taken.clone()

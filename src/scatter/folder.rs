@@ -9,7 +9,7 @@
 //!
 //! Road not taken: rows under the hidden name. The next run removes what a killed one left there.
 
-use crate::output::folder::{OutputFolder, RUN_RECORD};
+use crate::output::folder::{FILES, OutputFolder, RUN_RECORD};
 use crate::output::growing::begin;
 use gearcut_core::error::{Error, Result};
 use serde_json::{Map, Value};
@@ -41,6 +41,7 @@ impl ScatterFolder {
         match there.and_then(|text| serde_json::from_slice::<Map<String, Value>>(&text).ok()) {
             Some(mut there) => {
                 there.remove("complete");
+                there.remove(FILES);
                 if there.get("command") != record.get("command") {
                     return refuse(
                         "the folder holds what another command of gearcut wrote; choose another one with --out",
@@ -68,7 +69,7 @@ impl ScatterFolder {
     /// Files that cannot be written: what was there stays.
     pub fn finish(self, write: impl FnOnce(&OutputFolder) -> Result<()>) -> Result<PathBuf> {
         let written = write(&self.hidden);
-        let written = written.and_then(|()| self.hidden.write_json(RUN_RECORD, &Value::Object(self.record)));
+        let written = written.and_then(|()| self.hidden.write_record(self.record));
         written.map_err(|error| self.hidden.explain(error))?;
         self.hidden.finish()
     }

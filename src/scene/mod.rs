@@ -33,7 +33,7 @@ pub mod reference;
 #[doc(hidden)]
 pub mod schema;
 mod sources;
-mod suggest;
+pub mod suggest;
 mod table;
 mod template;
 #[cfg(test)]

@@ -1,4 +1,4 @@
-//! The known key or section nearest to a name that is none.
+//! The known key, section or word nearest to a name that is none.
 //!
 //! In: a section and a name written in it. Out: the candidate to propose, if any is alike enough. Searched first among
 //! the names of the same section (a slip of the finger, a forgotten unit), then among all (a key in the wrong section).
@@ -69,6 +69,16 @@ pub(super) fn nearest<'a>(table: &'a KeyTable, section: &'a TableSection, name: 
     let here = candidates(table, section);
     let elsewhere = table.sections().iter().flat_map(|section| candidates(table, section));
     best(here, name, LIKE_ENOUGH_HERE).or_else(|| best(elsewhere, name, LIKE_ENOUGH_ELSEWHERE))
+}
+
+/// The word nearest to one that is none of these, as a question behind what is wrong; empty where none is alike.
+pub fn did_you_mean<'a>(words: impl IntoIterator<Item = &'a str>, written: &str) -> String {
+    if written.len() > LONGEST_COMPARED {
+        return String::new();
+    }
+    let alike = words.into_iter().map(|word| (likeness(written, word), word));
+    let nearest = alike.filter(|(likeness, _)| *likeness >= LIKE_ENOUGH_HERE).max_by(|a, b| a.0.total_cmp(&b.0));
+    nearest.map_or_else(String::new, |(_, word)| format!("; did you mean {word}?"))
 }
 
 fn candidates<'a>(table: &'a KeyTable, section: &'a TableSection) -> impl Iterator<Item = Candidate<'a>> {

@@ -1,7 +1,7 @@
 //! Which parts of a result are written.
 //!
 //! In: names of parts, as they are typed after `--only`. Out: [`Parts`]. The numbers (`results.json`, `run.json`,
-//! `tables/`) are always written. What is not asked for is neither drawn nor computed; what is asked for has the same
+//! `tables/`, `inspection_charts.csv`) are always written. What is not asked for is neither drawn nor computed; what is asked for has the same
 //! bytes as in a whole result.
 
 /// A part that can be left out.
@@ -19,7 +19,7 @@ pub enum Part {
     Chips,
     /// `axes/`: tables, charts and programs of the axes.
     Axes,
-    /// `report.html`, `inspection.svg`, `inspection.pdf`, `inspection_charts.csv`.
+    /// `report.html`, `inspection.svg`, `inspection.pdf`.
     Report,
 }
 

@@ -1,25 +1,32 @@
 //! The run record: what is needed to repeat a run and to trust its files.
 
 use super::{Tools, Work};
+use crate::output::folder::CHECKSUMS;
 use gearcut_core::error::{Error, Result};
 use serde_json::{Map, Value, json};
 use sha2::{Digest, Sha256};
 use std::fmt::Write as _;
 use std::path::Path;
 
-/// What is needed to repeat the run and to trust its files.
+/// SHA-256 of every file of the folder.
 ///
 /// # Errors
-/// Files that cannot be read back for their checksums.
-pub fn run_record(tools: &Tools, work: &Work, complete: bool) -> Result<Value> {
-    let Tools { resolved, backend, backend_why, folder, parts, progress, .. } = *tools;
-    let step = progress.step("checksums", 1, "folder");
+/// Files that cannot be read back.
+pub fn checksums(tools: &Tools) -> Result<Map<String, Value>> {
+    let step = tools.progress.step("checksums", 1, "folder");
     let mut checksums = Map::new();
-    collect_checksums(&folder.path("")?, "", &mut checksums)?;
+    collect_checksums(&tools.folder.path("")?, "", &mut checksums)?;
     step.advance(1);
     step.finish();
+    Ok(checksums)
+}
+
+/// What is needed to repeat the run and to trust its files; the wall time is that from the first step to now, when
+/// nothing but this record is missing.
+pub fn run_record(tools: &Tools, work: &Work, complete: bool, checksums: &Map<String, Value>) -> Map<String, Value> {
+    let Tools { resolved, backend, backend_why, parts, progress, .. } = *tools;
     let stages = progress.stages();
-    Ok(json!({
+    let record = json!({
         "program": "gearcut",
         "program_version": env!("CARGO_PKG_VERSION"),
         "command": "cut",
@@ -39,10 +46,12 @@ pub fn run_record(tools: &Tools, work: &Work, complete: bool) -> Result<Value> {
         "dexel_passes": work.stats.dexel_passes,
         "dexels_cut": work.stats.dexels,
         "dexel_passes_per_dexel_cut": work.passes_per_dexel(),
-        "wall_time_s": work.elapsed.as_secs_f64(),
+        "wall_time_s": progress.elapsed().as_secs_f64(),
         "threads": rayon::current_num_threads(),
-        "sha256": checksums,
-    }))
+        CHECKSUMS: checksums,
+    });
+    let Value::Object(record) = record else { unreachable!("an object was written") };
+    record
 }
 
 fn collect_checksums(folder: &Path, prefix: &str, into: &mut Map<String, Value>) -> Result<()> {

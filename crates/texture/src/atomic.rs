@@ -86,9 +86,17 @@ fn write_through<W: Sink>(
 
 /// Names and rights of temporary files: hidden, and readable as the user's umask says (the default of the crate would
 /// leave results that nobody else may read).
+/// Beginning and end of the names of files that are not whole yet.
+const TEMPORARY: [&str; 2] = [".gearcut-", ".part"];
+
+/// Whether a file of this name is what a killed writer left.
+pub fn is_temporary(name: &str) -> bool {
+    name.starts_with(TEMPORARY[0]) && name.ends_with(TEMPORARY[1])
+}
+
 fn new_file_builder() -> tempfile::Builder<'static, 'static> {
     let mut builder = tempfile::Builder::new();
-    builder.prefix(".gearcut-").suffix(".part");
+    builder.prefix(TEMPORARY[0]).suffix(TEMPORARY[1]);
     #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
     builder

@@ -8,7 +8,8 @@ use crate::output::folder::OutputFolder;
 use crate::output::report::{Block, Page, PageSection, PageTable, REPORT_FILE};
 use crate::output::table::write_tables;
 use crate::output::text::{plain, significant};
-use crate::scene::Scene;
+use crate::scene::{LoadedScene, Scene};
+use crate::steps::report::ending;
 use crate::steps::report::facts::gear_words;
 use crate::steps::report::quantities;
 use gearcut_core::error::Result;
@@ -22,13 +23,20 @@ const LEAST_UM: f64 = 0.02;
 ///
 /// # Errors
 /// Files that cannot be written.
-pub fn write(scene: &Scene, budget: &Budget, found: &Findings, folder: &OutputFolder) -> Result<()> {
+pub fn write(
+    loaded: &LoadedScene,
+    backend: &str,
+    budget: &Budget,
+    found: &Findings,
+    folder: &OutputFolder,
+) -> Result<()> {
     write_tables(found, folder)?;
     if !budget.lines.is_empty() {
         chart(budget).write_svg(&folder.path("pictures/budget.svg")?)?;
     }
     let maps = maps::write(budget, folder)?;
-    page(scene, budget, found, maps).write(&folder.path(REPORT_FILE)?)?;
+    let end = ending(folder, backend, &loaded.resolved_toml())?;
+    page(&loaded.scene, budget, found, maps, end).write(&folder.path(REPORT_FILE)?)?;
     folder.write_json(RESULTS_FILE, &found.to_json())
 }
 
@@ -59,7 +67,7 @@ fn chart(budget: &Budget) -> BarChart {
 }
 
 /// The page.
-fn page(scene: &Scene, budget: &Budget, found: &Findings, maps: Vec<InfluenceSheet>) -> Page {
+fn page(scene: &Scene, budget: &Budget, found: &Findings, maps: Vec<InfluenceSheet>, end: [PageSection; 2]) -> Page {
     let mut costs = Vec::new();
     if !budget.lines.is_empty() {
         costs.push(Block::Bars(chart(budget)));
@@ -89,6 +97,7 @@ fn page(scene: &Scene, budget: &Budget, found: &Findings, maps: Vec<InfluenceShe
         let pictures = maps.into_iter().map(|map| Block::Picture(map.title, map.png)).collect();
         sections.push(PageSection::new("maps", "Influence maps", lead, pictures));
     }
+    sections.extend(end);
     Page {
         what: "error budget",
         title: found.scene.clone(),

@@ -6,11 +6,14 @@
 use super::measured::{MeasuredGear, MeasuredNumber, MeasuredWish};
 use super::surface;
 use crate::influence::charts::read_lines;
-use crate::influence::measured_table::{MeasuredTable, heads};
+use crate::influence::measured_table::{FirstLine, MeasuredTable};
 use crate::job::GearJob;
 use gearcut_core::error::{Refusal, Result};
 use std::collections::BTreeSet;
 use std::path::Path;
+
+/// Smaller uncertainties are none: squares of residuals over them would overflow.
+const LEAST_UNCERTAINTY: f64 = 1e-12;
 
 /// Reads files, each by its name; behind a surface's name `@` and its window may stand.
 ///
@@ -21,7 +24,7 @@ pub fn read(gear: &dyn GearJob, files: &[String], wish: &MeasuredWish) -> Result
     let mut all = MeasuredGear { noise_um: wish.noise_um.unwrap_or_default(), ..MeasuredGear::default() };
     for file in files {
         let path = Path::new(file);
-        match MeasuredKind::of(path) {
+        match MeasuredKind::of(path)? {
             MeasuredKind::Numbers => all.numbers.extend(read_numbers(path)?),
             MeasuredKind::Figures => all.numbers.extend(read_figures(path, noise_um(wish, file)?)?),
             MeasuredKind::Lines => {
@@ -52,22 +55,17 @@ enum MeasuredKind {
 }
 
 impl MeasuredKind {
-    fn of(path: &Path) -> Self {
-        let heads = if path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("csv")) {
-            heads(path).unwrap_or_default()
-        } else {
-            Vec::new()
-        };
-        let has = |name: &str| heads.iter().any(|head| head == name);
-        if has("quantity") {
-            Self::Numbers
-        } else if has("figure") {
-            Self::Figures
-        } else if has("deviation_um") {
-            Self::Lines
-        } else {
-            Self::Surface
+    fn of(path: &Path) -> Result<Self> {
+        let kinds = [("quantity", Self::Numbers), ("figure", Self::Figures), ("deviation_um", Self::Lines)];
+        // Behind the name of a surface its window may stand.
+        if !path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("csv")) {
+            return Ok(Self::Surface);
         }
+        let FirstLine::Columns(heads) = FirstLine::of(path, &kinds.each_ref().map(|(name, _)| *name))? else {
+            return Ok(Self::Surface);
+        };
+        let kind = kinds.into_iter().find(|(name, _)| heads.iter().any(|head| head == name));
+        Ok(kind.map_or(Self::Surface, |(_, kind)| kind))
     }
 }
 
@@ -87,8 +85,8 @@ fn read_numbers(path: &Path) -> Result<Vec<MeasuredNumber>> {
     let table = MeasuredTable::read(path, ["quantity", "value", "uncertainty"], &[])?;
     let rows = table.rows.iter().map(|row| {
         let uncertainty = row.number(2)?;
-        if uncertainty <= 0.0 {
-            return Err(row.wrong(2, "above 0"));
+        if uncertainty < LEAST_UNCERTAINTY {
+            return Err(row.wrong(2, &format!("above 0, at least {LEAST_UNCERTAINTY:e}")));
         }
         Ok(MeasuredNumber { quantity: row.cell(0).to_owned(), value: row.number(1)?, uncertainty })
     });

@@ -16,7 +16,8 @@ use crate::output::progress::ProgressStep;
 use crate::process::{self, ProcessJob};
 use crate::scene::LoadedScene;
 use crate::scene::error_parameters::{ErrorParameter, Shifted};
-use gearcut_core::error::{Refusal, Result};
+use crate::scene::suggest::did_you_mean;
+use gearcut_core::error::{Error, Refusal, Result};
 use gearcut_core::terms::Side;
 
 /// A scene that is cut with shifted parameters.
@@ -87,19 +88,51 @@ impl<'a> Trial<'a> {
         })
     }
 
-    /// The scene with shifted parameters; `None` where it has no word for them.
+    /// Shifted parameters; `None` where the scene has no word for them.
     pub fn shifted(&self, shifts: &[f64]) -> Option<Shifted<'_>> {
         let mut shifted = Shifted::new(self.loaded);
         let all = self.parameters.iter().zip(shifts).all(|(parameter, &by)| shifted.shift(parameter, by));
         all.then_some(shifted)
     }
 
-    /// Predicted values; `None` where the scene has no word for the shifts.
+    /// Whether the scene may have these shifts: every key stays in its range.
+    fn is_scene(&self, shifts: &[f64]) -> bool {
+        self.shifted(shifts).is_some_and(|shifted| read(&shifted).is_ok())
+    }
+
+    /// Whether a parameter is at the end of its range in the direction of a step.
+    pub fn is_at_end(&self, shifts: &[f64], index: usize, step: f64) -> bool {
+        let mut further = shifts.to_vec();
+        further[index] += AT_END * step;
+        step != 0.0 && !self.is_scene(&further)
+    }
+
+    /// Shifts as far as the scene may have them on the way from ones that it may have: first parameter by parameter,
+    /// then all together, for a size of two parts has one range.
+    pub fn within(&self, from: &[f64], to: &[f64]) -> Vec<f64> {
+        let reached: Vec<f64> = (0..from.len())
+            .map(|index| {
+                let at = |share: f64| {
+                    let mut alone = from.to_vec();
+                    alone[index] += share * (to[index] - from[index]);
+                    alone
+                };
+                at(furthest(|share| self.is_scene(&at(share))))[index]
+            })
+            .collect();
+        let at = |share: f64| from.iter().zip(&reached).map(|(a, b)| a + share * (b - a)).collect::<Vec<f64>>();
+        at(furthest(|share| self.is_scene(&at(share))))
+    }
+
+    /// Predicted values; `None` where the scene may not have the shifts, or its gear cannot be cut with them.
     pub fn predicted(&self, shifts: &[f64]) -> Result<Option<Vec<f64>>> {
         self.interrupt.check()?;
-        let Some(shifted) = self.shifted(shifts) else { return Ok(None) };
-        let scene = read(&shifted)?;
-        let values = self.known.all_of(&scene.scene, &self.asked, || self.cut(&scene))?;
+        let Some(scene) = self.shifted(shifts).and_then(|shifted| read(&shifted).ok()) else { return Ok(None) };
+        let values = match self.known.all_of(&scene.scene, &self.asked, || self.cut(&scene)) {
+            // What is refused of the scene as it is no shift can mend.
+            Err(Error::Scene(_) | Error::Refused(_)) if shifts.iter().any(|&shift| shift != 0.0) => return Ok(None),
+            other => other?,
+        };
         self.cuts.advance(1);
         Ok(Some(values))
     }
@@ -138,6 +171,11 @@ impl<'a> Trial<'a> {
             self.predicted(&moved)
         };
         let (above, below) = (at(step)?, at(-step)?);
+        if above.is_none() && below.is_none() {
+            let ErrorParameter { id, unit, .. } = &self.parameters[index];
+            let problem = format!("{id} can be shifted by {step} {unit} to neither side of where it is");
+            return Err(Refusal::new("--fit", problem, "leave it out of the fit").into());
+        }
         let width = f64::from(u8::from(above.is_some()) + u8::from(below.is_some()));
         let (above, below) = (above.unwrap_or_else(|| here.to_vec()), below.unwrap_or_else(|| here.to_vec()));
         let rows = above.iter().zip(&below).zip(&self.uncertainties);
@@ -156,6 +194,24 @@ impl<'a> Trial<'a> {
     }
 }
 
+/// A parameter is at the end of its range where it cannot go this share of a step further.
+const AT_END: f64 = 1e-3;
+/// The end of a range is found to this share of a step: well below [`AT_END`].
+const END_FOUND: f64 = 1e-5;
+
+/// The largest share of a step, up to 1, that is allowed; nothing is.
+fn furthest(is_allowed: impl Fn(f64) -> bool) -> f64 {
+    if is_allowed(1.0) {
+        return 1.0;
+    }
+    let [mut low, mut high] = [0.0, 1.0];
+    while high - low > END_FOUND {
+        let middle = 0.5 * (low + high);
+        if is_allowed(middle) { low = middle } else { high = middle }
+    }
+    low
+}
+
 /// The flank of a texture window by the path of one of its numbers.
 fn flank_of(quantity: &str) -> Option<(u32, Side)> {
     let window = of_window(quantity)?.0.split('.').nth(1)?;
@@ -169,7 +225,11 @@ fn value_of(found: &Numbers, measured: &MeasuredNumber) -> Result<f64, Refusal> 
     found.get(&measured.quantity).map(|(value, _)| *value).ok_or_else(|| {
         Refusal::new(
             "--measured",
-            format!("`{}` is no number of this scene's results", measured.quantity),
+            format!(
+                "`{}` is no number of this scene's results{}",
+                measured.quantity,
+                did_you_mean(found.keys().map(String::as_str), &measured.quantity)
+            ),
             "name numbers by their paths in results.json, those of its headline as headline.KEY; `gearcut cut SCENE \
              --only numbers` writes one",
         )

@@ -7,7 +7,9 @@ use crate::output::folder::OutputFolder;
 use crate::output::report::{Block, Page, PageSection, PageTable, REPORT_FILE};
 use crate::output::table::write_tables;
 use crate::output::text::significant;
-use crate::scene::Scene;
+use crate::scene::error_parameters::ErrorParameter;
+use crate::scene::{LoadedScene, Scene};
+use crate::steps::report::ending;
 use crate::steps::report::facts::gear_words;
 use crate::steps::report::quantities;
 use gearcut_core::error::Result;
@@ -17,18 +19,22 @@ const UNEXPLAINED_BY_CHANCE: f64 = 1e-3;
 
 /// The tree.
 pub fn findings(scene: &Scene, measured: &MeasuredGear, found: &Calibration) -> Findings {
-    let headline = found.fitted.iter().enumerate().map(|(index, (parameter, fitted))| {
-        let definition = match fitted {
-            Some([_, half]) => format!(
+    let headline = found.fitted.iter().zip(&found.at_end).enumerate().map(|(index, ((parameter, fitted), at_end))| {
+        let definition = match (fitted, at_end) {
+            (Some([_, half]), _) => format!(
                 "fitted: shift of {} beyond the scene; 95 % interval +- {} {}",
                 parameter.id,
                 significant(*half, 3),
                 parameter.unit
             ),
-            None => format!("fitted: shift of {} beyond the scene", parameter.id),
+            (None, Some(_)) => {
+                format!("fitted: shift of {} beyond the scene, which the end of its range holds", parameter.id)
+            }
+            (None, None) => format!("fitted: shift of {} beyond the scene", parameter.id),
         };
         let why = "the measured values do not say it: its derivatives are nothing, or those of the others";
-        let quantity = Quantity::number_or(fitted.map(|[shift, _]| shift), parameter.unit, definition, why);
+        let shift = fitted.map(|[shift, _]| shift).or(*at_end);
+        let quantity = Quantity::number_or(shift, parameter.unit, definition, why);
         Entry::headline(&format!("fit_{}", index + 1), &parameter.title, quantity)
     });
     let section = Section::new("calibration", "Calibration")
@@ -66,14 +72,29 @@ fn warnings(measured: &MeasuredGear, found: &Calibration) -> Vec<Warning> {
     let stopped = (!found.complete).then(|| {
         Warning::warn("stopped by Ctrl-C: fitted by the rounds that were done; intervals are of the last one")
     });
-    let lost = found.fitted.iter().filter(|(_, fitted)| fitted.is_none()).map(|(parameter, _)| {
-        Warning::warn(format!(
-            "{} cannot be identified: the measured values say nothing of it, or no more than of the others together",
-            parameter.id
-        ))
+    let parameters = found.fitted.iter().zip(&found.at_end).filter(|((_, fitted), _)| fitted.is_none());
+    let lost = parameters.map(|((parameter, _), at_end)| {
+        let ErrorParameter { id, unit, .. } = parameter;
+        Warning::warn(match at_end {
+            Some(shift) => format!(
+                "{id} is at the end of its range, {} {unit} beyond the scene: the measured values ask for more, and no \
+                 interval of any parameter holds; are they in the units that their columns name?",
+                significant(*shift, 4)
+            ),
+            None => format!(
+                "{id} cannot be identified: the measured values say nothing of it, or no more than of the others \
+                 together"
+            ),
+        })
     });
-    let moving = (found.complete && !found.settled)
-        .then(|| Warning::warn("the fit has not settled: its numbers are no least squares"));
+    let moving = (found.complete && !found.settled).then(|| {
+        Warning::warn(if found.beyond {
+            "the fit has not settled: the measured values draw it beyond the ranges of keys, or to gears that cannot be \
+             cut; are they in the units that their columns name?"
+        } else {
+            "the fit has not settled: its numbers are no least squares"
+        })
+    });
     let left = found.chance.filter(|chance| *chance < UNEXPLAINED_BY_CHANCE).map(|chance| {
         Warning::warn(format!(
             "unexplained: uncertainties alone leave residuals as large in {} of 1000 cases; something else is wrong",
@@ -94,20 +115,37 @@ fn warnings(measured: &MeasuredGear, found: &Calibration) -> Vec<Warning> {
     stopped.into_iter().chain(lost).chain(moving).chain(left).chain(bare).chain(together).chain(files).collect()
 }
 
+impl Calibration {
+    /// Fitted parameters for people: title, shift with its interval or why it has none, unit.
+    pub fn printed(&self) -> Vec<[String; 3]> {
+        let value = |fitted: Option<[f64; 2]>, at_end: Option<f64>| match (fitted, at_end) {
+            (Some([shift, half]), _) => format!("{} +- {}", significant(shift, 4), significant(half, 2)),
+            (None, Some(shift)) => format!("end of its range: {}", significant(shift, 4)),
+            (None, None) => "cannot be identified".to_owned(),
+        };
+        let rows = self.fitted.iter().zip(&self.at_end);
+        rows.map(|((parameter, fitted), at_end)| {
+            [parameter.title.clone(), value(*fitted, *at_end), parameter.unit.to_owned()]
+        })
+        .collect()
+    }
+}
+
 fn fits(found: &Calibration) -> Table {
     let why = "the measured values do not say it";
     let columns = vec![
         TableColumn::words("parameter", "key of the error, and behind @ which part of it"),
         TableColumn::words("kind", "fitted: chosen so that the predicted values come near the measured ones"),
         TableColumn::by_row("shift", "shift beyond the scene").or(why),
-        TableColumn::by_row("half_width", "half the width of its 95 % interval").or(why),
+        TableColumn::by_row("half_width", "half the width of its 95 % interval")
+            .or("the measured values do not say it, or the end of its key's range holds it"),
         TableColumn::words("unit", "unit of both"),
     ];
-    let rows = found.fitted.iter().map(|(parameter, fitted)| {
+    let rows = found.fitted.iter().zip(&found.at_end).map(|((parameter, fitted), at_end)| {
         vec![
             parameter.id.as_str().into(),
             "fitted".into(),
-            Datum::from(fitted.map(|[shift, _]| shift)),
+            Datum::from(fitted.map(|[shift, _]| shift).or(*at_end)),
             Datum::from(fitted.map(|[_, half]| half)),
             parameter.unit.into(),
         ]
@@ -203,24 +241,25 @@ fn places(measured: &MeasuredGear, found: &Calibration) -> Table {
 /// # Errors
 /// Files that cannot be written.
 pub fn write(
-    scene: &Scene,
+    loaded: &LoadedScene,
+    backend: &str,
     measured: &MeasuredGear,
     found: &Calibration,
     tree: &Findings,
     folder: &OutputFolder,
 ) -> Result<()> {
     write_tables(tree, folder)?;
-    page(scene, measured, found, tree).write(&folder.path(REPORT_FILE)?)?;
+    let end = ending(folder, backend, &loaded.resolved_toml())?;
+    page(&loaded.scene, found, measured, tree, end).write(&folder.path(REPORT_FILE)?)?;
     folder.write_json(RESULTS_FILE, &tree.to_json())
 }
 
-fn page(scene: &Scene, measured: &MeasuredGear, found: &Calibration, tree: &Findings) -> Page {
+fn page(scene: &Scene, found: &Calibration, measured: &MeasuredGear, tree: &Findings, end: [PageSection; 2]) -> Page {
     let shown = |value: f64| significant(value, 4).replace('-', "−");
-    let fits = found.fitted.iter().map(|(parameter, fitted)| {
-        let both = fitted.map(|[shift, half]| format!("{} ± {}", shown(shift), significant(half, 2)));
-        let value = both.unwrap_or_else(|| "cannot be identified".to_owned());
-        vec![parameter.title.clone(), value, parameter.unit.to_owned()]
-    });
+    let fits = found
+        .printed()
+        .into_iter()
+        .map(|[title, value, unit]| vec![title, value.replace("+-", "±").replace('-', "−"), unit]);
     let mut blocks = vec![Block::Table(PageTable {
         caption: "Fitted parameters, shifts beyond the scene with 95 % intervals".to_owned(),
         columns: ["Parameter", "Fitted", "Unit"].map(str::to_owned).into(),
@@ -266,11 +305,13 @@ fn page(scene: &Scene, measured: &MeasuredGear, found: &Calibration, tree: &Find
         key_numbers: tree.headline.iter().map(quantities::key_number).collect(),
         warnings: tree.warnings.iter().map(Warning::with_signs).collect(),
         viewer: None,
-        sections: vec![PageSection::new(
+        sections: std::iter::once(PageSection::new(
             "numbers",
             "Measured and fitted",
             "Fitted numbers were made to agree; they are no evidence for the model beyond what is left over.",
             blocks,
-        )],
+        ))
+        .chain(end)
+        .collect(),
     }
 }

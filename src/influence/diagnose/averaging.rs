@@ -34,8 +34,14 @@ const MOST_SETS: usize = 1000;
 /// Quantiles are looked for a little beyond those of single sets, for rounding.
 const BEYOND: f64 = 1.001;
 
-/// A source and the place of one of its parameters; `None`: the turn.
-pub(super) type Column = Option<(usize, usize)>;
+/// What a fitted number belongs to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Column {
+    /// What every fit has: the turn, and what stands out of the gear.
+    Always(usize),
+    /// A source and the place of one of its parameters.
+    Of(usize, usize),
+}
 
 /// Sets of sources that explain a gear about as well as each other.
 #[derive(Debug, Clone)]
@@ -58,7 +64,7 @@ struct WeightedSet {
 /// angles are the same in.
 struct Coordinates {
     columns: Vec<Vec<Vec<f64>>>,
-    turn: Vec<f64>,
+    always: Vec<Vec<f64>>,
     off: Vec<f64>,
 }
 
@@ -73,7 +79,7 @@ impl Coordinates {
         };
         Self {
             columns: of.columns.iter().enumerate().map(of_source).collect(),
-            turn: within(of.turn),
+            always: of.always.iter().map(|column| within(column)).collect(),
             off: [along, vec![norm(&rest)]].concat(),
         }
     }
@@ -98,14 +104,16 @@ impl SetComparison<'_> {
         let first = self.chosen.iter().filter(|source| set.contains(source));
         let mut basis = ColumnBasis::default();
         let mut taken = Vec::new();
-        if basis.take(self.fit.turn) {
-            taken.push(None);
+        for (place, column) in self.fit.always.iter().enumerate() {
+            if basis.take(column) {
+                taken.push(Column::Always(place));
+            }
         }
         for &source in first.chain(set.iter().filter(|source| !is_chosen(source))) {
             let before = taken.len();
             for (place, column) in self.fit.columns[source].iter().enumerate() {
                 if basis.take(column) {
-                    taken.push(Some((source, place)));
+                    taken.push(Column::Of(source, place));
                 }
             }
             if taken.len() == before {
@@ -176,8 +184,8 @@ fn neighbours(set: &[usize], candidates: &[usize]) -> Vec<Vec<usize>> {
 impl Averaging {
     /// Sets beside the chosen one, of these candidates; `variance` is that of the residuals over the stated noise's.
     pub fn new(fit: &Selection, candidates: &[usize], chosen: &[usize], variance: f64) -> Self {
-        let Coordinates { columns, turn, off } = Coordinates::new(fit, candidates);
-        let short = Selection { columns: &columns, turn: &turn, off: &off };
+        let Coordinates { columns, always, off } = Coordinates::new(fit, candidates);
+        let short = Selection { columns: &columns, always: &always, off: &off };
         let of = SetComparison { fit: short, chosen, count: fit.off.len(), variance };
         let window = of.window(candidates);
         let best = window.iter().map(|(_, criterion)| *criterion).fold(f64::INFINITY, f64::min);
@@ -203,7 +211,7 @@ impl Averaging {
         self.sets.iter().filter(|set| set.sources.contains(&source)).map(|set| set.weight).sum()
     }
 
-    /// The 95 % interval of the size of a source's column, or of the turn.
+    /// The 95 % interval of the size of a column.
     pub fn interval(&self, column: Column) -> [f64; 2] {
         [TAIL, 1.0 - TAIL].map(|share| self.quantile(column, share))
     }
@@ -234,12 +242,12 @@ mod tests {
     use super::*;
 
     /// Values that either of two equal columns explains, and waves of standard deviation 1 beside.
-    fn twins(count: usize) -> ([Vec<Vec<f64>>; 2], Vec<f64>, Vec<f64>) {
+    fn twins(count: usize) -> ([Vec<Vec<f64>>; 2], Vec<f64>) {
         let wave = |order: usize| (0..count).map(move |i| (order * i) as f64 * std::f64::consts::TAU / count as f64);
         let one: Vec<f64> = wave(1).map(f64::cos).collect();
         let noise = wave(7).map(|angle| 2.0_f64.sqrt() * angle.sin());
         let off = one.iter().zip(noise).map(|(one, noise)| 3.0 * one + noise).collect();
-        ([vec![one.clone()], vec![one]], vec![1.0; count], off)
+        ([vec![one.clone()], vec![one]], off)
     }
 
     /// Where two columns are the same, each has half the weight: 0 is the lower end, and above the upper one lie 5 % of
@@ -247,16 +255,16 @@ mod tests {
     #[test]
     fn twins_have_half_the_weight_each() {
         let count = 4000;
-        let (columns, turn, off) = twins(count);
-        let fit = Selection { columns: &columns, turn: &turn, off: &off };
+        let ((columns, off), turn) = (twins(count), [vec![1.0; count]]);
+        let fit = Selection { columns: &columns, always: &turn, off: &off };
         let sets = Averaging::new(&fit, &[0, 1], &[0], 1.0);
         assert!((sets.weight(0) - 0.5).abs() < 1e-9 && (sets.weight(1) - 0.5).abs() < 1e-9);
-        let [low, high] = sets.interval(Some((0, 0)));
+        let [low, high] = sets.interval(Column::Of(0, 0));
         let expected = 3.0 + 1.644_854 * (2.0 / count as f64).sqrt();
         assert!(low == 0.0 && (high - expected).abs() < 1e-6, "{low} to {high}, expected {expected}");
         // One of them alone has the interval of its own fit.
         let alone = Averaging::new(&fit, &[0], &[0], 1.0);
-        let [low, high] = alone.interval(Some((0, 0)));
+        let [low, high] = alone.interval(Column::Of(0, 0));
         let half = 1.959_964 * (2.0 / count as f64).sqrt();
         assert!((low - (3.0 - half)).abs() < 1e-6 && (high - (3.0 + half)).abs() < 1e-6, "{low} to {high}");
     }
@@ -266,10 +274,10 @@ mod tests {
     #[test]
     fn weights_are_those_of_bic_by_hand() {
         let count = 100;
-        let (columns, turn, off) = twins(count);
+        let ((columns, off), turn) = (twins(count), [vec![1.0; count]]);
         let small: Vec<f64> = off.iter().zip(&columns[0][0]).map(|(off, one)| off - 2.6 * one).collect();
         let z_squared = 0.4_f64.powi(2) * count as f64 / 2.0;
-        let fit = Selection { columns: &columns, turn: &turn, off: &small };
+        let fit = Selection { columns: &columns, always: &turn, off: &small };
         let odds = (0.5 * z_squared).exp() / (count as f64).sqrt();
         let sets = Averaging::new(&fit, &[0], &[], 1.0);
         assert!((sets.weight(0) - odds / (1.0 + odds)).abs() < 1e-9, "{} for odds {odds}", sets.weight(0));

@@ -17,7 +17,8 @@ pub struct MeasuredCuts<'a> {
     pub loaded: &'a LoadedScene,
     /// The same, ready to be cut.
     ready: Box<dyn ProcessJob>,
-    points: &'a [MeasuredPoint],
+    /// Measured places.
+    pub points: &'a [MeasuredPoint],
     places: MeasuredPlaces,
     backend: &'a dyn Backend,
     known: &'a KnownCuts,

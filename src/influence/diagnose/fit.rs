@@ -22,11 +22,12 @@ pub(super) struct LinearFit<'a> {
     noise_um: f64,
     /// Columns of each source at the places that the fit takes.
     columns: Vec<Vec<Vec<f64>>>,
-    turn: Vec<f64>,
+    /// The turn, and the columns of what stands out.
+    always: Vec<Vec<f64>>,
     off: Vec<f64>,
     /// Deviations from a gear without errors, um, at all places.
     off_um: Vec<f64>,
-    /// Squares of the deviations from the scene's own gear that no turn explains.
+    /// Squares of the deviations from the scene's own gear that neither a turn nor what stands out explains.
     whole: f64,
 }
 
@@ -42,21 +43,20 @@ impl<'a> LinearFit<'a> {
         let less = |other_um: &[f64]| measured_um.iter().zip(other_um).map(|(a, b)| a - b).collect::<Vec<f64>>();
         let of_source = model.sources.iter().map(|source| source.um_per_unit.iter().map(|of| whitened(of)).collect());
         let columns = of_source.collect();
-        let turn = whitened(&model.um_per_arcsec);
+        let always: Vec<Vec<f64>> = model.always().map(whitened).collect();
         let off_um = less(&model.without_errors_um());
         let off = whitened(&off_um);
-        let mut turned = ColumnBasis::default();
-        let _unseen = turned.take(&turn);
-        let whole = turned.left_of(&whitened(&less(&model.before_um)));
-        Self { model, without, noise_um, columns, turn, off, off_um, whole }
+        let mut fit = Self { model, without, noise_um, columns, always, off, off_um, whole: 0.0 };
+        fit.whole = fit.selection().basis(&[]).left_of(&whitened(&less(&model.before_um)));
+        fit
     }
 
-    fn selection(&self) -> Selection<'_> {
-        Selection { columns: &self.columns, turn: &self.turn, off: &self.off }
+    pub(super) fn selection(&self) -> Selection<'_> {
+        Selection { columns: &self.columns, always: &self.always, off: &self.off }
     }
 
     /// Sources that are tried, and those whose natural step noise hides.
-    fn candidates_and_hidden(&self) -> (Vec<usize>, Vec<usize>) {
+    pub(super) fn candidates_and_hidden(&self) -> (Vec<usize>, Vec<usize>) {
         let turned = self.selection().basis(&[]);
         let seen = |source: usize| {
             let steps = self.model.sources[source].parameters.iter().map(|parameter| parameter.step);
@@ -72,7 +72,7 @@ impl<'a> LinearFit<'a> {
     /// # Errors
     /// Fewer places than parameters.
     pub fn diagnosis(&self) -> Result<Diagnosis> {
-        let Self { model, noise_um, columns, turn, off, whole, .. } = self;
+        let Self { model, noise_um, columns, always, off, whole, .. } = self;
         let fit = self.selection();
         let (candidates, hidden) = self.candidates_and_hidden();
         let chosen = fit.select(&candidates);
@@ -97,14 +97,20 @@ impl<'a> LinearFit<'a> {
             residuals_um.iter_mut().zip(column).for_each(|(um, per_unit)| *um -= size * per_unit);
         };
         let mut basis_so_far = ColumnBasis::default();
-        let turn_arcsec = basis_so_far.take(turn).then(|| sized(0, None));
-        take_off(&model.um_per_arcsec, turn_arcsec.map_or(0.0, |turn| turn.size));
-        let mut place = basis_so_far.columns();
+        let mut place = 0;
+        let mut always_fitted = Vec::new();
+        for (index, (column, um_per_unit)) in always.iter().zip(model.always()).enumerate() {
+            let own = basis_so_far.take(column).then(|| sized(place, Column::Always(index)));
+            take_off(um_per_unit, own.map_or(0.0, |own| own.size));
+            place += usize::from(own.is_some());
+            always_fitted.push(own);
+        }
+        let turn_arcsec = always_fitted.remove(0);
         let mut named = Vec::new();
         for &source in &chosen {
             let mut fitted = Vec::new();
             for (index, column) in columns[source].iter().enumerate() {
-                let own = basis_so_far.take(column).then(|| sized(place, Some((source, index))));
+                let own = basis_so_far.take(column).then(|| sized(place, Column::Of(source, index)));
                 if let Some(FittedSize { size, .. }) = own {
                     take_off(&model.sources[source].um_per_unit[index], size);
                     place += 1;
@@ -133,6 +139,7 @@ impl<'a> LinearFit<'a> {
         Ok(Diagnosis {
             named,
             turn_arcsec,
+            standing_out_um: always_fitted,
             explained: (*whole > 0.0).then(|| 1.0 - solution.chi_square / whole),
             residual_um: noise_um * (solution.chi_square / off.len() as f64).sqrt(),
             unexplained_um: if chance < UNEXPLAINED_BY_CHANCE { noise_um * beyond.sqrt() } else { 0.0 },

@@ -5,6 +5,7 @@
 //! gear. [`ErrorModel::moved_to`] cuts it with the sizes that were found, and takes the influences of these anew.
 
 use super::cuts::MeasuredCuts;
+use super::standing_out::StandingOut;
 use crate::influence::budget::chosen;
 use crate::influence::derivative::{Influence, read};
 use crate::interrupt::Interrupt;
@@ -22,6 +23,8 @@ pub struct ErrorModel {
     pub here_um: Vec<f64>,
     /// What a turn of the gear on the measuring machine adds, um per arc second counter-clockwise.
     pub um_per_arcsec: Vec<f64>,
+    /// What stands out of the gear and is fitted beside all sources.
+    pub standing_out: Vec<StandingOut>,
     /// Sources, in the order of the process's tables.
     pub sources: Vec<ModelledSource>,
     /// Parameters that could not be shifted, and why.
@@ -74,6 +77,7 @@ impl ErrorModel {
             here_um: before_um.clone(),
             before_um,
             um_per_arcsec: cuts.turn_um_per_arcsec(),
+            standing_out: Vec::new(),
             sources: Vec::new(),
             refused: Vec::new(),
             complete: true,
@@ -153,6 +157,12 @@ impl ErrorModel {
             }
         }
         Ok(Some(moved))
+    }
+
+    /// What every fit has, um per unit: a turn, and what stands out.
+    pub(super) fn always(&self) -> impl Iterator<Item = &[f64]> {
+        let standing_out = self.standing_out.iter().flat_map(|of| &of.um_per_um);
+        std::iter::once(&self.um_per_arcsec).chain(standing_out).map(Vec::as_slice)
     }
 
     /// Whether the scene has a word for these sizes.

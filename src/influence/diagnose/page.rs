@@ -8,7 +8,8 @@ use crate::output::folder::OutputFolder;
 use crate::output::report::{Block, Page, PageSection, PageTable, REPORT_FILE};
 use crate::output::table::write_tables;
 use crate::output::text::significant;
-use crate::scene::Scene;
+use crate::scene::{LoadedScene, Scene};
+use crate::steps::report::ending;
 use crate::steps::report::facts::gear_words;
 use crate::steps::report::quantities;
 use gearcut_core::error::Result;
@@ -21,18 +22,19 @@ const LEAST_PERCENT: f64 = 0.1;
 /// # Errors
 /// Files that cannot be written.
 pub fn write(
-    scene: &Scene,
-    model: &ErrorModel,
-    found: &Diagnosis,
+    loaded: &LoadedScene,
+    backend: &str,
+    (model, found): (&ErrorModel, &Diagnosis),
     tree: &Findings,
     folder: &OutputFolder,
 ) -> Result<()> {
     write_tables(tree, folder)?;
-    page(scene, model, found, tree).write(&folder.path(REPORT_FILE)?)?;
+    let end = ending(folder, backend, &loaded.resolved_toml())?;
+    page(&loaded.scene, model, found, tree, end).write(&folder.path(REPORT_FILE)?)?;
     folder.write_json(RESULTS_FILE, &tree.to_json())
 }
 
-fn page(scene: &Scene, model: &ErrorModel, found: &Diagnosis, tree: &Findings) -> Page {
+fn page(scene: &Scene, model: &ErrorModel, found: &Diagnosis, tree: &Findings, end: [PageSection; 2]) -> Page {
     let mut named = Vec::new();
     if found.named.is_empty() {
         named.push(Block::Note("No error that the scene can name explains more than noise would.".to_owned()));
@@ -52,7 +54,7 @@ fn page(scene: &Scene, model: &ErrorModel, found: &Diagnosis, tree: &Findings) -
         key_numbers: tree.headline.iter().map(quantities::key_number).collect(),
         warnings: tree.warnings.iter().map(Warning::with_signs).collect(),
         viewer: None,
-        sections: vec![
+        sections: [
             PageSection::new(
                 "sources",
                 "Errors that explain the flanks",
@@ -66,7 +68,10 @@ fn page(scene: &Scene, model: &ErrorModel, found: &Diagnosis, tree: &Findings) -
                 "What no error explains, against the stated noise. Place by place it stands in tables/residuals.csv.",
                 left.into_iter().collect(),
             ),
-        ],
+        ]
+        .into_iter()
+        .chain(end)
+        .collect(),
     }
 }
 
@@ -79,9 +84,13 @@ fn sources(model: &ErrorModel, found: &Diagnosis) -> PageTable {
             rows.push(vec![
                 parameter.title.clone(),
                 "fitted".to_owned(),
-                sized(*fitted, &unit::signs(parameter.unit)).replace('-', "−"),
+                sized(found, *fitted, &unit::signs(parameter.unit)).replace('-', "−"),
                 format!("{} %", significant(100.0 * named.alone, 3)),
-                format!("{} %", significant(100.0 * named.weight, 3)),
+                if found.intervals_hold() {
+                    format!("{} %", significant(100.0 * named.weight, 3))
+                } else {
+                    "–".to_owned()
+                },
                 if same.is_empty() { "–".to_owned() } else { same.join("; ") },
             ]);
         }

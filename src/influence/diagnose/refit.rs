@@ -13,10 +13,13 @@
 //! a difference over both sides of it is the mean of two slopes. The first fit goes without places that bend by more
 //! than the noise; all later ones have them, for they start from heights that were cut.
 //!
+//! Where that leaves deviations unexplained, what stands out of the gear is looked for (`standing_out`), and the fit is
+//! made again beside it.
+//!
 //! Road not taken: a damped step as calibrations have it. The choice of sources is no smooth function of the sizes, and
 //! rounds that do not settle are said to the reader.
 
-use super::{Diagnosis, ErrorModel, LinearFit, MeasuredCuts, Without};
+use super::{Diagnosis, ErrorModel, LinearFit, MeasuredCuts, Without, standing_out};
 use crate::interrupt::Interrupt;
 use crate::output::progress::Progress;
 use gearcut_core::error::{Error, Result};
@@ -40,10 +43,21 @@ pub fn diagnose(
     interrupt: &Interrupt,
 ) -> Result<(ErrorModel, Diagnosis)> {
     let scene = ErrorModel::new(cuts, names, progress, interrupt)?;
-    let step = progress.step("fit", MOST_ROUNDS as u64, "rounds at most");
-    let found = scene.explain(cuts, measured_um, noise_um, interrupt, &|| step.advance(1));
-    step.finish();
-    found
+    let explain = |scene: &ErrorModel| {
+        let step = progress.step("fit", MOST_ROUNDS as u64, "rounds at most");
+        let found = scene.explain(cuts, measured_um, noise_um, interrupt, &|| step.advance(1));
+        step.finish();
+        found
+    };
+    let (model, found) = explain(&scene)?;
+    if found.unexplained_um == 0.0 || !model.complete {
+        return Ok((model, found));
+    }
+    let standing_out = standing_out::find(&scene, cuts.points, measured_um, noise_um);
+    if standing_out.is_empty() {
+        return Ok((model, found));
+    }
+    explain(&ErrorModel { standing_out, ..scene.clone() })
 }
 
 impl ErrorModel {

@@ -17,19 +17,17 @@ const NAMED_BY_CHANCE: f64 = 0.01;
 pub(super) struct Selection<'a> {
     /// Columns of each source.
     pub columns: &'a [Vec<Vec<f64>>],
-    /// A turn on the measuring machine, which every fit has.
-    pub turn: &'a [f64],
+    /// What every fit has: a turn on the measuring machine, and what stands out of the gear.
+    pub always: &'a [Vec<f64>],
     /// What is to be explained.
     pub off: &'a [f64],
 }
 
 impl Selection<'_> {
-    /// The turn and the columns of these sources.
+    /// What every fit has, and the columns of these sources.
     pub fn basis(&self, sources: &[usize]) -> ColumnBasis {
         let mut basis = ColumnBasis::default();
-        for column in
-            std::iter::once(self.turn).chain(sources.iter().flat_map(|&i| self.columns[i].iter().map(Vec::as_slice)))
-        {
+        for column in self.always.iter().chain(sources.iter().flat_map(|&i| &self.columns[i])) {
             let _dependent = basis.take(column);
         }
         basis

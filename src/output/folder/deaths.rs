@@ -72,6 +72,11 @@ impl Steps for FaultyDisk {
         self.step().and_then(|()| Disk.sync_file(path))
     }
 
+    fn sync_all(&self, folder: &Path) -> io::Result<bool> {
+        self.step()?;
+        if self.exchanges { Disk.sync_all(folder) } else { Ok(false) }
+    }
+
     fn sync_folder(&self, path: &Path) -> io::Result<()> {
         self.step().and_then(|()| Disk.sync_folder(path))
     }
@@ -237,7 +242,7 @@ fn a_refused_step_loses_nothing() {
 fn results_without_any_name_stay_where_they_are() {
     let place = tempfile::tempdir().expect("a folder for the test");
     let path = place.path().join("gear");
-    let disk = FaultyDisk::new(7, DiskFault::Death, true);
+    let disk = FaultyDisk::new(4, DiskFault::Death, true);
     let told = run(&path, "late", true, &disk).expect_err("no rename is done").to_string();
     let hidden = place.path().join(".gear.gearcut/new");
     assert!(told.contains(&hidden.display().to_string()), "{told}");

@@ -29,6 +29,9 @@ pub(super) trait Steps: Debug + Send + Sync {
     /// Forces a file to the disk.
     fn sync_file(&self, path: &Path) -> io::Result<()>;
 
+    /// Forces everything on the file system of a folder to the disk, in one go; false if this system cannot do that.
+    fn sync_all(&self, folder: &Path) -> io::Result<bool>;
+
     /// Forces the names in a folder to the disk.
     fn sync_folder(&self, path: &Path) -> io::Result<()>;
 
@@ -70,6 +73,11 @@ impl Steps for Disk {
         OpenOptions::new().write(true).open(path)?.sync_all()
     }
 
+    fn sync_all(&self, folder: &Path) -> io::Result<bool> {
+        about_to(DiskStep::Sync, folder)?;
+        sync_all(folder)
+    }
+
     fn sync_folder(&self, path: &Path) -> io::Result<()> {
         about_to(DiskStep::Sync, path)?;
         sync_folder(path)
@@ -99,6 +107,23 @@ fn sync_folder(path: &Path) -> io::Result<()> {
 #[cfg(not(unix))]
 fn sync_folder(_path: &Path) -> io::Result<()> {
     Ok(())
+}
+
+/// `syncfs` (Linux 2.6.39; since 5.8 it tells what could not be written).
+#[cfg(target_os = "linux")]
+fn sync_all(folder: &Path) -> io::Result<bool> {
+    use rustix::io::Errno;
+    match rustix::fs::syncfs(File::open(folder)?) {
+        Ok(()) => Ok(true),
+        Err(Errno::NOSYS | Errno::INVAL | Errno::NOTSUP) => Ok(false),
+        Err(refused) => Err(refused.into()),
+    }
+}
+
+/// Other systems have no such call.
+#[cfg(not(target_os = "linux"))]
+fn sync_all(_folder: &Path) -> io::Result<bool> {
+    Ok(false)
 }
 
 /// `renameat2` with `RENAME_EXCHANGE` (Linux 3.15), `renameatx_np` with `RENAME_SWAP` (macOS 10.12).

@@ -87,6 +87,7 @@ pub(super) fn run(job: &ShapingJob, tools: &Tools, frames: Option<u32>) -> Resul
     }
     let words = RunWords { resolved_scene: resolved, backend: &backend.name_in_files(), backend_why };
     let inspection = report::inspection(job, &gear.report, &inspected.verdict);
+    attempts.of("inspection charts", deviations::write_charts(&inspection, folder))?;
     if parts.has(Part::Report) {
         attempts.of("inspection sheet", deviations::write_sheet(&inspection, &job.scene, &found, folder))?;
     }

@@ -148,7 +148,15 @@ fn sheet(
     }
 }
 
-/// Writes the inspector's sheet as `inspection.svg` and `inspection.pdf`, and its lines as `inspection_charts.csv`.
+/// Writes the lines of the inspector's sheet as `inspection_charts.csv`: what `gearcut diagnose` and `calibrate` read.
+///
+/// # Errors
+/// The file cannot be written.
+pub fn write_charts(inspection: &Inspection, folder: &OutputFolder) -> Result<()> {
+    charts::write(inspection, &folder.path("inspection_charts.csv")?)
+}
+
+/// Writes the inspector's sheet as `inspection.svg` and `inspection.pdf`.
 ///
 /// # Errors
 /// Files that cannot be written.
@@ -176,8 +184,7 @@ pub fn write_sheet(inspection: &Inspection, scene: &Scene, found: &Findings, fol
     }
     notes.extend(reasons.iter().flat_map(|(signs, why)| wrapped(&format!("No {signs}: {why}."), NOTE_LETTERS)));
     let sheet = sheet(inspection, &scene.name, &gear_words(&scene.gear), sizes, notes);
-    sheet.page().write(&folder.path("inspection.svg")?, &folder.path("inspection.pdf")?)?;
-    charts::write(inspection, &folder.path("inspection_charts.csv")?)
+    sheet.page().write(&folder.path("inspection.svg")?, &folder.path("inspection.pdf")?)
 }
 
 fn sheet_figure(judged: &JudgedFigure) -> SheetFigure {

@@ -12,6 +12,7 @@ pub mod texture;
 
 use crate::findings::{self, Findings, Place, Quantity, Warning, unit};
 use crate::job::GearJob;
+use crate::output::folder::OutputFolder;
 use crate::output::progress::duration_text;
 use crate::output::report::{Block, KeyNumber, Page, PageSection, PageTable};
 use crate::output::text::{plain, significant};
@@ -19,6 +20,7 @@ use crate::steps::Work;
 use crate::steps::gear_maps::GearMaps;
 use crate::steps::view_mesh::ViewMesh;
 use gearcut_core::cut::KERNEL_UM;
+use gearcut_core::error::Result;
 
 /// What the run says of itself on the page. Times are left out: the same scene gives the same page.
 #[derive(Debug, Clone, Copy)]
@@ -130,28 +132,42 @@ pub fn peak_table(operation: &findings::Section) -> PageTable {
 
 /// What is needed to repeat the run.
 pub fn record(flanks: usize, work: &Work, run: &RunWords) -> PageSection {
-    let row = |name: &str, value: String| vec![name.to_owned(), value];
+    let rows = vec![
+        ["Backend", &format!("{} ({})", run.backend, run.backend_why)].map(str::to_owned),
+        ["Flanks cut".to_owned(), flanks.to_string()],
+        ["Dexels".to_owned(), work.dexels_in_words()],
+    ];
+    let lead =
+        "What is needed to repeat the run. Times and the SHA-256 of every file stand in run.json beside this page.";
+    record_of(rows, run.resolved_scene, lead)
+}
+
+/// The end of a page of a command that cuts no whole gear: its files, and what is needed to repeat it.
+///
+/// # Errors
+/// The folder cannot be read.
+pub fn ending(folder: &OutputFolder, backend: &str, resolved_scene: &str) -> Result<[PageSection; 2]> {
+    let rows = vec![["Backend".to_owned(), backend.to_owned()]];
+    let lead = "What is needed to repeat the run; the arguments of the command are in run.json beside this page.";
+    Ok([files::section(folder)?, record_of(rows, resolved_scene, lead)])
+}
+
+fn record_of(rows: Vec<[String; 2]>, resolved_scene: &str, lead: &str) -> PageSection {
+    let program = ["Program".to_owned(), format!("gearcut {}", env!("CARGO_PKG_VERSION"))];
     let table = PageTable {
         caption: "Run".to_owned(),
         columns: Vec::new(),
-        rows: vec![
-            row("Program", format!("gearcut {}", env!("CARGO_PKG_VERSION"))),
-            row("Backend", format!("{} ({})", run.backend, run.backend_why)),
-            row("Flanks cut", flanks.to_string()),
-            row("Dexels", work.dexels_in_words()),
-        ],
+        rows: std::iter::once(program).chain(rows).map(Vec::from).collect(),
     };
     PageSection {
         id: "record",
         title: "Run record".to_owned(),
-        lead:
-            "What is needed to repeat the run. Times and the SHA-256 of every file stand in run.json beside this page."
-                .to_owned(),
+        lead: lead.to_owned(),
         blocks: vec![
             Block::Table(table),
             Block::Folded(
                 "The scene, every value written out".to_owned(),
-                vec![Block::Verbatim(run.resolved_scene.to_owned())],
+                vec![Block::Verbatim(resolved_scene.to_owned())],
             ),
         ],
     }

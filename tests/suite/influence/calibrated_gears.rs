@@ -3,10 +3,10 @@
 use super::cut_gears::{GEARS, KnownErrors, NOISE_UM, Random, TEETH, Tally, coarse};
 use gearcut::backend::{BackendWish, Choice, OnFailure, choose};
 use gearcut::influence::calibrate::{Calibration, MeasuredGear, findings};
-use gearcut::influence::charts::{Chart, LaidCharts, MeasuredLine};
+use gearcut::influence::charts::{LaidCharts, MeasuredLine};
 use gearcut::influence::gear_grid::evenly;
 use gearcut::influence::known_cuts::KnownCuts;
-use gearcut::influence::measured::MeasuredPoint;
+use gearcut::influence::measured::{Chart, MeasuredPoint};
 use gearcut::interrupt::Interrupt;
 use gearcut::output::progress::{Progress, ProgressMode};
 use gearcut::process::{self, ProcessJob};

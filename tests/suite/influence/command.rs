@@ -19,8 +19,11 @@ fn heads(path: &Path) -> String {
 #[test]
 fn a_budget_ranks_errors_and_writes_its_tables() {
     let folder = folder();
-    let arguments = ["budget", "round.toml", "--parameters", "mounting,machine.errors.guide", "--flanks", "2-left"];
+    let names = "mounting,machine.errors.guide";
+    let arguments =
+        ["budget", "round.toml", "--quiet", "--backend", "cpu", "--parameters", names, "--flanks", "2-left"];
     let done = gearcut_in(folder.path(), &arguments).done().says(&["work eccentricity, 90 deg", "predicted"]);
+    assert!(!done.err.contains("influence:"), "quiet: {}", done.err);
     assert!(done.out.lines().all(|line| line.chars().count() <= 80), "{}", done.out);
     let out = folder.path().join("out/round_budget");
     let table = std::fs::read_to_string(out.join("budget.csv")).expect("a table");
@@ -32,6 +35,9 @@ fn a_budget_ranks_errors_and_writes_its_tables() {
     assert_eq!(read_json(&out.join("run.json"))["command"], "budget");
     let page = std::fs::read_to_string(out.join("report.html")).expect("a page");
     assert!(page.contains("What costs what"));
+    for words in ["Files", "href=\"run.json\"", "Run record", "strokes_per_revolution = 2400"] {
+        assert!(page.contains(words), "no {words} on the page");
+    }
     // The four dearest have a map, as large below 0 as above.
     assert_eq!(std::fs::read_dir(out.join("pictures")).expect("pictures").count(), 1 + 4);
     assert_eq!(page.matches("data:image/png").count(), 4);
@@ -84,6 +90,11 @@ fn what_cannot_be_ranked_is_refused() {
     let folder = folder();
     let budget = |more: &[&str]| gearcut_in(folder.path(), &[&["budget", "round.toml"], more].concat());
     budget(&["--parameters", "mounting.eccentrcity_um"]).failed(1, &["mounting.eccentricity_um", "tool.shaper_cutter"]);
+    budget(&["--parameters", "mounting.eccentrcity_um"]).failed(1, &["did you mean mounting.eccentricity_um?"]);
+    budget(&["--parameters", "mountings"]).failed(1, &["--parameters", "did you mean mounting?"]);
+    budget(&["--parameters", "xyz"]).failed(1, &["`xyz` is no error of this process", "choose among"]);
+    let fit = ["calibrate", "round.toml", "--measured", "x.csv", "--fit", "mountings"];
+    gearcut_in(folder.path(), &fit).failed(1, &["--fit", "did you mean mounting?"]);
     budget(&["--flanks", "25-left"]).failed(1, &["25", "24"]);
     budget(&["--flanks", "7"]).failed(1, &["7-left"]);
     assert!(!folder.path().join("out/round_budget").exists(), "nothing is left behind");

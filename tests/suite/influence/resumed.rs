@@ -5,9 +5,9 @@ use crate::fixtures::command::{gearcut_in, read_json};
 use gearcut::backend::{BackendWish, Choice, OnFailure, choose};
 use gearcut::influence::budget::{BudgetOptions, budget, chosen};
 use gearcut::influence::calibrate::{Calibration, MeasuredGear};
-use gearcut::influence::charts::{Chart, MeasuredLine};
+use gearcut::influence::charts::MeasuredLine;
 use gearcut::influence::known_cuts::KnownCuts;
-use gearcut::influence::measured::MeasuredPoint;
+use gearcut::influence::measured::{Chart, MeasuredPoint};
 use gearcut::interrupt::Interrupt;
 use gearcut::output::progress::{Progress, ProgressMode};
 use gearcut::terms::Side;
@@ -171,4 +171,30 @@ fn the_command_goes_on_after_a_kill_and_after_ctrl_c() {
     let refused = [&budget[..2], &["--flanks", "25-left", "--out", "c"]].concat();
     gearcut_in(folder.path(), &refused).failed(1, &["25"]);
     assert!(!folder.path().join("c.partial").exists());
+}
+
+/// A file that may not grow any further is a full disk: the cuts before it stay, the message tells where, and the same
+/// command goes on with them.
+#[cfg(unix)]
+#[test]
+fn a_full_disk_costs_no_finished_cut() {
+    let folder = tempfile::tempdir().expect("a folder");
+    fs::write(folder.path().join("round.toml"), SCENE).expect("written");
+    let budget = ["budget", "round.toml", "--parameters", GUIDE, "--flanks", "2-left", "--out", "b"];
+    // Blocks are of 512 bytes; without its signal a write beyond them is an error.
+    let limited = Command::new("sh")
+        .args(["-c", "trap '' XFSZ; ulimit -f 30; exec \"$0\" \"$@\"", env!("CARGO_BIN_EXE_gearcut")])
+        .args(budget)
+        .current_dir(folder.path())
+        .output()
+        .expect("a shell");
+    let told = String::from_utf8_lossy(&limited.stderr);
+    assert_eq!(limited.status.code(), Some(1), "{told}");
+    let cuts = fs::read_to_string(folder.path().join("b.partial/cuts.csv")).expect("rows that stay");
+    let whole = cuts.lines().count() - 1 - usize::from(!cuts.ends_with('\n'));
+    assert!((1..17).contains(&whole), "{whole} whole rows");
+    assert!(told.contains("b.partial") && told.contains("the same command goes on"), "{told}");
+    let done = gearcut_in(folder.path(), &budget).done();
+    let note = format!("{whole} cuts are those of a run that was stopped; {} were made now", 17 - whole);
+    assert!(done.err.contains(&note), "{note}: {}", done.err);
 }

@@ -76,6 +76,44 @@ fn a_complete_result_is_not_replaced_by_less() {
     run(&["numbers", "maps"], false).expect("a partial result stands beside it");
 }
 
+/// A run whose record names its files.
+fn recorded_run_into(path: &Path, result: &str) -> Result<()> {
+    let folder = OutputFolder::create(path)?;
+    fs::write(folder.path("tables/result.txt")?, result).expect("the subfolder was made");
+    let serde_json::Value::Object(record) = json!({"program": "gearcut"}) else { unreachable!() };
+    folder.write_record(record)?;
+    folder.finish().map(drop)
+}
+
+/// What somebody put into a result is not replaced with it: the next run is refused before any work, or keeps its own
+/// results beside it if the file came meanwhile.
+#[test]
+fn files_of_others_in_a_result_survive() {
+    let place = tempfile::tempdir().expect("a folder for the test");
+    let path = place.path().join("first_cut");
+    recorded_run_into(&path, "old").expect("free name");
+    recorded_run_into(&path, "again").expect("nothing but what gearcut wrote");
+    for name in ["notes.txt", "tables/my_own.csv"] {
+        fs::write(path.join(name), "precious").expect("writable");
+        let told = message(OutputFolder::create(&path));
+        assert!(told.contains(name) && told.contains("--out"), "{told}");
+        assert_eq!(fs::read_to_string(path.join(name)).expect("it survives"), "precious");
+        fs::remove_file(path.join(name)).expect("removed");
+    }
+    // What a file manager leaves is nobody's, and so is the half of a file that a killed writer leaves.
+    for name in [".DS_Store", "tables/Thumbs.db", ".gearcut-a1b2c3.part"] {
+        fs::write(path.join(name), "x").expect("writable");
+    }
+    let folder = OutputFolder::create(&path).expect("nothing precious");
+    let serde_json::Value::Object(record) = json!({"program": "gearcut"}) else { unreachable!() };
+    folder.write_record(record).expect("writable");
+    fs::write(path.join("notes.txt"), "precious").expect("writable");
+    let told = message(folder.finish());
+    assert!(told.contains("notes.txt") && told.contains("first_cut.new"), "{told}");
+    assert_eq!(names_in(&path.with_file_name("first_cut.new")), ["run.json"]);
+    assert!(path.join("notes.txt").exists() && path.join("tables/result.txt").exists());
+}
+
 #[test]
 fn a_failed_run_leaves_the_earlier_one_alone() {
     let place = tempfile::tempdir().expect("a folder for the test");

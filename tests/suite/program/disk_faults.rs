@@ -13,6 +13,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::Instant;
 
 const SETTINGS: [&str; 9] = [
     "gear.teeth=9",
@@ -74,6 +75,38 @@ fn with_fault(
     let outcome = run();
     drop(watch);
     (outcome, taken.load(Ordering::SeqCst))
+}
+
+/// One call forces all files to the disk, and it is a stage of the run, whose time the record tells: no less than all
+/// stages together, no more than the caller waits.
+#[test]
+fn files_go_to_the_disk_at_once_and_within_the_time_of_the_run() {
+    let place = tempfile::tempdir().expect("a folder for the test");
+    let out = place.path().join("gear");
+    let syncs = Arc::new(AtomicUsize::new(0));
+    let counter = syncs.clone();
+    let watch = watch_below(
+        place.path(),
+        Arc::new(move |step: DiskStep, _: &Path| {
+            counter.fetch_add(usize::from(step == DiskStep::Sync), Ordering::SeqCst);
+            Ok(())
+        }),
+    );
+    let started = Instant::now();
+    assert!(cut(60, Parts::of([Part::Maps]), &out).expect("a sound disk"));
+    let waited_s = started.elapsed().as_secs_f64();
+    drop(watch);
+    let record = read_json(&out.join(RECORD));
+    let files = record["sha256"].as_object().expect("checksums").len();
+    // The file system, the record and its folder, the folder of the results.
+    let syncs = syncs.load(Ordering::SeqCst);
+    assert!(syncs <= 4 || !cfg!(target_os = "linux"), "{syncs} calls for {files} files");
+    assert!(files > 20, "{files} files");
+    let stages = record["stages"].as_array().expect("stages");
+    assert!(stages.iter().any(|stage| stage["stage"] == "to the disk"), "{stages:?}");
+    let stages_s: f64 = stages.iter().map(|stage| stage["wall_s"].as_f64().expect("seconds")).sum();
+    let wall_s = record["wall_time_s"].as_f64().expect("seconds");
+    assert!(stages_s <= wall_s && wall_s <= waited_s, "stages {stages_s} s, run {wall_s} s, waited {waited_s} s");
 }
 
 fn names_in(folder: &Path) -> Vec<String> {

@@ -122,3 +122,29 @@ fn devices_says_nothing_of_window_systems() {
         assert!(!told.contains("XDG_RUNTIME_DIR"), "empty {empty}: {told}");
     }
 }
+
+/// Where the system starts no more threads, the command says so with the way out, and takes it; it does not panic.
+#[cfg(target_os = "linux")]
+#[test]
+fn threads_that_cannot_start_are_an_error_with_a_way_out() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let run = |threads: &str| {
+        // Each thread has a stack of 2 MiB: a thousand have no room in as many megabytes and a half.
+        std::process::Command::new("sh")
+            .args(["-c", "ulimit -v 1500000; exec \"$0\" axes \"$1\" --out \"$2\""])
+            .args([env!("CARGO_BIN_EXE_gearcut"), "scenes/shaping/circular_m3_z24.toml"])
+            .arg(folder.path().join("axes"))
+            .env("RAYON_NUM_THREADS", threads)
+            .current_dir(env!("CARGO_MANIFEST_DIR"))
+            .output()
+            .expect("a shell")
+    };
+    let refused = run("4000");
+    let told = String::from_utf8_lossy(&refused.stderr);
+    assert_eq!(refused.status.code(), Some(1), "{told}");
+    assert!(told.contains("way out: RAYON_NUM_THREADS=1") && !told.contains("panicked"), "{told}");
+    assert!(!folder.path().join("axes").exists());
+    let done = run("1");
+    assert_ne!(done.status.code(), Some(1), "{}", String::from_utf8_lossy(&done.stderr));
+    assert!(folder.path().join("axes/run.json").exists());
+}

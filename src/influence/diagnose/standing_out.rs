@@ -1,0 +1,170 @@
+//! What stands out of a gear and is no error of a machine: single teeth, steps along the face, hollow profiles.
+//!
+//! In: a model, measured deviations and their noise. Out: [`StandingOut`]s, which the model fits beside all sources.
+//!
+//! **Law.** Every tooth may be displaced, the profiles of a tooth or of all teeth may be hollow or crowned, and their
+//! flanks may step at a place of the face. Each of these is two columns, um on left and on right flanks: 1 on the flanks
+//! of a tooth; 1 - s^2 along a profile, s from -1 to 1; -1/2 and 1/2 before and behind the step. They are chosen among
+//! the sources, by the same law (`selection`): who explains most comes first, and leaves where others have made it idle.
+//! What is left of them stands out by a multiple of what then remains unexplained, and of single teeth there are few,
+//! or else none is singled out.
+//!
+//! Road not taken: medians of neighbouring teeth. An eccentric gear of twelve teeth has no neighbours that are alike.
+
+use super::fit::LinearFit;
+use super::selection::Selection;
+use super::{ErrorModel, Without};
+use crate::influence::gear_grid::evenly;
+use crate::influence::measured::MeasuredPoint;
+use gearcut_core::terms::Side;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Most places along the face at which a step is looked for.
+const MOST_STEPS: usize = 32;
+/// Places that a flank needs at least along its profile for a bend, and along the face for a step.
+const LEAST_PLACES: usize = 5;
+/// What stands out is larger than this many times the root mean square of what is left unexplained with it.
+const STANDS_OUT: f64 = 3.0;
+/// Of this share of the measured teeth at most single ones are spoken of.
+const MOST_SINGLE: f64 = 0.25;
+
+/// What stands out.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StandingOut {
+    /// What it is.
+    pub shape: StandingShape,
+    /// What 1 um of it adds at every measured place, um: on left flanks, and on right ones.
+    pub um_per_um: [Vec<f64>; 2],
+}
+
+/// What can stand out.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum StandingShape {
+    /// A tooth.
+    Tooth(u32),
+    /// The profiles of a tooth, or of all; positive sizes are crowned, negative ones hollow.
+    Profile(Option<u32>),
+    /// A step at this place of the face, mm, of a tooth, or of all; positive sizes rise towards the larger place.
+    Step(Option<u32>, f64),
+}
+
+impl StandingShape {
+    /// What 1 um of it adds at a place, um; `ends_mm` are those of the profile there.
+    fn um_at(self, point: &MeasuredPoint, ends_mm: [f64; 2]) -> f64 {
+        let is_on = |tooth: Option<u32>| tooth.is_none_or(|tooth| tooth == point.tooth);
+        match self {
+            Self::Tooth(tooth) => f64::from(u8::from(tooth == point.tooth)),
+            Self::Profile(tooth) if is_on(tooth) && ends_mm[1] > ends_mm[0] => {
+                let s = 2.0 * (point.u_mm - ends_mm[0]) / (ends_mm[1] - ends_mm[0]) - 1.0;
+                1.0 - s * s
+            }
+            Self::Step(tooth, at_mm) if is_on(tooth) => 0.5 * (point.v_mm - at_mm).signum(),
+            Self::Profile(_) | Self::Step(..) => 0.0,
+        }
+    }
+
+    /// What it is, without sizes.
+    pub fn title(self) -> String {
+        let of = |tooth: Option<u32>| tooth.map_or_else(|| "all teeth".to_owned(), |tooth| format!("tooth {tooth}"));
+        match self {
+            Self::Tooth(tooth) => format!("tooth {tooth} stands out"),
+            Self::Profile(tooth) => format!("profiles of {} are bent", of(tooth)),
+            Self::Step(tooth, at_mm) => format!("flanks of {} step at v = {at_mm:.2} mm", of(tooth)),
+        }
+    }
+}
+
+/// Everything that could stand out at these places.
+fn shapes(points: &[MeasuredPoint]) -> Vec<StandingShape> {
+    let teeth: BTreeSet<u32> = points.iter().map(|point| point.tooth).collect();
+    let places = |of: fn(&MeasuredPoint) -> f64, tooth: Option<u32>| {
+        let own = points.iter().filter(|point| tooth.is_none_or(|tooth| tooth == point.tooth));
+        let mut places: Vec<f64> = own.map(of).collect();
+        places.sort_by(f64::total_cmp);
+        places.dedup();
+        places
+    };
+    let mut found: Vec<StandingShape> = teeth.iter().map(|&tooth| StandingShape::Tooth(tooth)).collect();
+    for tooth in std::iter::once(None).chain(teeth.iter().copied().map(Some)) {
+        if places(|point| point.u_mm, tooth).len() >= LEAST_PLACES {
+            found.push(StandingShape::Profile(tooth));
+        }
+        let along_mm = places(|point| point.v_mm, tooth);
+        if along_mm.len() >= LEAST_PLACES {
+            // Two places at least on either side: one alone is no step.
+            let between: Vec<f64> =
+                along_mm[1..along_mm.len() - 1].windows(2).map(|of| 0.5 * (of[0] + of[1])).collect();
+            let last = between.len() - 1;
+            let mut taken: Vec<usize> = evenly([0.0, last as f64], MOST_STEPS.min(between.len()))
+                .into_iter()
+                .map(|place| place.round() as usize)
+                .collect();
+            taken.dedup();
+            found.extend(taken.into_iter().map(|place| StandingShape::Step(tooth, between[place])));
+        }
+    }
+    found
+}
+
+/// Ends of the measured profile of every flank, mm.
+type Ends = BTreeMap<(u32, Side), [f64; 2]>;
+
+fn ends_mm(points: &[MeasuredPoint]) -> Ends {
+    let mut ends = Ends::new();
+    for point in points {
+        let [low, high] = ends.entry((point.tooth, point.side)).or_insert([point.u_mm; 2]);
+        (*low, *high) = (low.min(point.u_mm), high.max(point.u_mm));
+    }
+    ends
+}
+
+fn laid(shape: StandingShape, points: &[MeasuredPoint], ends_mm: &Ends) -> StandingOut {
+    let um_on = |side: Side| {
+        let um = |point: &MeasuredPoint| {
+            if point.side == side { shape.um_at(point, ends_mm[&(point.tooth, side)]) } else { 0.0 }
+        };
+        points.iter().map(um).collect()
+    };
+    StandingOut { shape, um_per_um: [Side::Left, Side::Right].map(um_on) }
+}
+
+/// What stands out of measured deviations, um, beside all that the sources of a model about its scene explain.
+pub(super) fn find(
+    model: &ErrorModel,
+    points: &[MeasuredPoint],
+    measured_um: &[f64],
+    noise_um: f64,
+) -> Vec<StandingOut> {
+    let without = Without::default();
+    let fit = LinearFit::new(model, measured_um, noise_um, &without);
+    let ends_mm = ends_mm(points);
+    let all: Vec<StandingOut> = shapes(points).into_iter().map(|shape| laid(shape, points, &ends_mm)).collect();
+    let own = fit.selection();
+    let (sources, _) = fit.candidates_and_hidden();
+    let over_noise = |um: &Vec<f64>| um.iter().map(|um| um / noise_um).collect::<Vec<f64>>();
+    let shaped = all.iter().map(|of| of.um_per_um.iter().map(over_noise).collect());
+    let columns: Vec<Vec<Vec<f64>>> = own.columns.iter().cloned().chain(shaped).collect();
+    let selection = Selection { columns: &columns, ..own };
+    // Sources come first, then what may stand out.
+    let first = own.columns.len();
+    let candidates: Vec<usize> = sources.into_iter().chain(first..columns.len()).collect();
+    let chosen = selection.select(&candidates);
+    let basis = selection.basis(&chosen);
+    let solution = basis.solve(selection.off);
+    let left_um = noise_um * (solution.chi_square / solution.freedom.max(1) as f64).sqrt();
+    let is_tooth = |i: usize| matches!(all[i - first].shape, StandingShape::Tooth(_));
+    let own: Vec<usize> = chosen.iter().copied().filter(|&i| i >= first).collect();
+    let teeth: BTreeSet<u32> = points.iter().map(|point| point.tooth).collect();
+    let single = own.iter().filter(|&&i| is_tooth(i)).count();
+    let are_single = single as f64 <= MOST_SINGLE * teeth.len() as f64;
+    let stands_out = |i: usize| {
+        let others: Vec<usize> = chosen.iter().copied().filter(|&other| other != i).collect();
+        // What nothing else explains of it, root mean square over its own places.
+        let gain = selection.left(&others) - solution.chi_square;
+        let places = all[i - first].um_per_um.iter().flatten().filter(|um| **um != 0.0).count();
+        noise_um * (gain / places as f64).sqrt() > STANDS_OUT * left_um && (are_single || !is_tooth(i))
+    };
+    let mut kept: Vec<usize> = own.into_iter().filter(|&i| stands_out(i)).collect();
+    kept.sort_unstable();
+    kept.into_iter().map(|i| all[i - first].clone()).collect()
+}
