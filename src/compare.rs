@@ -11,11 +11,12 @@
 //! | `<path>_<column>_first_period.svg` | the rows of the pitch curve's first period (Gao et al. 2017, Fig. 10) |
 //! | `<path>_<column>_a.svg`, `_b.svg`, ... | one result each, on its own scale |
 //! | `<path>.svg` | curves of the columns that ask for them, such as the transmission error of pairs |
-//! | `difference_deviation_b_minus_a.png` | deviations of b less those of a, all flanks, where both have maps |
+//! | `difference_deviation_b_minus_a.png` | deviations of b less those of a, all flanks, where they differ |
+//! | `difference_allowance_b_minus_a.png` | the same of what the operation before leaves |
 //!
 //! Everything is read from the trees by path, whatever the process: what joins the tree joins the comparison. Results
 //! of different gears may be compared: what one of them lacks stays empty. Places are not compared. The terminal shows
-//! first what changed most.
+//! what changed most, and all of headline and summary where that is wanted.
 
 mod charts;
 mod lines;
@@ -112,8 +113,9 @@ impl Comparison {
         (!changed).then(|| nothing.to_owned()).into_iter().chain(one_sided).collect()
     }
 
-    /// The tables for the terminal; where a line has a width and a table is wider, names stand above their numbers.
-    pub fn print(&self, sheet: &mut Sheet, width: Option<usize>) {
+    /// What changed most, for the terminal, or `all` lines of headline and summary; where a line has a width and a table
+    /// is wider, names stand above their numbers.
+    pub fn print(&self, sheet: &mut Sheet, width: Option<usize>, all: bool) {
         let names: Vec<&str> = self.results.iter().map(|one| one.name.as_str()).collect();
         let (last, others) = names.split_last().expect("two or more");
         sheet.heading(&format!("{} and {last}", others.join(", ")));
@@ -125,8 +127,10 @@ impl Comparison {
         for words in self.beside_changes(!ranked.is_empty()) {
             sheet.words(&words);
         }
-        sheet.heading("All");
-        self.print_rows(sheet, width, self.lines.iter().filter(|line| line.level <= Level::Summary));
+        if all {
+            sheet.heading("All");
+            self.print_rows(sheet, width, self.lines.iter().filter(|line| line.level <= Level::Summary));
+        }
         for one in self.results.iter().filter(|one| !one.findings.complete) {
             sheet.line("", format!("{} was stopped before all flanks were cut", one.name));
         }

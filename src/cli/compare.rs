@@ -38,8 +38,9 @@ pub fn run(arguments: &CompareArguments) -> Result<(), Failure> {
     })?;
 
     let mut sheet = Sheet::default();
-    comparison.print(&mut sheet, print::width());
-    Ok(print::sheet(&format!("{}\npage, table and charts are in {}\n", sheet.into_text(), path.display()))?)
+    comparison.print(&mut sheet, print::width(), arguments.all);
+    let more = if arguments.all { "" } else { "; --all prints headline and summary whole" };
+    Ok(print::sheet(&format!("{}\npage, table and charts are in {}{more}\n", sheet.into_text(), path.display()))?)
 }
 
 /// Results and surfaces are not compared with each other, nor more than two surfaces.

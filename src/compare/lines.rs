@@ -9,6 +9,8 @@ use super::Compared;
 use crate::findings::{Datum, Entry, Findings, Level, Quantity};
 use crate::steps::inspection::INSPECTION;
 
+/// Section whose parts are named by themselves.
+const OPERATIONS: &str = "operations";
 /// Keys of quantities that say where something was looked at: they are shown, but not subtracted.
 const PLACES: [&str; 3] = ["tooth", "center_profile", "center_lead"];
 
@@ -17,7 +19,7 @@ const PLACES: [&str; 3] = ["tooth", "center_profile", "center_lead"];
 pub(super) struct Line {
     /// Path in the tree; the key alone in the headline.
     pub name: String,
-    /// What people call it.
+    /// What people call it: its title behind those of its sections.
     pub title: String,
     /// How far up the first result that has it shows it.
     pub level: Level,
@@ -33,8 +35,8 @@ pub(super) fn lines(results: &[Compared]) -> Vec<Line> {
         for (index, one) in results.iter().enumerate() {
             for (name, entry) in named(&one.findings, headline) {
                 let line = *at.entry(name.clone()).or_insert_with(|| {
-                    let (title, quantities) = (entry.heading(), vec![None; results.len()]);
-                    lines.push(Line { name, title, level: entry.level, quantities });
+                    let quantities = vec![None; results.len()];
+                    lines.push(Line { name, title: entry.heading(), level: entry.level, quantities });
                     lines.len() - 1
                 });
                 lines[line].quantities[index] = Some(entry.quantity);
@@ -51,11 +53,37 @@ fn named(findings: &Findings, headline: bool) -> Vec<(String, Entry)> {
         return findings.headline.iter().map(|entry| (entry.key.clone(), entry.clone())).collect();
     }
     let mut named = Vec::new();
+    let mut titles: HashMap<String, Vec<String>> = HashMap::new();
     findings.walk(&mut |path, section| {
-        named.extend(section.entries.iter().map(|entry| (format!("{path}.{}", entry.key), entry.clone())));
+        let above = path.rsplit_once('.').and_then(|(above, _)| titles.get(above)).cloned().unwrap_or_default();
+        // That an operation is one of the operations says nothing.
+        let own = Some(section.title.clone()).filter(|_| section.key != OPERATIONS);
+        let titled: Vec<String> = above.into_iter().chain(own).collect();
+        named.extend(section.entries.iter().map(|entry| {
+            let title = plain_title(&titled, &entry.heading());
+            (format!("{path}.{}", entry.key), Entry { title, ..entry.clone() })
+        }));
+        titles.insert(path.to_owned(), titled);
     });
     named.extend(figures(findings).into_iter().map(|entry| (format!("{INSPECTION}.figures.{}", entry.key), entry)));
     named
+}
+
+/// Titles of sections and of a quantity as a reader says them: `Rough: unevenness, mean, max`.
+fn plain_title(sections: &[String], own: &str) -> String {
+    // Symbols stay as they are.
+    let small = |title: &str| {
+        let mut letters = title.chars();
+        match (letters.next(), letters.next()) {
+            (Some(first), Some(second)) if second.is_lowercase() => {
+                first.to_lowercase().chain(title.chars().skip(1)).collect()
+            }
+            _ => title.to_owned(),
+        }
+    };
+    let Some((first, others)) = sections.split_first() else { return own.to_owned() };
+    let rest: Vec<String> = others.iter().map(String::as_str).chain([own]).map(small).collect();
+    format!("{first}: {}", rest.join(", "))
 }
 
 /// Figures of the inspection: of the worst left and right flank, or of both sides together.

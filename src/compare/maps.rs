@@ -1,25 +1,31 @@
-//! Difference maps: the deviations of a later result less those of the first, all flanks on one sheet.
+//! Difference maps: deviations and allowances of a later result less those of the first, all flanks on one sheet.
 //!
-//! In: `deviation/*.exr` of two folders. Out: `difference_deviation_<letter>_minus_a.png`. Flanks that only one of them
-//! has, or that lie on other grids, have no difference and are left out; without any there is no sheet. One scale for
-//! all flanks, whose ends are a micrometre at least: on a finer one equal gears would look apart.
+//! In: `deviation/*.exr` and `allowance/*.exr` of two folders. Out: `difference_<map>_<letter>_minus_a.png`. Flanks that
+//! only one of them has, or that lie on other grids, have no difference and are left out; without any there is no sheet.
+//! One scale for all flanks, whose ends are a micrometre at least: on a finer one equal gears would look apart. What
+//! shows no colour on it is said in a sentence instead: two linkages leave the same flanks and another allowance.
 
 use super::{Comparison, letters};
 use crate::colormap::ColourScale;
+use crate::findings::unit::sentence_with_signs;
 use crate::output::atomic::file_error;
 use crate::output::contact_sheet::{ContactSheet, Thumbnail, write_contact_sheet};
 use crate::output::folder::OutputFolder;
 use crate::output::grid::{MapAxis, MapGrid};
 use crate::output::surface_files::read_surface;
+use crate::output::text::significant;
 use gearcut_core::error::{Error, Result};
 use gearcut_core::units::UM_PER_MM;
 use std::collections::BTreeSet;
 use std::path::Path;
 
-/// Folder of the maps in a result.
-const FOLDER: &str = "deviation";
+/// Folders of the maps in a result, and what their values are.
+const FOLDERS: [(&str, &str); 2] =
+    [("deviation", "mean normal deviations of cells"), ("allowance", "normal stock before the last operation")];
 /// Ends of the scale, um, where differences are smaller.
 const LEAST_UM: f32 = 1.0;
+/// Differences up to this are no matter, um: a twentieth of the finest scale has no colour that anybody sees.
+const EQUAL_UM: f32 = 0.05 * LEAST_UM;
 
 /// Difference of a flank.
 struct DifferenceMap {
@@ -32,8 +38,8 @@ struct DifferenceMap {
 pub(super) struct MapSheet {
     /// What it shows.
     pub title: String,
-    /// The picture.
-    pub png: Vec<u8>,
+    /// The picture; none where there is nothing to see.
+    pub png: Option<Vec<u8>>,
 }
 
 impl Comparison {
@@ -44,9 +50,18 @@ impl Comparison {
     pub(super) fn write_maps(&self, folder: &OutputFolder) -> Result<Vec<MapSheet>> {
         let mut sheets = Vec::new();
         let (first, others) = self.results.split_first().expect("two or more");
-        for (other, letter) in others.iter().zip(letters().skip(1)) {
-            let maps = differences(&first.folder.join(FOLDER), &other.folder.join(FOLDER))?;
+        let of_others = others.iter().zip(letters().skip(1));
+        for ((other, letter), (name, values)) in of_others.flat_map(|of| FOLDERS.map(|folder| (of, folder))) {
+            let maps = differences(&first.folder.join(name), &other.folder.join(name))?;
             if maps.is_empty() {
+                continue;
+            }
+            let title = format!("{name} of {} less that of {}, all flanks", other.name, first.name);
+            let all_um = maps.iter().flat_map(|map| &map.values_um).filter(|um| um.is_finite());
+            let largest_um = all_um.fold(0.0, |most: f32, um| most.max(um.abs()));
+            if largest_um <= EQUAL_UM {
+                let equal = format!("{title}: nothing above {} um", significant(largest_um.into(), 2));
+                sheets.push(MapSheet { title: sentence_with_signs(&equal), png: None });
                 continue;
             }
             let scale = match ColourScale::diverging_over(maps.iter().map(|map| map.values_um.as_slice())) {
@@ -57,19 +72,18 @@ impl Comparison {
                 .iter()
                 .map(|map| Thumbnail { label: &map.label, grid: &map.grid, values: &map.values_um })
                 .collect();
-            let title = format!("deviation of {} less that of {}, all flanks", other.name, first.name);
             let sheet = ContactSheet {
                 title: &title,
-                quantity: "difference of mean normal deviations of cells",
+                quantity: &format!("difference of {values}"),
                 unit: "µm",
                 scale,
                 missing: "no pass came here in one of them",
                 maps: &thumbnails,
             };
-            let path = folder.path(format!("difference_deviation_{letter}_minus_a.png"))?;
+            let path = folder.path(format!("difference_{name}_{letter}_minus_a.png"))?;
             write_contact_sheet(&path, &sheet)?;
             let png = std::fs::read(&path).map_err(Error::reading(&path))?;
-            sheets.push(MapSheet { title, png });
+            sheets.push(MapSheet { title, png: Some(png) });
         }
         Ok(sheets)
     }

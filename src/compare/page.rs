@@ -32,7 +32,13 @@ pub(super) fn page(
     }
     let words = of.beside_changes(!first.is_empty());
     changed.extend((!words.is_empty()).then(|| Block::Note(format!("{}.", words.join("; ")))));
-    let maps: Vec<Block> = maps.into_iter().map(|map| Block::Picture(map.title, map.png)).collect();
+    let maps: Vec<Block> = maps
+        .into_iter()
+        .map(|map| match map.png {
+            Some(png) => Block::Picture(map.title, png),
+            None => Block::Note(format!("{}.", map.title)),
+        })
+        .collect();
     let charts = bars.into_iter().map(|(_, chart)| Block::Bars(chart));
     let charts: Vec<Block> = charts.chain(curves.into_iter().map(|(_, chart)| Block::Lines(chart))).collect();
     let sections = [
@@ -46,8 +52,8 @@ pub(super) fn page(
         PageSection::new(
             "maps",
             "Difference maps",
-            "Deviations of every finished flank less those of the first result, to one scale. Flanks that lie on other \
-            grids are left out.",
+            "Deviations of every finished flank, and the allowance before the last operation, less those of the first \
+            result, each to one scale. Flanks that lie on other grids are left out.",
             maps,
         ),
         PageSection::new("charts", "Side by side", "", charts),
@@ -84,22 +90,26 @@ pub(super) fn page(
 }
 
 fn table<'a>(of: &Comparison, caption: &str, lines: impl Iterator<Item = &'a Line>) -> PageTable {
-    let mut rows = of.printed_rows(lines).into_iter().map(|row| row.iter().map(|cell| signs(cell)).collect::<Vec<_>>());
+    let mut rows = of.printed_rows(lines).into_iter().map(with_signs);
     let columns = rows.next().unwrap_or_default();
     PageTable { caption: caption.to_owned(), columns, rows: rows.collect() }
 }
 
-/// A cell of the terminal with the signs of a page.
-fn signs(cell: &str) -> String {
-    match cell.strip_prefix('-') {
-        Some(number) if number.starts_with(|c: char| c.is_ascii_digit()) => format!("\u{2212}{number}"),
-        _ => unit::signs(cell),
+/// A row of the terminal with the signs of a page: numbers with their minus, the unit, which comes last, with its own.
+fn with_signs(mut row: Vec<String>) -> Vec<String> {
+    let last = row.len() - 1;
+    row[last] = unit::signs(&row[last]);
+    for cell in &mut row[1..last] {
+        if let Some(number) = cell.strip_prefix('-').filter(|rest| rest.starts_with(|c: char| c.is_ascii_digit())) {
+            *cell = format!("\u{2212}{number}");
+        }
     }
+    row
 }
 
 fn key_number(of: &Comparison, line: &Line) -> KeyNumber {
     let rows = of.printed_rows(std::iter::once(line));
-    let cells: Vec<String> = rows[1].iter().map(|cell| signs(cell)).collect();
+    let cells = with_signs(rows[1].clone());
     let values = &cells[1..=of.results.len()];
     KeyNumber {
         name: line.title.clone(),

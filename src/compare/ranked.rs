@@ -14,7 +14,7 @@ use crate::steps::inspection::INSPECTION;
 use std::collections::{HashMap, HashSet};
 
 /// Lines that are printed first.
-pub(super) const FIRST: usize = 10;
+pub(super) const FIRST: usize = 8;
 
 /// A value of this unit that is worth telling: what a drawing or an inspection machine resolves, and of units that are
 /// listed nowhere (counts, rates, angles in seconds of arc) one.

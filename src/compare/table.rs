@@ -38,7 +38,7 @@ impl Comparison {
         }
         titles.push("unit".into());
         let rows = lines.map(|line| {
-            let mut row = vec![line.name.replace('_', " ")];
+            let mut row = vec![line.title.clone()];
             row.extend(line.quantities.iter().map(|quantity| printed(quantity.as_ref())));
             if two {
                 let number = |value: Option<f64>| value.map_or_else(String::new, shown);

@@ -81,11 +81,11 @@ fn two_results_stand_side_by_side() {
     gearcut_in(folder.path(), &["compare", "out/traditional", "out/normal"]).done().says(&[
         "traditional and normal",
         "Changed most",
-        "smallest normal stock",
+        "Smallest normal stock",
         "0.2500",
         "0.6500",
         "0.4000",
-        "operations.rough.unevenness.mean denominator.max",
+        "Rough: unevenness, mean, max",
         "129.5",
         "3.980",
         "compare_traditional_normal",
@@ -111,7 +111,7 @@ fn two_results_stand_side_by_side() {
         }
     }
     let page = std::fs::read_to_string(written.join("report.html")).expect("written");
-    for words in ["What changed most", "smallest normal stock", "0.2500 \u{2192} 0.6500", "Side by side", "<svg"] {
+    for words in ["What changed most", "Smallest normal stock", "0.2500 \u{2192} 0.6500", "Side by side", "<svg"] {
         assert!(page.contains(words), "{words} is not on the page");
     }
     assert!(!page.contains("<script"), "a page without a gear needs no scripts");
@@ -155,11 +155,13 @@ fn the_largest_changes_come_first_and_places_are_not_subtracted() {
     put(&folder, "a", &of(0.50, 0.001, 1000.0, 3));
     put(&folder, "b", &of(0.55, 0.010, 4000.0, 7));
     let out = gearcut_in(folder.path(), &["compare", "out/a", "out/b"]).done().out;
-    let first = out.split("\nAll\n").next().expect("what comes before all lines");
-    let place = |words: &str| first.find(words).unwrap_or_else(|| panic!("no {words:?} in {first}"));
+    let place = |words: &str| out.find(words).unwrap_or_else(|| panic!("no {words:?} in {out}"));
     // 3/4 of the larger force, 1/11 of the larger stock, 9 nm of a micrometre; teeth are no change.
-    assert!(place("force") < place("smallest stock") && place("smallest stock") < place("pitch"), "{first}");
-    assert!(!first.contains("texture.tooth"), "{first}");
+    assert!(place("Force") < place("Smallest stock") && place("Smallest stock") < place("Pitch"), "{out}");
+    assert!(!out.contains("tooth"), "{out}");
+    // All of them, where that is wanted.
+    let all = gearcut_in(folder.path(), &["compare", "out/a", "out/b", "--all"]).done().out;
+    assert!(all.contains("\nAll\n") && all.contains("Texture: tooth"), "{all}");
     let csv = std::fs::read_to_string(folder.path().join("out/compare_a_b/comparison.csv")).expect("written");
     assert!(csv.contains("\ntexture.tooth,1,3.0,7.0,,,made by hand\n"), "{csv}");
 }
@@ -202,8 +204,7 @@ fn limits_are_the_scale_where_there_are_some() {
     let first = |limit_um: Option<f64>, name: &str| {
         put(&folder, "a", &of(20.0, 1000.0, 0.0, limit_um));
         put(&folder, "b", &of(22.0, 1500.0, 1e-9, limit_um));
-        let out = gearcut_in(folder.path(), &["compare", "out/a", "out/b", "--out", name]).done().out;
-        out.split("\nAll\n").next().expect("what comes before all lines").to_owned()
+        gearcut_in(folder.path(), &["compare", "out/a", "out/b", "--out", name]).done().out
     };
     let place = |first: &str, words: &str| first.find(words).unwrap_or_else(|| panic!("no {words:?} in {first}"));
     // 2 um are half of the limit, 500 N a third of the force; without a limit 2 um are an eleventh.
@@ -214,6 +215,9 @@ fn limits_are_the_scale_where_there_are_some() {
     for noise in ["volume", "section", "flanks", "load"] {
         assert!(place(&free, noise) > place(&free, "single pitch"), "{free}");
     }
+    // The page has units in their signs, and words as they are.
+    let page = std::fs::read_to_string(folder.path().join("free/report.html")).expect("a page");
+    assert!(page.contains("Deviations: volume") && page.contains("µm") && !page.contains("volµme"), "{page}");
 }
 
 /// Figures of the inspection stand in a table; what a guide out of line does to helices is among the first lines.
@@ -232,28 +236,27 @@ fn figures_of_the_inspection_are_compared() {
     };
     put(&folder, "a", &of(0.004, -0.004, 0.5));
     put(&folder, "b", &of(9.0, -9.4, 0.5));
-    let out = gearcut_in(folder.path(), &["compare", "out/a", "out/b"]).done().out;
+    let out = gearcut_in(folder.path(), &["compare", "out/a", "out/b", "--all"]).done().out;
     let (first, all) = out.split_once("\nAll\n").expect("first lines, then all");
-    for (line, value) in [("helix slope deviation left", "9.000"), ("helix slope deviation right", "-9.400")] {
+    let (left, right) = ("Helix slope deviation, left f_H_beta", "Helix slope deviation, right f_H_beta");
+    for (line, value) in [(left, "9.000"), (right, "-9.400")] {
         let found =
             first.lines().find(|printed| printed.contains(line)).unwrap_or_else(|| panic!("no {line} in {out}"));
         assert!(found.contains(value) && found.contains("um"), "{found}");
     }
-    assert!(all.contains("inspection.figures.runout ") && !first.contains("runout"), "{out}");
+    assert!(all.contains("Runout F_r ") && !first.contains("Runout"), "{out}");
     // Over rounding there is no ratio: 0 beside 0 is as often 2 as a half.
     put(&folder, "c", &of(3e-11, -0.004, 1.1e-11));
     put(&folder, "d", &of(9.0, -0.004, 1e-11));
-    let out = gearcut_in(folder.path(), &["compare", "out/c", "out/d"]).done().out;
-    let runout = out.lines().find(|line| line.contains("inspection.figures.runout ")).expect("a line");
+    let out = gearcut_in(folder.path(), &["compare", "out/c", "out/d", "--all"]).done().out;
+    let runout = out.lines().find(|line| line.contains("Runout F_r ")).expect("a line");
     assert!(!runout.contains("1.1"), "{runout}");
 }
 
-/// Maps that both runs have are subtracted cell by cell.
-#[test]
-fn maps_of_deviations_are_subtracted() {
+/// A map of one flank of a run, with one value all over.
+fn put_map(folder: &tempfile::TempDir, run: &str, kind: &str, value_mm: f32) {
     use gearcut::output::exr_map::{ExrMap, MapChannel, Samples, write_exr_map};
     use gearcut::output::grid::{MapAxis, MapGrid};
-    let folder = two_runs();
     let axis = |name: &str, count: usize| MapAxis {
         name: name.to_owned(),
         meaning: "made by hand".to_owned(),
@@ -261,22 +264,28 @@ fn maps_of_deviations_are_subtracted() {
         step_mm: 0.5,
         count,
     };
-    for (run, deviation_mm) in [("traditional", 0.0_f32), ("normal", 0.004)] {
-        let maps = folder.path().join("out").join(run).join("deviation");
-        std::fs::create_dir_all(&maps).expect("a folder");
-        let map = ExrMap {
-            grid: MapGrid { u: axis("u", 8), v: axis("v", 12) },
-            frame: "made by hand".to_owned(),
-            channels: vec![MapChannel {
-                name: "deviation_mm".to_owned(),
-                unit: "mm".to_owned(),
-                definition: "made by hand".to_owned(),
-                samples: Samples::F32(vec![deviation_mm; 96]),
-            }],
-            notes: Vec::new(),
-        };
-        write_exr_map(&maps.join("tooth_01_left.exr"), &map).expect("written");
-    }
+    let maps = folder.path().join("out").join(run).join(kind);
+    std::fs::create_dir_all(&maps).expect("a folder");
+    let map = ExrMap {
+        grid: MapGrid { u: axis("u", 8), v: axis("v", 12) },
+        frame: "made by hand".to_owned(),
+        channels: vec![MapChannel {
+            name: format!("{kind}_mm"),
+            unit: "mm".to_owned(),
+            definition: "made by hand".to_owned(),
+            samples: Samples::F32(vec![value_mm; 96]),
+        }],
+        notes: Vec::new(),
+    };
+    write_exr_map(&maps.join("tooth_01_left.exr"), &map).expect("written");
+}
+
+/// Maps that both runs have are subtracted cell by cell.
+#[test]
+fn maps_of_deviations_are_subtracted() {
+    let folder = two_runs();
+    put_map(&folder, "traditional", "deviation", 0.0);
+    put_map(&folder, "normal", "deviation", 0.004);
     gearcut_in(folder.path(), &["compare", "out/traditional", "out/normal"]).done();
     let sheet = folder.path().join("out/compare_traditional_normal/difference_deviation_b_minus_a.png");
     let page = std::fs::read_to_string(sheet.with_file_name("report.html")).expect("a page");
@@ -284,10 +293,34 @@ fn maps_of_deviations_are_subtracted() {
         page.contains("Difference maps") && page.contains("src=\"data:image/png;base64,"),
         "the sheet is on the page"
     );
-    let picture = image::open(&sheet).expect("a sheet").into_rgb8();
-    // All cells are 4 um apart, the end of the scale: the field has its one colour, as no other sheet has.
-    let end = gearcut::colormap::ColourScale::Diverging { limit: 4.0 }.colour(4.0);
-    assert!(picture.pixels().filter(|pixel| pixel.0 == end).count() > 1000, "no field of the scale's end");
+    assert!(has_field_of(&sheet, 4.0), "no field of the scale's end");
+}
+
+/// Two linkages leave the same flanks and another allowance: that is what is drawn, and the flanks are said to be equal.
+#[test]
+fn maps_show_what_differs() {
+    let folder = two_runs();
+    for (run, deviation_mm, allowance_mm) in [("traditional", 0.002, 0.25), ("normal", 0.002_02, 0.33)] {
+        put_map(&folder, run, "deviation", deviation_mm);
+        put_map(&folder, run, "allowance", allowance_mm);
+    }
+    gearcut_in(folder.path(), &["compare", "out/traditional", "out/normal"]).done();
+    let out = folder.path().join("out/compare_traditional_normal");
+    assert!(!out.join("difference_deviation_b_minus_a.png").exists(), "84 white tiles say nothing");
+    assert!(has_field_of(&out.join("difference_allowance_b_minus_a.png"), 80.0), "no field of the scale's end");
+    let page = std::fs::read_to_string(out.join("report.html")).expect("a page");
+    assert!(
+        page.contains("deviation of normal less that of traditional, all flanks: nothing above 0.020 µm"),
+        "{page}"
+    );
+    assert_eq!(page.matches("src=\"data:image/png;base64,").count(), 1);
+}
+
+/// Whether all cells of a sheet differ by this, um, the end of its scale: a field of one colour, as no other sheet has.
+fn has_field_of(sheet: &Path, um: f32) -> bool {
+    let picture = image::open(sheet).expect("a sheet").into_rgb8();
+    let end = gearcut::colormap::ColourScale::Diverging { limit: um }.colour(um);
+    picture.pixels().filter(|pixel| pixel.0 == end).count() > 1000
 }
 
 #[test]
@@ -390,9 +423,9 @@ fn hobbed_gears_stand_side_by_side_with_the_load_of_every_hob_tooth() {
     let three = ["compare", "out/plain", "out/reciprocating", "out/repeating"];
     gearcut_in(folder.path(), &three).done().says(&[
         "plain, reciprocating and repeating",
-        "operations.finish.idle time",
+        "Finish: idle time",
         "23.10",
-        "hob load.operations.finish.largest volume",
+        "Load: finish, largest volume",
         "compare_plain_reciprocating_repeating",
     ]);
     let written = folder.path().join("out/compare_plain_reciprocating_repeating");
