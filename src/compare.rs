@@ -113,8 +113,8 @@ impl Comparison {
         (!changed).then(|| nothing.to_owned()).into_iter().chain(one_sided).collect()
     }
 
-    /// What changed most, for the terminal, or `all` lines of headline and summary; where a line has a width and a table
-    /// is wider, names stand above their numbers.
+    /// What changed most, for the terminal, or `all` lines of headline and summary; where a line has a width and a
+    /// table is wider, names stand above their numbers.
     pub fn print(&self, sheet: &mut Sheet, width: Option<usize>, all: bool) {
         let names: Vec<&str> = self.results.iter().map(|one| one.name.as_str()).collect();
         let (last, others) = names.split_last().expect("two or more");

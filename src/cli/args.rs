@@ -80,8 +80,8 @@ pub enum Command {
         curve, and all teeth) and each on its own scale.\n\
         Hobbed gears: what each tooth of the hob does over the whole process: volume (mm3), largest \
         uncut chip thickness (mm), travel in the cut (mm).\n\
-        Load is no life: wear follows heat and chip thickness besides. Prints what changed most; with --all headline and \
-        summary.")]
+        Load is no life: wear follows heat and chip thickness besides. Prints what changed most; with --all \
+        headline and summary.")]
     Compare(CompareArguments),
     /// Evaluate the texture of a surface, measured or cut: ISO 25178-2 and ISO 21920-2 parameters.
     #[command(after_help = "Example:\n  \

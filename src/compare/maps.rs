@@ -1,9 +1,10 @@
 //! Difference maps: deviations and allowances of a later result less those of the first, all flanks on one sheet.
 //!
-//! In: `deviation/*.exr` and `allowance/*.exr` of two folders. Out: `difference_<map>_<letter>_minus_a.png`. Flanks that
-//! only one of them has, or that lie on other grids, have no difference and are left out; without any there is no sheet.
-//! One scale for all flanks, whose ends are a micrometre at least: on a finer one equal gears would look apart. What
-//! shows no colour on it is said in a sentence instead: two linkages leave the same flanks and another allowance.
+//! In: `deviation/*.exr` and `allowance/*.exr` of two folders. Out: `difference_<map>_<letter>_minus_a.png`. Flanks
+//! that only one of them has, or that lie on other grids, have no difference and are left out; without any there is
+//! no sheet. One scale for all flanks, whose ends are a micrometre at least: on a finer one equal gears would look
+//! apart. What shows no colour on it is said in a sentence instead: two linkages leave the same flanks and another
+//! allowance.
 
 use super::{Comparison, letters};
 use crate::colormap::ColourScale;

@@ -33,6 +33,7 @@ mod model;
 mod page;
 mod refit;
 mod selection;
+mod shapes;
 mod standing_out;
 
 use fit::LinearFit;
@@ -43,7 +44,7 @@ pub use findings::{findings, sheet};
 pub use model::{ErrorModel, ModelledSource};
 pub use page::write;
 pub use refit::diagnose;
-pub use standing_out::{StandingOut, StandingShape};
+pub use shapes::{StandingOut, StandingShape};
 
 /// What explains a measured gear.
 #[derive(Debug, Clone, PartialEq)]

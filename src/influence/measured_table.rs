@@ -3,8 +3,9 @@
 //! In: a file and the names of the columns that it must have, in any order, others beside them. Out: rows whose cells
 //! are asked for by the column's number in that list, and errors that name file, line, column and value.
 //!
-//! Tables of spreadsheets with semicolons, tabs, UTF-16 or other spellings of the heads are refused by these words. Road
-//! not taken: reading them. Where semicolons divide columns, commas may divide decimals, and a guess is no measure.
+//! Tables of spreadsheets with semicolons, tabs, UTF-16 or other spellings of the heads are refused by these words.
+//! Road not taken: reading them. Where semicolons divide columns, commas may divide decimals, and a guess is no
+//! measure.
 
 use crate::regular_file;
 use gearcut_core::error::{Error, Result};

@@ -224,8 +224,8 @@ impl OutputFolder {
         Ok(partial)
     }
 
-    /// Forces everything that is written to the disk, as [`finish`](Self::finish) does with what is not there yet: a run
-    /// that measures its time calls it before it writes its record.
+    /// Forces everything that is written to the disk, as [`finish`](Self::finish) does with what is not there yet: a
+    /// run that measures its time calls it before it writes its record.
     ///
     /// # Errors
     /// The disk is full or refuses.

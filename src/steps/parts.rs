@@ -1,8 +1,8 @@
 //! Which parts of a result are written.
 //!
 //! In: names of parts, as they are typed after `--only`. Out: [`Parts`]. The numbers (`results.json`, `run.json`,
-//! `tables/`, `inspection_charts.csv`) are always written. What is not asked for is neither drawn nor computed; what is asked for has the same
-//! bytes as in a whole result.
+//! `tables/`, `inspection_charts.csv`) are always written. What is not asked for is neither drawn nor computed; what
+//! is asked for has the same bytes as in a whole result.
 
 /// A part that can be left out.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -1,8 +1,8 @@
 //! Other people's crates: under which licences they come, from where, and how many of one name.
 //!
-//! The same as `cargo deny check licenses sources bans` asks by `deny.toml`, from `cargo metadata` alone: cargo-deny itself takes
-//! minutes to build on a fresh machine. Advisories need a list that changes every day and are no test of the code. And
-//! how builds are made: from locked versions, a release with checks for overflow.
+//! The same as `cargo deny check licenses sources bans` asks by `deny.toml`, from `cargo metadata` alone: cargo-deny
+//! itself takes minutes to build on a fresh machine. Advisories need a list that changes every day and are no test of
+//! the code. And how builds are made: from locked versions, a release with checks for overflow.
 
 use serde_json::Value;
 use std::collections::BTreeMap;

@@ -89,8 +89,8 @@ fn warnings(measured: &MeasuredGear, found: &Calibration) -> Vec<Warning> {
     });
     let moving = (found.complete && !found.settled).then(|| {
         Warning::warn(if found.beyond {
-            "the fit has not settled: the measured values draw it beyond the ranges of keys, or to gears that cannot be \
-             cut; are they in the units that their columns name?"
+            "the fit has not settled: the measured values draw it beyond the ranges of keys, or to gears that cannot \
+             be cut; are they in the units that their columns name?"
         } else {
             "the fit has not settled: its numbers are no least squares"
         })

@@ -36,7 +36,7 @@ const BEYOND: f64 = 1.001;
 
 /// What a fitted number belongs to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) enum Column {
+pub(super) enum FitColumn {
     /// What every fit has: the turn, and what stands out of the gear.
     Always(usize),
     /// A source and the place of one of its parameters.
@@ -57,7 +57,7 @@ struct WeightedSet {
     weight: f64,
     freedom: usize,
     /// Size and standard deviation of each column that it has.
-    sizes: BTreeMap<Column, [f64; 2]>,
+    sizes: BTreeMap<FitColumn, [f64; 2]>,
 }
 
 /// Columns without what all of them have in common: coordinates along an orthonormal basis of all, which lengths and
@@ -99,21 +99,21 @@ struct SetComparison<'a> {
 impl SetComparison<'_> {
     /// A set's basis, and the columns that it takes up; `None` where a source adds nothing to the others, for it is the
     /// set without that source.
-    fn basis(&self, set: &[usize]) -> Option<(ColumnBasis, Vec<Column>)> {
+    fn basis(&self, set: &[usize]) -> Option<(ColumnBasis, Vec<FitColumn>)> {
         let is_chosen = |source: &&usize| self.chosen.contains(source);
         let first = self.chosen.iter().filter(|source| set.contains(source));
         let mut basis = ColumnBasis::default();
         let mut taken = Vec::new();
         for (place, column) in self.fit.always.iter().enumerate() {
             if basis.take(column) {
-                taken.push(Column::Always(place));
+                taken.push(FitColumn::Always(place));
             }
         }
         for &source in first.chain(set.iter().filter(|source| !is_chosen(source))) {
             let before = taken.len();
             for (place, column) in self.fit.columns[source].iter().enumerate() {
                 if basis.take(column) {
-                    taken.push(Column::Of(source, place));
+                    taken.push(FitColumn::Of(source, place));
                 }
             }
             if taken.len() == before {
@@ -212,12 +212,12 @@ impl Averaging {
     }
 
     /// The 95 % interval of the size of a column.
-    pub fn interval(&self, column: Column) -> [f64; 2] {
+    pub fn interval(&self, column: FitColumn) -> [f64; 2] {
         [TAIL, 1.0 - TAIL].map(|share| self.quantile(column, share))
     }
 
     /// The least size that at least this share of the distribution does not exceed.
-    fn quantile(&self, column: Column, share: f64) -> f64 {
+    fn quantile(&self, column: FitColumn, share: f64) -> f64 {
         let fitted = || self.sets.iter().filter_map(|set| set.sizes.get(&column).map(|of| (set, of)));
         let continuous = |size: f64| -> f64 {
             fitted().map(|(set, [mean, sd])| set.weight * share_below((size - mean) / sd, set.freedom)).sum()
@@ -259,12 +259,12 @@ mod tests {
         let fit = Selection { columns: &columns, always: &turn, off: &off };
         let sets = Averaging::new(&fit, &[0, 1], &[0], 1.0);
         assert!((sets.weight(0) - 0.5).abs() < 1e-9 && (sets.weight(1) - 0.5).abs() < 1e-9);
-        let [low, high] = sets.interval(Column::Of(0, 0));
+        let [low, high] = sets.interval(FitColumn::Of(0, 0));
         let expected = 3.0 + 1.644_854 * (2.0 / count as f64).sqrt();
         assert!(low == 0.0 && (high - expected).abs() < 1e-6, "{low} to {high}, expected {expected}");
         // One of them alone has the interval of its own fit.
         let alone = Averaging::new(&fit, &[0], &[0], 1.0);
-        let [low, high] = alone.interval(Column::Of(0, 0));
+        let [low, high] = alone.interval(FitColumn::Of(0, 0));
         let half = 1.959_964 * (2.0 / count as f64).sqrt();
         assert!((low - (3.0 - half)).abs() < 1e-6 && (high - (3.0 + half)).abs() < 1e-6, "{low} to {high}");
     }

@@ -123,8 +123,8 @@ fn warnings(model: &ErrorModel, found: &Diagnosis) -> Vec<Warning> {
     }
     if found.unexplained_um > 0.0 {
         warnings.push(Warning::warn(format!(
-            "unexplained: {} um are left beyond the stated noise; no error that the scene can name makes them, and what is \
-             named is said without intervals: it may stand in for something else",
+            "unexplained: {} um are left beyond the stated noise; no error that the scene can name makes them, and \
+             what is named is said without intervals: it may stand in for something else",
             significant(found.unexplained_um, 3)
         )));
     }

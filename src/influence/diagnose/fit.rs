@@ -2,7 +2,7 @@
 //!
 //! In: a model, measured deviations and their noise. Out: [`Diagnosis`].
 
-use super::averaging::{Averaging, Column};
+use super::averaging::{Averaging, FitColumn};
 use super::selection::{Selection, chi_square_quantile};
 use super::{Diagnosis, ErrorModel, FittedSize, NamedSource, Without};
 use crate::influence::interval::interval;
@@ -86,7 +86,7 @@ impl<'a> LinearFit<'a> {
         let variance = (solution.chi_square / solution.freedom as f64).max(1.0);
         let width = variance.sqrt() * interval(solution.freedom);
         let averaging = Averaging::new(&fit, &candidates, &chosen, variance);
-        let sized = |i: usize, column: Column| {
+        let sized = |i: usize, column: FitColumn| {
             let (size, [low, high]) = (solution.values[i], averaging.interval(column));
             // Sources are named for more than it takes to weigh: the named set may be one of little weight.
             let interval = [low.min(size), high.max(size)];
@@ -100,7 +100,7 @@ impl<'a> LinearFit<'a> {
         let mut place = 0;
         let mut always_fitted = Vec::new();
         for (index, (column, um_per_unit)) in always.iter().zip(model.always()).enumerate() {
-            let own = basis_so_far.take(column).then(|| sized(place, Column::Always(index)));
+            let own = basis_so_far.take(column).then(|| sized(place, FitColumn::Always(index)));
             take_off(um_per_unit, own.map_or(0.0, |own| own.size));
             place += usize::from(own.is_some());
             always_fitted.push(own);
@@ -110,7 +110,7 @@ impl<'a> LinearFit<'a> {
         for &source in &chosen {
             let mut fitted = Vec::new();
             for (index, column) in columns[source].iter().enumerate() {
-                let own = basis_so_far.take(column).then(|| sized(place, Column::Of(source, index)));
+                let own = basis_so_far.take(column).then(|| sized(place, FitColumn::Of(source, index)));
                 if let Some(FittedSize { size, .. }) = own {
                     take_off(&model.sources[source].um_per_unit[index], size);
                     place += 1;

@@ -5,7 +5,7 @@
 //! gear. [`ErrorModel::moved_to`] cuts it with the sizes that were found, and takes the influences of these anew.
 
 use super::cuts::MeasuredCuts;
-use super::standing_out::StandingOut;
+use super::shapes::StandingOut;
 use crate::influence::budget::chosen;
 use crate::influence::derivative::{Influence, read};
 use crate::interrupt::Interrupt;

@@ -2,17 +2,16 @@
 //!
 //! In: a model, measured deviations and their noise. Out: [`StandingOut`]s, which the model fits beside all sources.
 //!
-//! **Law.** Every tooth may be displaced, the profiles of a tooth or of all teeth may be hollow or crowned, and their
-//! flanks may step at a place of the face. Each of these is two columns, um on left and on right flanks: 1 on the flanks
-//! of a tooth; 1 - s^2 along a profile, s from -1 to 1; -1/2 and 1/2 before and behind the step. They are chosen among
-//! the sources, by the same law (`selection`): who explains most comes first, and leaves where others have made it idle.
-//! What is left of them stands out by a multiple of what then remains unexplained, and of single teeth there are few,
-//! or else none is singled out.
+//! **Law.** Everything that could stand out at the measured places ([`StandingShape`]) is chosen among the sources,
+//! by the same law (`selection`): what explains most comes first, and leaves where others have made it idle. What is
+//! left of it stands out by a multiple of what then remains unexplained, and of single teeth there are few, or else
+//! none is singled out.
 //!
 //! Road not taken: medians of neighbouring teeth. An eccentric gear of twelve teeth has no neighbours that are alike.
 
 use super::fit::LinearFit;
 use super::selection::Selection;
+use super::shapes::{StandingOut, StandingShape};
 use super::{ErrorModel, Without};
 use crate::influence::gear_grid::evenly;
 use crate::influence::measured::MeasuredPoint;
@@ -27,52 +26,6 @@ const LEAST_PLACES: usize = 5;
 const STANDS_OUT: f64 = 3.0;
 /// Of this share of the measured teeth at most single ones are spoken of.
 const MOST_SINGLE: f64 = 0.25;
-
-/// What stands out.
-#[derive(Debug, Clone, PartialEq)]
-pub struct StandingOut {
-    /// What it is.
-    pub shape: StandingShape,
-    /// What 1 um of it adds at every measured place, um: on left flanks, and on right ones.
-    pub um_per_um: [Vec<f64>; 2],
-}
-
-/// What can stand out.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum StandingShape {
-    /// A tooth.
-    Tooth(u32),
-    /// The profiles of a tooth, or of all; positive sizes are crowned, negative ones hollow.
-    Profile(Option<u32>),
-    /// A step at this place of the face, mm, of a tooth, or of all; positive sizes rise towards the larger place.
-    Step(Option<u32>, f64),
-}
-
-impl StandingShape {
-    /// What 1 um of it adds at a place, um; `ends_mm` are those of the profile there.
-    fn um_at(self, point: &MeasuredPoint, ends_mm: [f64; 2]) -> f64 {
-        let is_on = |tooth: Option<u32>| tooth.is_none_or(|tooth| tooth == point.tooth);
-        match self {
-            Self::Tooth(tooth) => f64::from(u8::from(tooth == point.tooth)),
-            Self::Profile(tooth) if is_on(tooth) && ends_mm[1] > ends_mm[0] => {
-                let s = 2.0 * (point.u_mm - ends_mm[0]) / (ends_mm[1] - ends_mm[0]) - 1.0;
-                1.0 - s * s
-            }
-            Self::Step(tooth, at_mm) if is_on(tooth) => 0.5 * (point.v_mm - at_mm).signum(),
-            Self::Profile(_) | Self::Step(..) => 0.0,
-        }
-    }
-
-    /// What it is, without sizes.
-    pub fn title(self) -> String {
-        let of = |tooth: Option<u32>| tooth.map_or_else(|| "all teeth".to_owned(), |tooth| format!("tooth {tooth}"));
-        match self {
-            Self::Tooth(tooth) => format!("tooth {tooth} stands out"),
-            Self::Profile(tooth) => format!("profiles of {} are bent", of(tooth)),
-            Self::Step(tooth, at_mm) => format!("flanks of {} step at v = {at_mm:.2} mm", of(tooth)),
-        }
-    }
-}
 
 /// Everything that could stand out at these places.
 fn shapes(points: &[MeasuredPoint]) -> Vec<StandingShape> {

@@ -120,9 +120,9 @@ impl Workplace {
     }
 
     /// Forces the files and their names to the disk: a name that is changed before may outlive a power cut that the
-    /// files do not. Once for all files at the end, because the system has written most of them by then, and in one call
-    /// where there is one: 1000 files of 73 kB took 0.1 to 0.2 s by `syncfs` and 0.8 to 1.1 s file by file (ext4, a busy
-    /// disk of a shared machine).
+    /// files do not. Once for all files at the end, because the system has written most of them by then, and in one
+    /// call where there is one: 1000 files of 73 kB took 0.1 to 0.2 s by `syncfs` and 0.8 to 1.1 s file by file
+    /// (ext4, a busy disk of a shared machine).
     pub(super) fn force_to_disk(&self) -> io::Result<()> {
         let new = self.new_files();
         if !self.steps.sync_all(&new)? {

@@ -296,7 +296,8 @@ fn maps_of_deviations_are_subtracted() {
     assert!(has_field_of(&sheet, 4.0), "no field of the scale's end");
 }
 
-/// Two linkages leave the same flanks and another allowance: that is what is drawn, and the flanks are said to be equal.
+/// Two linkages leave the same flanks and another allowance: that is what is drawn, and the flanks are said to be
+/// equal.
 #[test]
 fn maps_show_what_differs() {
     let folder = two_runs();
