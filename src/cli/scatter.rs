@@ -44,7 +44,7 @@ pub fn run(arguments: &ScatterArguments) -> Result<(), Failure> {
     let interrupt = Interrupt::listen().map_err(listening(&out))?;
     let (choice, progress) = backend::of_few_places(&arguments.few_places)?;
     let cutter = choice.backend.as_ref();
-    let folder = ScatterFolder::open(&out, record(&loaded, flank, tolerances, &cutter.name()))?;
+    let folder = ScatterFolder::open(&out, record(&loaded, flank, tolerances, &cutter.name_in_files()))?;
     let watch = (&progress, &interrupt);
     let of_scene = |error| Failure::of_scene(&loaded, error);
     let cases = measure_cases(scene, cases(&layers), flank, cutter, watch).map_err(of_scene)?;
