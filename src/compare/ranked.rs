@@ -8,7 +8,7 @@
 //! well, and one quantity below every operation) the one that changed most is there.
 
 use super::Compared;
-use super::lines::Line;
+use super::lines::{Line, is_rounding};
 use crate::findings::{Datum, Level, Quantity};
 use crate::steps::inspection::INSPECTION;
 use std::collections::{HashMap, HashSet};
@@ -67,6 +67,9 @@ fn change(line: &Line, limits_um: &HashMap<String, f64>) -> Option<f64> {
     let scale = |[first, other]: [f64; 2]| {
         limit_um.copied().unwrap_or_else(|| first.abs().max(other.abs()).max(worth_telling(unit)))
     };
-    let of = |pair: [f64; 2]| (pair[1] - pair[0]).abs() / scale(pair);
+    let of = |pair: [f64; 2]| {
+        let apart = (pair[1] - pair[0]).abs();
+        if is_rounding(apart) { 0.0 } else { apart / scale(pair) }
+    };
     line.pairs().flatten().map(of).reduce(f64::max).filter(|&change| change > 0.0)
 }

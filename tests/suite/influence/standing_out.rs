@@ -124,7 +124,7 @@ fn teeth_steps_and_hollow_profiles_are_named_as_what_they_are() {
 #[test]
 fn nothing_is_sure_while_deviations_are_unexplained() {
     let room = Room::new();
-    let odd = |at: &MeasuredPoint| if at.tooth % 2 == 0 { 5.0 } else { -5.0 };
+    let odd = |at: &MeasuredPoint| if at.tooth.is_multiple_of(2) { 5.0 } else { -5.0 };
     let (model, found, warnings, printed) = room.diagnosed(12.0, odd);
     assert!(found.unexplained_um > 4.0 && model.standing_out.is_empty(), "{} um", found.unexplained_um);
     assert!(!found.named.is_empty(), "the eccentricity is there");
