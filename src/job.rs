@@ -50,8 +50,8 @@ pub trait GearJob: Sync {
     /// mark runs along it without end.
     fn marks_follow_along_tooth(&self, operation: usize) -> bool;
 
-    /// How far marks of the last operation are apart along the profile and along the tooth, mm, where they repeat evenly:
-    /// maps average over that much. `None`: over their cells alone.
+    /// How far marks of the last operation are apart along the profile and along the tooth, mm, where they repeat
+    /// evenly: maps average over that much. `None`: over their cells alone.
     fn mark_spacing_mm(&self) -> Option<[f64; 2]> {
         None
     }

@@ -7,9 +7,9 @@
 //! line is cut anew, until it is enough. Two lines take milliseconds, so that what they say of a window's numbers is
 //! known before anything else is cut ([`super::foreseen`]).
 //!
-//! A window that would then have too many points becomes shorter about its middle: some 35 marks each way are enough for
-//! every parameter. Where the scene names its lengths, or points would be much finer than the flank's dexels (a draft,
-//! coarse by intention), it stays as it is, and a note says what its slopes are worth.
+//! A window that would then have too many points becomes shorter about its middle: some 35 marks each way are enough
+//! for every parameter. Where the scene names its lengths, or points would be much finer than the flank's dexels (a
+//! draft, coarse by intention), it stays as it is, and a note says what its slopes are worth.
 //!
 //! Road not taken: the length of marks from feed and curvature. Every process has its own law for it, and where passes
 //! of several teeth cross, none in closed form.

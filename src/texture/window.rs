@@ -66,8 +66,8 @@ impl Window {
         finer
     }
 
-    /// The same window, shorter about its middle where the scene leaves that open, so that it has at most so many points
-    /// if it can; both directions by the same factor.
+    /// The same window, shorter about its middle where the scene leaves that open, so that it has at most so many
+    /// points if it can; both directions by the same factor.
     pub(super) fn narrowed(&self, most_points: usize) -> Self {
         let points = (self.count[0] * self.count[1]) as f64;
         let open = self.open_span.iter().filter(|&&open| open).count();

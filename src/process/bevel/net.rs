@@ -5,8 +5,8 @@
 //!
 //! **Law.** Deviations d along the normals over x along the tooth, from the middle of the face towards the heel, and y
 //! along the profile, from its middle towards the tip: least squares of `d = d_0 + s x + p y`. s is the spiral angle's
-//! error, p the pressure angle's, as angles of the flank; over the grid's length and height they are the deviations that
-//! inspection prints.
+//! error, p the pressure angle's, as angles of the flank; over the grid's length and height they are the deviations
+//! that inspection prints.
 
 use super::measure::BevelReport;
 use crate::output::text::significant;
@@ -97,7 +97,8 @@ pub fn svg(flank: &BevelReport, title: &str) -> Option<String> {
     let mut out = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {WIDTH_PX} {HEIGHT_PX}\" width=\"{WIDTH_PX}\" \
          height=\"{HEIGHT_PX}\" font-family=\"DejaVu Sans, Noto Sans, Helvetica, Arial, sans-serif\" \
-         font-size=\"14\">\n<title>{title}</title>\n<rect width=\"{WIDTH_PX}\" height=\"{HEIGHT_PX}\" fill=\"#ffffff\"/>\n\
+         font-size=\"14\">\n<title>{title}</title>\n\
+         <rect width=\"{WIDTH_PX}\" height=\"{HEIGHT_PX}\" fill=\"#ffffff\"/>\n\
          <text x=\"{MARGIN_PX}\" y=\"26\" font-weight=\"bold\">{title}</text>\n"
     );
     for (place, looks) in [

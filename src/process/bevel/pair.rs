@@ -137,8 +137,8 @@ impl Running {
         if range_rad > KNOWN_RAD { range_rad } else { 0.0 }
     }
 
-    /// The parabola that lies nearest to the motion error of one pair of teeth while it carries; none where it carries at
-    /// fewer than three places in a row.
+    /// The parabola that lies nearest to the motion error of one pair of teeth while it carries; none where it carries
+    /// at fewer than three places in a row.
     pub fn parabola(&self) -> Option<Parabola> {
         let carries = |contact: &Contact| self.carrying.iter().any(|(_, carrying, _)| carrying == contact);
         let of_pair: Vec<Option<(f64, f64)>> = self

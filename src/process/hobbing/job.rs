@@ -178,8 +178,8 @@ impl HobbingJob {
         self.kept.get_or_init(make).as_ref().map_err(Clone::clone)
     }
 
-    /// Height of the highest ridge that the slide's feed leaves in an operation, mm: at the pitch line or at the tip, on
-    /// either flank, where the pitch curve bends most or least ([`feed_marks`]).
+    /// Height of the highest ridge that the slide's feed leaves in an operation, mm: at the pitch line or at the tip,
+    /// on either flank, where the pitch curve bends most or least ([`feed_marks`]).
     pub fn feed_mark_mm(&self, operation: &PreparedHobbing) -> f64 {
         let facts = self.curve.facts();
         let feed_mm = operation.plan.slide_feeds_mm.into_iter().fold(0.0, f64::max);
@@ -187,7 +187,7 @@ impl HobbingJob {
         for side in [Side::Left, Side::Right].map(Side::sign) {
             for extremum in [facts.smallest_curvature, facts.largest_curvature] {
                 for height_mm in [0.0, self.blank.addendum_mm] {
-                    let contact = feed_marks::Contact {
+                    let contact = feed_marks::RidgePlace {
                         side,
                         pressure_angle_rad: self.scene.gear.pressure_angle_rad,
                         curvature_per_mm: extremum.curvature_per_mm,

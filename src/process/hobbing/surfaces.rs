@@ -55,8 +55,8 @@ impl GearJob for HobCutter<'_> {
         true // every hob tooth cuts a facet that ends along the tooth, too
     }
 
-    /// Next to each other stand what two gashes leave at the pitch line and what one hob tooth leaves in two turns of the
-    /// work; where the shift crosses the profile, the feed still is the period along the tooth.
+    /// Next to each other stand what two gashes leave at the pitch line and what one hob tooth leaves in two turns of
+    /// the work; where the shift crosses the profile, the feed still is the period along the tooth.
     fn mark_spacing_mm(&self) -> Option<[f64; 2]> {
         let job = self.job;
         let operation = job.finishing();

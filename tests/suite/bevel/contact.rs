@@ -104,8 +104,8 @@ fn a_crowned_pinion_shows_its_bearing_and_how_it_moves() {
     assert!(moved(MountingError::Offset) > 0.1);
 }
 
-/// A parabola with a slope, as errors of one pair of teeth that carries over the middle pitch, comes back with its value
-/// at half a pitch; outside of that pitch the errors may be what they like.
+/// A parabola with a slope, as errors of one pair of teeth that carries over the middle pitch, comes back with its
+/// value at half a pitch; outside of that pitch the errors may be what they like.
 #[test]
 fn the_parabola_of_a_motion_error_has_its_value() {
     let rolled = rolled(&jobs(&[]), &MountingErrors::default());

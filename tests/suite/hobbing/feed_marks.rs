@@ -3,7 +3,7 @@
 use gearcut::cut::cpu::Cpu;
 use gearcut::dexel::{Ray, SpatialField};
 use gearcut::process;
-use gearcut::process::hobbing::linkage::feed_marks::{Contact, ridge_mm};
+use gearcut::process::hobbing::linkage::feed_marks::{RidgePlace, ridge_mm};
 use gearcut::process::hobbing::{HobCutter, HobbingJob};
 use gearcut::terms::Side;
 use std::path::Path;
@@ -65,7 +65,7 @@ fn ridges_between_feeds_are_as_high_as_the_second_order_of_a_gash_says() {
         let mut least_of_one = f64::INFINITY;
         for side in [Side::Left, Side::Right] {
             for height_mm in [-1.2, 0.0, 2.0] {
-                let contact = Contact {
+                let contact = RidgePlace {
                     side: side.sign(),
                     pressure_angle_rad: job.scene.gear.pressure_angle_rad,
                     curvature_per_mm: job.curve.facts().largest_curvature.curvature_per_mm,
@@ -79,7 +79,8 @@ fn ridges_between_feeds_are_as_high_as_the_second_order_of_a_gash_says() {
                     1e3 * (FEED_MM / geometry.head_angle_rad.cos()).powi(2) * job.scene.gear.pressure_angle_rad.sin()
                         / (8.0 * radius_mm);
                 println!(
-                    "{name} {side:?} {height_mm} mm: {cut_um:.3} um as cut, {ridge_um:.3} foreseen, {of_one_um:.3} one gash"
+                    "{name} {side:?} {height_mm} mm: {cut_um:.3} um as cut, {ridge_um:.3} foreseen, \
+                     {of_one_um:.3} one gash"
                 );
                 assert!((cut_um / ridge_um - 1.0).abs() < 0.03, "{name}: {cut_um} um for {ridge_um}");
                 least_of_one = least_of_one.min(ridge_um / of_one_um);

@@ -4,7 +4,7 @@
 
 use crate::fixtures::oracle_cases::*;
 use gearcut::process::hobbing::HobbingJob;
-use gearcut::process::hobbing::linkage::feed_marks::{Contact, ridge_mm};
+use gearcut::process::hobbing::linkage::feed_marks::{RidgePlace, ridge_mm};
 use gearcut::process::hobbing::linkage::marks::Marks;
 use gearcut::process::hobbing::linkage::{FeedPath, HobbingAxes, HobbingGeometry, HobbingLinkage};
 use gearcut::process::hobbing::scene::model::{EvenMotion, ExtraRotation, LinkageForm};
@@ -186,8 +186,9 @@ fn patches_have_the_lattice_and_the_closed_heights_of_the_independent_implementa
         println!("{name}: lattice within {apart:.1e} mm");
         assert!(apart < 1e-7, "{name}: {apart}");
         let closed = &file["closed"];
-        // The paper's form is that of one gash alone: right but for the hob's tilt on a spur gear, too high on a helical one.
-        let contact = Contact {
+        // The paper's form is that of one gash alone: right but for the hob's tilt on a spur gear, too high on a
+        // helical one.
+        let contact = RidgePlace {
             side: side.sign(),
             pressure_angle_rad: case.pressure_angle_rad,
             curvature_per_mm: 1.0 / number(&file, "rho_pitch_curve"),

@@ -17,7 +17,8 @@ fn job(scene: &str, settings: &[&str]) -> HobbingJob {
     HobbingJob::new(&loaded.scene).expect("a job")
 }
 
-/// Points of a flank as cut: all five curves, none off by more than marks; and the lowest and highest place of the flank.
+/// Points of a flank as cut: all five curves, none off by more than marks; and the lowest and highest place of the
+/// flank.
 fn cut_um(job: &HobbingJob, side: Side) -> [f64; 2] {
     let cutter = HobCutter::new(job).expect("passes");
     let points = offset_curves::measure(&cutter, &Cpu::default(), 1, side).expect("all points are found");
@@ -33,8 +34,8 @@ fn cut_um(job: &HobbingJob, side: Side) -> [f64; 2] {
     [heights().fold(f64::INFINITY, f64::min), heights().fold(0.0, f64::max)]
 }
 
-/// inv(aK) = D / (z m cos a) - (pi - 4 x tan a) / (2 z) + inv(a), M = z m cos a / cos aK + D; the span is 21.1793 mm over
-/// 4 teeth. ISO 4156 has 30, 37.5 and 45 deg with heights of 0.5, 0.45 and 0.4 modules.
+/// inv(aK) = D / (z m cos a) - (pi - 4 x tan a) / (2 z) + inv(a), M = z m cos a / cos aK + D; the span is 21.1793 mm
+/// over 4 teeth. ISO 4156 has 30, 37.5 and 45 deg with heights of 0.5, 0.45 and 0.4 modules.
 #[test]
 fn splines_are_cut_and_have_their_sizes() {
     let sizes = |job: &HobbingJob| {
@@ -81,8 +82,8 @@ fn splines_are_cut_and_have_their_sizes() {
     }
 }
 
-/// Roots of the hob at 0.7 modules leave tips of 0.7 modules: flanks end there, and nothing lies under the target. With a
-/// hob as deep as usual the blank's own tips stay.
+/// Roots of the hob at 0.7 modules leave tips of 0.7 modules: flanks end there, and nothing lies under the target. With
+/// a hob as deep as usual the blank's own tips stay.
 #[test]
 fn a_hob_with_a_short_dedendum_tops_the_gear() {
     let small = ["gear.module_mm=2", "gear.teeth=24", "tool.hob.reference_diameter_mm=60", "tool.hob.length_mm=60"];

@@ -22,8 +22,8 @@ fn load(settings: &[&str]) -> gearcut::Result<HobbingJob> {
     HobbingJob::new(&process::load(Path::new("scenes/hobbing/circular_spur.toml"), &settings)?.scene)
 }
 
-/// Heights on the hob over its pitch line of contacts along a flank in the middle of the face, up to the gear's tip, mm,
-/// and the deviation as cut there, um.
+/// Heights on the hob over its pitch line of contacts along a flank in the middle of the face, up to the gear's tip,
+/// mm, and the deviation as cut there, um.
 fn profile(job: &HobbingJob, side: Side) -> Vec<(f64, f64)> {
     let cutter = HobCutter::new(job).expect("passes");
     let (sin, cos) = job.target.rack.pressure_angle_rad.sin_cos();
@@ -38,9 +38,9 @@ fn profile(job: &HobbingJob, side: Side) -> Vec<(f64, f64)> {
     distances_mm.iter().zip(&layers[0].heights_mm).map(|(c, &mm)| (c * sin, 1e3 * f64::from(mm))).collect()
 }
 
-/// Rolling keeps distances along normals: at the height h over 1.2 mm the gear lacks 20 um (h - 1.2) / 0.8, to the first
-/// order of the relief's angle e of 1.5 deg: e / (2 tan alpha), 3.6 %, more in truth. The gear's tip is cut at 1.67 mm, not
-/// at its addendum, and lacks 11.7 um.
+/// Rolling keeps distances along normals: at the height h over 1.2 mm the gear lacks 20 um (h - 1.2) / 0.8, to the
+/// first order of the relief's angle e of 1.5 deg: e / (2 tan alpha), 3.6 %, more in truth. The gear's tip is cut at
+/// 1.67 mm, not at its addendum, and lacks 11.7 um.
 #[test]
 fn the_gear_lacks_what_the_hob_stands_out_by() {
     let plain = load(&[]).expect("a job");

@@ -10,8 +10,9 @@ const DIAGONAL: &str = "scenes/hobbing/third_order_diagonal.toml";
 
 #[test]
 fn ridges_above_their_tolerance_are_warned_about_with_their_height() {
-    // f^2 sin(alpha) / (8 R_c) with f = 12 / cos(lambda), sin(lambda) = 3 / 80, R_c = 40 - 3 mm: 166.6 um of one gash, 2 %
-    // less with those beside it, since the hob is tilted; 10 um are allowed, a feed of 12 sqrt(10 / 164) mm leaves them.
+    // f^2 sin(alpha) / (8 R_c) with f = 12 / cos(lambda), sin(lambda) = 3 / 80, R_c = 40 - 3 mm: 166.6 um of one gash,
+    // 2 % less with those beside it, since the hob is tilted; 10 um are allowed, a feed of 12 sqrt(10 / 164) mm leaves
+    // them.
     let coarse = [
         "--set",
         "operation.finish.axial_feed_mm_per_revolution=12",

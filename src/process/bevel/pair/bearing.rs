@@ -1,7 +1,7 @@
 //! The bearing on the gear's flank, as it is seen on a gear that was rolled with marking compound.
 //!
-//! In: a rolled side. Out: a drawing to scale, the flank in the plane through the gear's axis: along the tooth, toe to the
-//! left, and up over the pitch cone. Filled is what comes nearer than the compound is thick while the pair of teeth
+//! In: a rolled side. Out: a drawing to scale, the flank in the plane through the gear's axis: along the tooth, toe to
+//! the left, and up over the pitch cone. Filled is what comes nearer than the compound is thick while the pair of teeth
 //! carries: all its ellipses from place to place of the path, as far as the flank goes.
 
 use super::RolledSide;

@@ -70,8 +70,8 @@ fn parabola(side: &RolledSide) -> Quantity {
     Quantity::number_or(
         side.running.parabola().map(|parabola| ARCSEC_PER_RAD * parabola.over_pitch_rad()),
         "arcsec",
-        "parabola through the motion error of one pair of teeth while it carries: how far it falls from its top to half a \
-        pitch beside it, negative where the gear runs behind there",
+        "parabola through the motion error of one pair of teeth while it carries: how far it falls from its top to \
+        half a pitch beside it, negative where the gear runs behind there",
         "one pair of teeth carries at fewer than three places in a row",
     )
 }

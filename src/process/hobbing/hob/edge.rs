@@ -33,13 +33,13 @@ pub(super) struct RakeFlank {
     pub axial_tan: f64,
     pub regrind_mm: f64,
     /// How far this part of the flank stands out of its line.
-    pub relief: Option<Relief>,
+    pub relief: Option<FlankRelief>,
 }
 
-/// A part of a flank that stands out of its line: distance from the axis at which it begins (new hob), what it stands out
-/// by there, and how much more per length towards the axis; in the axial section.
+/// A part of a flank that stands out of its line: distance from the axis at which it begins (new hob), what it stands
+/// out by there, and how much more per length towards the axis; in the axial section.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Relief {
+pub(super) struct FlankRelief {
     from_mm: f64,
     aside_mm: f64,
     slope: f64,
@@ -196,15 +196,15 @@ fn flank_parts(
     cos_lead: f64,
 ) -> Result<Vec<(RakeFlank, f64)>, Refusal> {
     let mut parts = vec![(flank.clone(), flank_end_mm)];
-    let mut before: Option<Relief> = None;
+    let mut before: Option<FlankRelief> = None;
     for relief in &spec.tip_reliefs {
         let from_mm = flank.reference_radius_mm - relief.height_mm;
         if from_mm <= root_mm || from_mm >= flank_end_mm {
             return Err(Refusal::new(
                 "tool.hob",
                 format!(
-                    "tip relief or semi-topping begins {:.3} mm over the pitch line; the flank goes from {:.3} mm under \
-                     it to {:.3} mm over it",
+                    "tip relief or semi-topping begins {:.3} mm over the pitch line; the flank goes from {:.3} mm \
+                     under it to {:.3} mm over it",
                     relief.height_mm,
                     flank_end_mm - flank.reference_radius_mm,
                     flank.reference_radius_mm - root_mm
@@ -213,7 +213,7 @@ fn flank_parts(
             ));
         }
         let aside_mm = before.map_or(0.0, |of| of.aside_mm + of.slope * (of.from_mm - from_mm));
-        let part = Relief { from_mm, aside_mm, slope: relief.slope / cos_lead };
+        let part = FlankRelief { from_mm, aside_mm, slope: relief.slope / cos_lead };
         parts.push((RakeFlank { relief: Some(part), ..flank.clone() }, from_mm));
         before = Some(part);
     }

@@ -9,8 +9,8 @@
 //!
 //! `f^2 / (8 cos^2 beta) (Q_TT - Q_Tc^2 / Q_cc)`
 //!
-//! high. On a spur gear Q_Tc is nearly 0, and Q_TT alone is the arc of the hob's circle, `f^2 sin(alpha_n) / (8 R)`. On a
-//! helical one the gashes that follow cut off a third and more of what one gash alone would leave.
+//! high. On a spur gear Q_Tc is nearly 0, and Q_TT alone is the arc of the hob's circle, `f^2 sin(alpha_n) / (8 R)`. On
+//! a helical one the gashes that follow cut off a third and more of what one gash alone would leave.
 //!
 //! **Q.** In the frame of the rack, an edge point u along the edge from the contact and t radians of the hob later lies
 //! `(A u^2 + 2 B u t + C t^2) / 2` over the rack's flank, N its normal: A the edge's own curvature, B = N . (h_b d0 x
@@ -28,7 +28,7 @@ use glam::{DMat2, DVec2, DVec3};
 
 /// Where a flank touches, and on which curve.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Contact {
+pub struct RidgePlace {
     /// e: +1 for left flanks, -1 for right ones.
     pub side: f64,
     /// Normal pressure angle.
@@ -40,8 +40,8 @@ pub struct Contact {
 }
 
 /// Height of the ridge between two feeds of the slide, `feed_mm` apart, normal to the flank, mm.
-pub fn ridge_mm(hob: &Hob, geometry: &HobbingGeometry, contact: &Contact, feed_mm: f64) -> f64 {
-    let Contact { side: e, pressure_angle_rad, curvature_per_mm, height_mm } = *contact;
+pub fn ridge_mm(hob: &Hob, geometry: &HobbingGeometry, contact: &RidgePlace, feed_mm: f64) -> f64 {
+    let RidgePlace { side: e, pressure_angle_rad, curvature_per_mm, height_mm } = *contact;
     let (sin_b, cos_b) = geometry.helix_angle_rad.sin_cos();
     let (sin_n, cos_n) = pressure_angle_rad.sin_cos();
     let (sin_t, cos_t) = (sin_n / cos_n / cos_b).atan().sin_cos();

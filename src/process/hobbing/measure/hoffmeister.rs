@@ -1,8 +1,8 @@
 //! The thickest uncut chip by the formula that shops plan feeds with.
 //!
-//! In: a round gear, the hob and the feed of an operation that cuts into the full blank. Out: the thickness at the hob's
-//! tip, mm. Law (B. Hoffmeister, Ueber den Verschleiss am Waelzfraeser, dissertation RWTH Aachen 1970), beta in degrees,
-//! r_a0 the hob's tip radius, i gashes, z_0 starts, a_p the depth of the cut:
+//! In: a round gear, the hob and the feed of an operation that cuts into the full blank. Out: the thickness at the
+//! hob's tip, mm. Law (B. Hoffmeister, Ueber den Verschleiss am Waelzfraeser, dissertation RWTH Aachen 1970), beta in
+//! degrees, r_a0 the hob's tip radius, i gashes, z_0 starts, a_p the depth of the cut:
 //!
 //! `4.9 m z^(9.25e-3 beta - 0.542) e^(-0.015 beta - 0.015 x) (r_a0 / m)^(-8.25e-3 beta - 0.225) (i / z_0)^-0.877
 //! (f_a / m)^0.511 (a_p / m)^0.319`

@@ -6,8 +6,8 @@
 //!
 //! The curves run along the pitch curve at constant distances, at 3 and 6 mm to both sides on the paper's gear of
 //! module 8; here at the same shares of the normal module, or lower where the tooth is lower ([`offsets_mm`]): a ray
-//! along a curve beside the tooth meets what hob teeth leave elsewhere. Where the tip corner has undercut a flank, the target is the
-//! corner's own path
+//! along a curve beside the tooth meets what hob teeth leave elsewhere. Where the tip corner has undercut a flank, the
+//! target is the corner's own path
 //! ([`RackGeneration::crossing`](crate::process::hobbing::rack_generation::RackGeneration::crossing)): 20 of the
 //! paper's 350 points lie there.
 //!

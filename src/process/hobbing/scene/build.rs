@@ -2,10 +2,10 @@
 
 use super::keys::AXES;
 use super::model::{
-    Approach, EvenMotion, ExtraRotation, FeedDirection, FeedOf, GashForm, HobSize, HobSpec, Hobbing, HobbingAxisLimits,
-    HobbingKind, HobbingOperation, LinkageForm, Protuberance, ShiftDirection, ShiftStrategy, TipRelief, Worm,
+    Approach, EvenMotion, ExtraRotation, FeedDirection, FeedOf, GashForm, HobRelief, HobSize, HobSpec, Hobbing,
+    HobbingAxisLimits, HobbingKind, HobbingOperation, LinkageForm, Protuberance, ShiftDirection, ShiftStrategy, Worm,
 };
-use super::standard_hob::{self, Tip};
+use super::standard_hob::{self, HobTip};
 use crate::scene::ScenePart;
 use crate::scene::build::{cutting_force, linear_programs, stock_or_offset_mm};
 use crate::scene::machine_errors::{machine_errors, tool_mounting};
@@ -43,7 +43,7 @@ fn hob(hob: View<'_>, gear: View<'_>) -> Option<HobSpec> {
         Some(height_mm) => Some(Protuberance { height_mm, angle_rad: hob.rad("protuberance_angle_deg")? }),
         None => None,
     };
-    let tip = Tip {
+    let tip = HobTip {
         module_mm,
         pressure_angle_rad: gear.rad("pressure_angle_deg")?,
         hob_addendum: addendum_coefficient,
@@ -84,18 +84,18 @@ fn hob(hob: View<'_>, gear: View<'_>) -> Option<HobSpec> {
     })
 }
 
-/// Tip relief as a share of the height up to the gear's addendum, semi-topping by its angle.
-fn tip_reliefs(hob: View<'_>, gear: View<'_>) -> Option<Vec<TipRelief>> {
+/// HobTip relief as a share of the height up to the gear's addendum, semi-topping by its angle.
+fn tip_reliefs(hob: View<'_>, gear: View<'_>) -> Option<Vec<HobRelief>> {
     let flank_rad = gear.rad("pressure_angle_deg")?;
     let addendum_mm = gear.number("addendum_coefficient")? * gear.number("module_mm")?;
     let mut reliefs = Vec::new();
     if let Some(height_mm) = hob.number("tip_relief_height_mm") {
         let aside_mm = hob.mm_from_um("tip_relief_um")? / flank_rad.cos();
-        reliefs.push(TipRelief { height_mm, slope: aside_mm / (addendum_mm - height_mm) });
+        reliefs.push(HobRelief { height_mm, slope: aside_mm / (addendum_mm - height_mm) });
     }
     if let Some(height_mm) = hob.number("semi_topping_height_mm") {
         let slope = hob.rad("semi_topping_angle_deg")?.tan() - flank_rad.tan();
-        reliefs.push(TipRelief { height_mm, slope });
+        reliefs.push(HobRelief { height_mm, slope });
     }
     Some(reliefs)
 }

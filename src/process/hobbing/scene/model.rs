@@ -56,7 +56,7 @@ pub struct HobSpec {
     pub protuberance: Option<Protuberance>,
     /// Where the flanks leave their line towards the root and relieve or chamfer the gear's tips, in the order of their
     /// heights.
-    pub tip_reliefs: Vec<TipRelief>,
+    pub tip_reliefs: Vec<HobRelief>,
     /// Normal thickness taken off every tooth on the pitch cylinder, as on a roughing hob, mm.
     pub thinning_mm: f64,
     /// How much the radius has shrunk by regrinding, mm.
@@ -123,7 +123,7 @@ pub struct Protuberance {
 
 /// A part of a hob's flank that stands out towards the root: it takes off the gear's tips.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct TipRelief {
+pub struct HobRelief {
     /// Height over the hob's pitch line, towards its root, at which it begins, mm.
     pub height_mm: f64,
     /// How much further the flank stands out per height than its own line does, along the pitch line in the normal

@@ -1,11 +1,11 @@
 //! The hob of a scene that does not say all of it: the usual one of its module.
 //!
-//! In: module, pressure angle and the hob's heights. Out: diameter and length by DIN 8002, and the tip round that leaves
-//! the root of ISO 53.
+//! In: module, pressure angle and the hob's heights. Out: diameter and length by DIN 8002, and the tip round that
+//! leaves the root of ISO 53.
 
 use super::model::Protuberance;
 
-/// Tip diameter and length with full teeth of single-start hobs for spur gears (DIN 8002, form A) by module, each up to
+/// HobTip diameter and length with full teeth of single-start hobs for spur gears (DIN 8002, form A) by module, each up to
 /// the first number, mm. The standard's intermediate modules take the row they lie in.
 const SIZES: [[f64; 3]; 10] = [
     [1.4, 50.0, 25.0],
@@ -32,14 +32,14 @@ const OF_FULL_ROUND: f64 = 0.9;
 /// Modules that have a usual hob, mm.
 pub(super) const MODULES_MM: [f64; 2] = [SMALLEST_MODULE_MM, SIZES[SIZES.len() - 1][0]];
 
-/// Tip diameter and length with full teeth, mm; `None` where the standard has no hob of this module.
+/// HobTip diameter and length with full teeth, mm; `None` where the standard has no hob of this module.
 pub(super) fn size_mm(module_mm: f64) -> Option<[f64; 2]> {
     let row = SIZES.iter().find(|[up_to_mm, ..]| module_mm <= *up_to_mm)?;
     (module_mm >= SMALLEST_MODULE_MM).then_some([row[1], row[2]])
 }
 
 /// Heights of hob and gear, modules, and what the tip looks like.
-pub(super) struct Tip {
+pub(super) struct HobTip {
     pub module_mm: f64,
     pub pressure_angle_rad: f64,
     pub hob_addendum: f64,
@@ -48,8 +48,8 @@ pub(super) struct Tip {
     pub protuberance: Option<Protuberance>,
 }
 
-impl Tip {
-    /// Tip round, mm: 0.38 modules, less where the clearance, the tip's width or a protuberance has no room for it; 0
+impl HobTip {
+    /// HobTip round, mm: 0.38 modules, less where the clearance, the tip's width or a protuberance has no room for it; 0
     /// where the hob is no deeper than the gear's addendum.
     pub fn round_mm(&self) -> f64 {
         let (m, flank_rad) = (self.module_mm, self.pressure_angle_rad);
@@ -77,13 +77,13 @@ impl Tip {
 mod tests {
     use super::*;
 
-    fn tip(pressure_angle_deg: f64, hob_addendum: f64, gear_addendum: f64) -> Tip {
+    fn tip(pressure_angle_deg: f64, hob_addendum: f64, gear_addendum: f64) -> HobTip {
         let pressure_angle_rad = pressure_angle_deg.to_radians();
-        Tip { module_mm: 2.0, pressure_angle_rad, hob_addendum, gear_addendum, thinning_mm: 0.0, protuberance: None }
+        HobTip { module_mm: 2.0, pressure_angle_rad, hob_addendum, gear_addendum, thinning_mm: 0.0, protuberance: None }
     }
 
-    /// ISO 53, racks A and C: 0.38 and 0.25 modules; a spline of 30 deg with a clearance of 0.15 modules 0.3; 25 deg and
-    /// 1.25 modules are too pointed for 0.38.
+    /// ISO 53, racks A and C: 0.38 and 0.25 modules; a spline of 30 deg with a clearance of 0.15 modules 0.3; 25 deg
+    /// and 1.25 modules are too pointed for 0.38.
     #[test]
     fn a_tip_round_is_that_of_the_standard_rack_where_it_fits() {
         assert_eq!(tip(20.0, 1.25, 1.0).round_mm(), 0.76);

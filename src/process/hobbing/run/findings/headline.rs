@@ -65,8 +65,8 @@ fn tool(job: &HobbingJob, measured: &Measured) -> Vec<Entry> {
         entries.push(Entry::headline("thickest_chip", "thickest chip", quantity));
     }
     if let Some(thickness_mm) = hoffmeister::thickest_chip_mm(job) {
-        let definition = "thickest chip of the first operation by the formula of Hoffmeister (1970), fitted to standard \
-                          racks on round gears";
+        let definition = "thickest chip of the first operation by the formula of Hoffmeister (1970), fitted to \
+                          standard racks on round gears";
         let quantity = Quantity::number(thickness_mm, "mm", definition);
         entries.push(Entry::headline("thickest_chip_by_hoffmeister", "by Hoffmeister's formula", quantity));
     }

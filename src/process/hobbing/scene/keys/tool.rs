@@ -111,8 +111,8 @@ pub(super) static SECTIONS: &[KeySection] = &[KeySection {
             Range::closed(-50.0, 100.0),
             "no tip relief",
             "1.2",
-            "Height over the hob's pitch line, towards its root, from which on its flanks relieve the gear's tips; a place \
-            of the gear at the distance c from the pitch point is cut at the height c sin(alpha_t).",
+            "Height over the hob's pitch line, towards its root, from which on its flanks relieve the gear's tips; a \
+            place of the gear at the distance c from the pitch point is cut at the height c sin(alpha_t).",
         ),
         Key::number(
             "tip_relief_um",
