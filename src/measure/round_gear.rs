@@ -9,6 +9,9 @@
 //!
 //! - span over k teeth `W_k = m_n cos(alpha_n) ((k - 1/2) pi + z inv(alpha_t) + 2 x_E tan(alpha_n))`; it touches at the
 //!   diameter `sqrt(d_b^2 + (W_k cos(beta_b))^2)`;
+//! - a tooth's chord at the reference circle, `d_v sin(psi)`, and its height below the tip, `h_a + (d_v / 2) (1 -
+//!   cos(psi))`, psi = s_n / d_v, s_n = s_t cos(beta), d_v = d / cos(beta)^2 being the circle that osculates the normal
+//!   section (what a gear tooth vernier is set to; of spur gears both are exact);
 //! - a ball of diameter D_M in a space has its centre at `d_K = d_b / cos(alpha_K)`, where
 //!   `inv(alpha_K) = inv(alpha_t) + D_M / (z m_n cos(alpha_n)) - eta` and eta is half the space's angle on the
 //!   reference circle; the dimension over two balls is `d_K + D_M`, for an odd number of teeth
@@ -172,6 +175,17 @@ impl RoundGear {
         self.kind.tip_sign() * self.generating_shift()
     }
 
+    /// Chord of a tooth at the reference circle and its height below the tip circle, normal section, mm. None in a
+    /// ring, in which no vernier stands.
+    pub fn chordal_mm(&self) -> Option<[f64; 2]> {
+        let cosine = self.helix_angle_rad.cos();
+        let virtual_mm = self.reference_diameter_mm() / (cosine * cosine);
+        let half_rad = self.thickness_mm * cosine / virtual_mm;
+        let addendum_mm = 0.5 * (self.tip_diameter_mm - self.reference_diameter_mm());
+        let height_mm = addendum_mm + 0.5 * virtual_mm * (1.0 - half_rad.cos());
+        (self.kind == GearKind::External).then_some([virtual_mm * half_rad.sin(), height_mm])
+    }
+
     /// Span over k teeth, in a ring across k spaces.
     pub fn span_over(&self, teeth: u32) -> SpanMeasure {
         let alpha_n = self.normal_pressure_angle_rad;
@@ -297,6 +311,24 @@ mod tests {
         close(over.dimension_mm, 22.2941);
         close(over.touch_diameter_mm, 19.9594);
         close(gear.tip_clearance_mm(), 0.25);
+    }
+
+    /// Half angle 90 deg / z + 360 deg x tan(alpha) / (pi z), chord z m sin of it, height z m (1 - cos) / 2 + h_a (gear
+    /// tooth vernier; KHK, Calculation of gear dimensions): 12 teeth of module 10, x 0.3, and two more.
+    #[test]
+    fn chords_are_those_of_a_gear_tooth_vernier() {
+        let spur = gear(GearKind::External, 12, 10.0, 0.0, 0.3).chordal_mm().expect("an external gear");
+        close(spur[0], 17.8256);
+        close(spur[1], 13.6657);
+        for (teeth, module_mm, shift) in [(20, 1.0, 0.0), (35, 4.0, -0.2)] {
+            let [chord_mm, height_mm] =
+                gear(GearKind::External, teeth, module_mm, 0.0, shift).chordal_mm().expect("an external gear");
+            let (z, d) = (f64::from(teeth), f64::from(teeth) * module_mm);
+            let half_deg = 90.0 / z + 360.0 * shift * 20_f64.to_radians().tan() / (PI * z);
+            close(chord_mm, d * half_deg.to_radians().sin());
+            close(height_mm, 0.5 * d * (1.0 - half_deg.to_radians().cos()) + (1.0 + shift) * module_mm);
+        }
+        assert_eq!(gear(GearKind::Internal, 60, 2.0, 0.0, 0.0).chordal_mm(), None);
     }
 
     /// 30 teeth of module 1, thinned by 0.03 mm (ONDRIVES' calculator at mesys.ch): x_E -0.0412, radius over one ball

@@ -149,12 +149,12 @@ impl TargetOutline {
         let [column, row] = self.bucket(p);
         let rows = self.buckets.len() / self.columns;
         let mut best: Option<(f64, f64)> = None;
-        for ring in 0.. {
-            let reached_mm = (f64::from(ring) - 1.0) * BUCKET_MM;
+        // The last ring holds all buckets, wherever the point is.
+        for ring in 0..=self.columns.max(rows) {
+            let reached_mm = (ring as f64 - 1.0) * BUCKET_MM;
             if reached_mm > limit_mm || best.is_some_and(|(distance, _)| distance < reached_mm) {
                 break;
             }
-            let ring = ring as usize;
             let (left, right) = (column.saturating_sub(ring), (column + ring).min(self.columns - 1));
             for r in row.saturating_sub(ring)..=(row + ring).min(rows - 1) {
                 let edge = r + ring == row || r == row + ring;

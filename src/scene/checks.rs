@@ -96,7 +96,12 @@ fn profile(found: &mut Found) -> Option<()> {
 fn of_round_gears(found: &mut Found) -> Option<()> {
     let curve = found.view("gear").variant("pitch_curve")?;
     for (key, what, way_out) in [
-        ("iso_1328_class", "the classes of ISO 1328-1", "write what the drawing allows in [measure.limits]"),
+        (
+            "iso_1328_class",
+            "the classes of ISO 1328-1",
+            "write what the drawing allows in [measure.limits]; without this key gearcut check prints those of the \
+             round gear of the same mean diameter",
+        ),
         ("ball_diameter_mm", "dimensions over balls", "remove it; tables/teeth.csv has the thickness of every tooth"),
     ] {
         let message = || format!("`measure.{key}`: {what} are for round gears, and the pitch curve is {curve}");

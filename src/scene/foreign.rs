@@ -35,6 +35,10 @@ pub(super) fn refuse_foreign(
         let named = |name: &dyn Fn(&SceneProcess) -> String, joint: &str| {
             owners.iter().map(|owner| name(owner)).collect::<Vec<_>>().join(joint)
         };
+        // Another tool is no way out where it does not come into the ring.
+        let is_ring = values.view("gear").text("kind") == Some("internal");
+        let tools: Vec<String> =
+            owners.iter().filter(|owner| !is_ring || owner.cuts_rings).map(|owner| owner.tool_header()).collect();
         let senseless = process.senseless.iter().find(|senseless| senseless.holds(&path_in_table));
         problems.add(
             &values.place_of(&path),
@@ -45,12 +49,12 @@ pub(super) fn refuse_foreign(
                 process.name,
                 senseless.map_or(String::new(), |senseless| format!(", where {}", senseless.why))
             ),
-            format!(
-                "{}, or write {} instead of {}",
-                senseless.map_or("remove it", |senseless| senseless.instead),
-                named(&|owner| owner.tool_header(), " or "),
-                process.tool_header()
-            ),
+            match (senseless.map_or("remove it", |senseless| senseless.instead), tools.is_empty()) {
+                (instead, true) => instead.to_owned(),
+                (instead, false) => {
+                    format!("{instead}, or write {} instead of {}", tools.join(" or "), process.tool_header())
+                }
+            },
         );
     }
     values.held.retain(|path, _| !foreign(path));

@@ -32,6 +32,7 @@ mod process;
 pub mod reference;
 #[doc(hidden)]
 pub mod schema;
+mod shop_words;
 mod sources;
 pub mod suggest;
 mod table;

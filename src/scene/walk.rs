@@ -9,6 +9,7 @@ use super::errors::MOST_PROBLEMS;
 use super::keys::{self, Default, Key, Role, join};
 use super::overrides::default_name;
 use super::problems::Problems;
+use super::shop_words;
 use super::sources::At;
 use super::suggest::{display_path, nearest};
 use super::table::{KeyTable, TableSection};
@@ -245,10 +246,12 @@ impl<'a> Walk<'a, '_> {
             _ => "key",
         };
         let article = if what.starts_with(['a', 'e', 'i', 'o']) { "an" } else { "a" };
-        let (hint, way_out) = match nearest(self.table, section, &entry.name) {
+        let nearest = || match nearest(self.table, section, &entry.name) {
             Some(found) => (format!(" Did you mean {}?", found.words()), found.way_out(section)),
             None => (String::new(), format!("correct or remove it; {}", self.contents(section))),
         };
+        let shop_word = shop_words::way_out(section, &entry.name, &entry.node);
+        let (hint, way_out) = shop_word.map_or_else(nearest, |way_out| (String::new(), way_out));
         self.problems.add(&entry.name_at, format!("`{name}` is not {article} {what}.{hint}"), way_out);
     }
 

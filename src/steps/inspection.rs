@@ -5,12 +5,13 @@
 
 use crate::findings::{Datum, Entry, Level, Quantity, Section, Table, TableColumn, Warning};
 use crate::job::CylindricalGear;
+use crate::measure::flank_tolerance::{InspectionFigure, ToleranceSizes};
 use crate::measure::inspection::{GearInspection, InspectedFlank};
-use crate::measure::round_gear::RoundGear;
+use crate::measure::round_gear::{RoundGear, is_round};
 use crate::measure::verdict::{ClassReached, GearVerdict, JudgedFigure, no_class};
 use crate::output::summary;
 use crate::output::text::{Sheet, significant};
-use crate::scene::model::Measure;
+use crate::scene::model::{DrawnLimits, Measure};
 use gearcut_core::error::Result;
 use gearcut_core::gear::GearKind;
 
@@ -18,6 +19,8 @@ use gearcut_core::gear::GearKind;
 pub const SIZES: &str = "round_gear";
 /// Key of the figures.
 pub const INSPECTION: &str = "inspection";
+/// Class of the limits that are offered to a gear without one: what shaping and hobbing are ordinarily asked for.
+const MEAN_CLASS: u32 = 7;
 const NOT_MEASURED: &str =
     "it was not measured: a flank was not cut completely, is cut away, or does not cross the pitch curve";
 
@@ -142,6 +145,13 @@ pub fn sizes(round: &RoundGear, measure: &Measure, cut_thickness_mm: Option<f64>
             "thickness",
             mm(round.thickness_mm, "s_t: thickness of the target, transverse arc of the reference circle"),
         );
+    for (index, key, definition) in [
+        (0, "chordal_thickness", "chord of a tooth of the target at the reference circle, normal section"),
+        (1, "chordal_height", "height of the tip circle over the middle of that chord, normal section"),
+    ] {
+        let value_mm = round.chordal_mm().map(|of| of[index]);
+        section = section.with(key, Quantity::number_or(value_mm, "mm", definition, "no vernier stands in a ring"));
+    }
     let ball_mm = measure.ball_diameter_mm.unwrap_or_else(|| round.usual_ball_mm());
     section = section.with("ball_diameter", mm(ball_mm, "D_M: balls or pins of the dimension over two of them"));
     let of_span = if ring { "W_k: span across k spaces of the target" } else { "W_k: span over k teeth of the target" };
@@ -188,7 +198,7 @@ fn without_generated(sizes: &mut Section, measure: &Measure, why: &str) {
 }
 
 /// Signs of the sizes, as drawings have them.
-const SIGNS: [(&str, &str); 20] = [
+const SIGNS: [(&str, &str); 22] = [
     ("reference_diameter", "d"),
     ("base_diameter", "d_b"),
     ("tip_diameter", "d_a"),
@@ -201,6 +211,8 @@ const SIGNS: [(&str, &str); 20] = [
     ("generating_profile_shift", "x_E"),
     ("tip_clearance", "c"),
     ("thickness", "s_t"),
+    ("chordal_thickness", "s_c"),
+    ("chordal_height", "h_c"),
     ("ball_diameter", "D_M"),
     ("span_teeth", "k"),
     ("span", "W_k"),
@@ -236,12 +248,41 @@ pub fn size_rows(sizes: &Section) -> Vec<[String; 3]> {
 /// # Errors
 /// The tool generates no flank.
 pub fn print(sheet: &mut Sheet, job: &dyn CylindricalGear) -> Result<()> {
-    let Some(round) = job.round_gear()? else { return Ok(()) };
+    let Some(round) = job.round_gear()? else {
+        limits_of_mean_gear(sheet, job);
+        return Ok(());
+    };
     sheet.heading("Round gear");
     for [title, sign, value] in size_rows(&sizes(&round, &job.scene().measure, None)) {
         summary::line(sheet, &format!("{} {sign}", title.to_lowercase()), &value);
     }
     Ok(())
+}
+
+/// Limits for a gear that has no class, where its scene has none yet: those of the round gear of the same mean
+/// diameter, ready to paste.
+fn limits_of_mean_gear(sheet: &mut Sheet, job: &dyn CylindricalGear) {
+    let gear = &job.scene().gear;
+    let sizes = ToleranceSizes {
+        teeth: gear.teeth,
+        reference_diameter_mm: gear.transverse_module_mm() * f64::from(gear.teeth),
+        normal_module_mm: gear.module_mm,
+        face_width_mm: gear.face_width_mm,
+        helix_angle_rad: gear.helix_angle_rad,
+    };
+    let has_limits = job.scene().measure.limits != DrawnLimits::default();
+    if is_round(job.curve()) || has_limits || sizes.beyond().is_some() {
+        return;
+    }
+    sheet.heading("Limits of the round gear of the same mean diameter");
+    sheet.words("[measure.limits]");
+    sheet.words(&format!("# class {MEAN_CLASS} of ISO 1328-1 at d = {:.3} mm,", sizes.reference_diameter_mm));
+    sheet.words("# not of this gear, which has no class; a class is a factor of 1.41");
+    for figure in InspectionFigure::ALL {
+        if let Ok(limit_um) = sizes.tolerance_um(figure, MEAN_CLASS) {
+            sheet.words(&format!("{}_um = {limit_um}", figure.key()));
+        }
+    }
 }
 
 /// A class in words.

@@ -4,7 +4,7 @@ use crate::fixtures::paper::{NORMAL, TRADITIONAL, operation, paper_scene};
 use gearcut::cut::cpu::Cpu;
 use gearcut::gear::{PitchCurveShape, TableScaling};
 use gearcut::interrupt::Interrupt;
-use gearcut::measure::scallop::cusps;
+use gearcut::measure::scallop::{cusps, facets};
 use gearcut::measure::topography::Form;
 use gearcut::output::progress::{Progress, ProgressMode};
 use gearcut::process::shaping::ShapingJob;
@@ -42,7 +42,7 @@ fn flank_cusps(job: &ShapingJob, tooth: u32, side: Side, crossing_arc_mm: f64) -
     let cut = job.cut(&Cpu::default(), job.flank_field(flank)).expect("cut");
     let rolled = |arc_mm: f64| job.curve.arc_mm(flank.at_arc(arc_mm).phi_rad) - crossing_arc_mm;
     let towards_root = (rolled(0.0) - rolled(flank.length_mm())).signum();
-    let found = cusps(&cut.field, &cut.layers[0], 0);
+    let found = cusps(&facets(&cut.field, &cut.layers[0], 0));
     let list = found.iter().map(|cusp| [towards_root * rolled(cusp.arc_mm), cusp.height_mm]).collect();
     (list, job.curve.perimeter_mm() / job.operations[0].schedule.count() as f64)
 }
@@ -234,7 +234,7 @@ fn a_cut_scallop_surface_has_the_fingerprint_of_its_shape() {
     let probe = ShapingJob::new(scene.clone()).expect("a job");
     let flank = probe.target_flank(7, Side::Left);
     let cut = probe.cut(&Cpu::default(), probe.flank_field(flank)).expect("cut");
-    let all = cusps(&cut.field, &cut.layers[0], 0);
+    let all = cusps(&facets(&cut.field, &cut.layers[0], 0));
     let first = all.len() / 2 - 5;
     let marks = &all[first..=first + 10];
     let mean_um = 1e3 * marks.iter().map(|c| c.height_mm).sum::<f64>() / marks.len() as f64;
@@ -277,7 +277,7 @@ fn lines_across_a_cut_surface_have_the_roughness_of_its_marks() {
     let probe = ShapingJob::new(scene.clone()).expect("a job");
     let flank = probe.target_flank(7, Side::Left);
     let cut = probe.cut(&Cpu::default(), probe.flank_field(flank)).expect("cut");
-    let all = cusps(&cut.field, &cut.layers[0], 0);
+    let all = cusps(&facets(&cut.field, &cut.layers[0], 0));
     let marks = &all[all.len() / 2 - 8..=all.len() / 2 + 8];
     let (from, to) = (marks[0].arc_mm, marks[16].arc_mm);
     let middle = 1e3 * marks[4..=12].iter().map(|c| c.height_mm).sum::<f64>() / 9.0;

@@ -127,8 +127,8 @@ fn headline(job: &BevelJob, gear: &BevelGear, motion: &[BevelAxesReport]) -> Vec
     let teeth = f64::from(job.blank.teeth);
     vec![
         Entry::headline(
-            "highest_mark",
-            "highest mark",
+            "highest_deviation",
+            "highest deviation",
             extreme(1, 1.0, "largest normal deviation on the evaluated part of any flank"),
         ),
         Entry::headline(

@@ -170,8 +170,12 @@ impl FlankPatch {
 
     /// Share of the roll at which the profile of the middle section has a length, mm. Between panels the length is a
     /// parabola through its own rates: a column stands within some nanometres of its place, and on the flank exactly.
+    /// Where undercut begins the envelope stands still at the form point, and the parabola begins level or falling.
     pub fn share_at(&self, length_mm: f64) -> f64 {
-        let length_mm = length_mm.clamp(0.0, self.length_mm());
+        if length_mm <= 0.0 {
+            return 0.0;
+        }
+        let length_mm = length_mm.min(self.length_mm());
         let panel = self.lengths_mm.partition_point(|&l| l <= length_mm).clamp(1, PANELS) - 1;
         let at = |i: usize| self.lengths_mm[i];
         let first = panel.clamp(1, PANELS - 1) - 1;
@@ -198,6 +202,7 @@ mod tests {
     use crate::process::hobbing::rack_generation::Rack;
     use gearcut_core::gear::PitchCurve;
     use gearcut_core::gear::PitchCurveShape;
+    use gearcut_core::math::roots::halve;
     use std::f64::consts::PI;
     use std::sync::Arc;
 
@@ -234,5 +239,43 @@ mod tests {
             let tip = section.ray(1.0).origin_mm.truncate();
             assert!((blank.height(tip, tip.to_angle()).0 - 8.0).abs() < 1e-8);
         }
+    }
+
+    /// At the largest tip height without undercut the envelope stands still at the form point, and lengths begin level,
+    /// or with a parabola that falls: columns go along the profile from its beginning to its end all the same.
+    #[test]
+    fn columns_stand_in_order_where_undercut_begins() {
+        let (module_mm, teeth) = (3.0, 24);
+        let shape = PitchCurveShape::Ellipse { order: 2, eccentricity: 0.126, semi_major_axis_mm: None };
+        let curve = Arc::new(PitchCurve::new(&shape, module_mm, teeth).expect("a curve"));
+        let blank = Blank::new(curve.clone(), module_mm).expect("a blank");
+        let mut falling = 0;
+        for (tooth, side) in (1..=3).flat_map(|tooth| [(tooth, Side::Left), (tooth, Side::Right)]) {
+            let generation = |tip_height_mm: f64| RackGeneration {
+                curve: curve.clone(),
+                rack: Rack {
+                    transverse_module_mm: module_mm,
+                    pressure_angle_rad: 20_f64.to_radians(),
+                    half_thickness_mm: 0.25 * PI * module_mm,
+                    tip_height_mm,
+                    tip_radius_mm: 0.0,
+                    helix_angle_rad: 0.0,
+                    hand: 1.0,
+                },
+            };
+            let space = i64::from(tooth) - i64::from(side == Side::Right);
+            let is_whole =
+                |tip_height_mm: f64| !generation(tip_height_mm).form_point(&blank, space, side, 0.0).undercut;
+            let [whole_mm, undercut_mm] = halve(is_whole, 1.0, 6.0, 40);
+            for tip_height_mm in [0.999 * whole_mm, whole_mm, undercut_mm, 1.001 * undercut_mm] {
+                let patch = FlankPatch::new(&generation(tip_height_mm), &blank, tooth, side, 10.0).expect("a flank");
+                falling += u32::from(4.0 * patch.lengths_mm[1] <= patch.lengths_mm[2]);
+                let share = |i: u32| patch.share_at(f64::from(i) / 400.0 * patch.length_mm());
+                let shares: Vec<f64> = (0..=400).map(share).collect();
+                assert!(shares.windows(2).all(|pair| pair[0] < pair[1]), "tooth {tooth} {side:?}: {shares:?}");
+                assert!(shares[0] == 0.0 && shares[400] > 1.0 - 1e-12);
+            }
+        }
+        assert!(falling > 0, "no parabola begins falling: the place of 0 / 0 is not met");
     }
 }

@@ -22,6 +22,11 @@ use std::f64::consts::{PI, TAU};
 /// Smallest root circle, as a share of the pitch radius: a choice, no limit of the method. The teeth need a body with a
 /// bore; with usual dedenda of 1.25 modules it refuses cutters of three teeth and fewer.
 const LEAST_ROOT_SHARE: f64 = 0.2;
+/// Least height of the tip circle over the base circle, as a share of its radius: below it nothing of the flank is an
+/// involute. A choice: a hundred times what the start of the involute is rounded by.
+const LEAST_INVOLUTE_SHARE: f64 = 1e-4;
+/// Key of the profile shift.
+const PROFILE_SHIFT: &str = "tool.shaper_cutter.profile_shift_coefficient";
 /// The involute is followed down to the roll where its tangent leaves it by this much at the base circle: half the edge
 /// tables' tolerance.
 const BASE_CIRCLE_TOLERANCE_MM: f64 = 2.5e-8;
@@ -104,6 +109,30 @@ impl ShaperCutter {
             let u = left.roll_at_radius(radius_mm);
             half_angle_rad - (u - u.atan())
         };
+        if tip_radius_mm <= base_radius_mm * (1.0 + LEAST_INVOLUTE_SHARE) {
+            let least = (base_radius_mm * (1.0 + LEAST_INVOLUTE_SHARE) - pitch_radius_mm) / m;
+            return Err(Refusal::new(
+                if x0 < 0.0 { PROFILE_SHIFT } else { "tool.shaper_cutter.addendum_coefficient" },
+                format!(
+                    "with an addendum of {} and a profile shift of {x0} modules the cutter's tip circle of radius \
+                    {tip_radius_mm:.3} mm leaves nothing of an involute over the base circle of radius \
+                    {base_radius_mm:.3} mm",
+                    spec.addendum_coefficient
+                ),
+                format!("together they must be more than {least:.3} modules: use more of either, or more cutter teeth"),
+            ));
+        }
+        if thickness_mm <= 0.0 {
+            return Err(Refusal::new(
+                if x0 < 0.0 { PROFILE_SHIFT } else { "tool.shaper_cutter.thinning_mm" },
+                format!(
+                    "a profile shift of {x0} modules and a thinning of {} mm leave the cutter's teeth no thickness on \
+                    its pitch circle ({thickness_mm:.3} mm)",
+                    spec.thinning_mm
+                ),
+                "use a larger profile_shift_coefficient or less thinning_mm",
+            ));
+        }
         if tip_half_angle(tip_radius_mm) <= 0.0 {
             return Err(Refusal::new(
                 "tool.shaper_cutter.addendum_coefficient",
@@ -290,9 +319,8 @@ pub(crate) mod tests {
     use super::*;
     use gearcut_core::tool::edge::{RayHit, SegmentShape};
 
-    /// The paper's cutter: 20 teeth of module 3.
-    pub(crate) fn paper_cutter(tip: model::Tip) -> ShaperCutter {
-        let gear = Gear {
+    fn process_gear() -> Gear {
+        Gear {
             kind: gearcut_core::gear::GearKind::External,
             module_mm: 3.0,
             teeth: 42,
@@ -306,14 +334,17 @@ pub(crate) mod tests {
             rim_mm: 0.0,
             tooth_thickness_allowance_mm: 0.0,
             pitch_curve: gearcut_core::gear::PitchCurveShape::Circle,
-        };
-        let spec = model::CutterSpec {
+        }
+    }
+
+    fn sharp_spec() -> model::CutterSpec {
+        model::CutterSpec {
             teeth: 20,
             addendum_coefficient: 1.25,
             dedendum_coefficient: 1.25,
             profile_shift_coefficient: 0.0,
             thinning_mm: 0.0,
-            tip,
+            tip: model::Tip::Sharp,
             rake_angle_rad: 0.0,
             runout_mm: 0.0,
             runout_angle_rad: 0.0,
@@ -321,8 +352,13 @@ pub(crate) mod tests {
             edge_roughness: None,
             edge_rounding: None,
             built_up_edge: None,
-        };
-        ShaperCutter::new(&spec, &gear).expect("an ordinary cutter")
+        }
+    }
+
+    /// The paper's cutter: 20 teeth of module 3.
+    pub(crate) fn paper_cutter(tip: model::Tip) -> ShaperCutter {
+        let spec = model::CutterSpec { tip, ..sharp_spec() };
+        ShaperCutter::new(&spec, &process_gear()).expect("an ordinary cutter")
     }
 
     /// Distance to an involute flank in closed form: r_b (sigma theta + u - atan u - psi_b), exact along the flank's
@@ -364,6 +400,32 @@ pub(crate) mod tests {
         }
         assert!(count > 350, "{count} rays met a flank");
         assert!(worst_mm < 6e-8, "{worst_mm:.2e} mm off the involute");
+    }
+
+    /// Addenda and shifts that leave the tip circle inside the base circle, or teeth without thickness: refused at the
+    /// key that a user can change, not by an edge's table.
+    #[test]
+    fn cutters_without_an_involute_are_refused_at_their_key() {
+        let gear = process_gear();
+        for (teeth, addendum, shift, thinning_mm, key) in [
+            (20, 1.25, -2.0, 0.0, PROFILE_SHIFT),
+            (20, 1.25, -1.86, 0.0, PROFILE_SHIFT),
+            (10, 0.1, -0.5, 0.0, PROFILE_SHIFT),
+            (60, 1.0, -2.0, 0.5, PROFILE_SHIFT),
+            (20, 1.25, 0.0, 5.0, "tool.shaper_cutter.thinning_mm"),
+        ] {
+            let spec = model::CutterSpec {
+                teeth,
+                addendum_coefficient: addendum,
+                profile_shift_coefficient: shift,
+                thinning_mm,
+                ..sharp_spec()
+            };
+            let refusal = ShaperCutter::new(&spec, &gear).expect_err("nothing is left of the teeth");
+            assert_eq!(refusal.key, key, "{refusal:?}");
+        }
+        let spec = model::CutterSpec { profile_shift_coefficient: -1.84, ..sharp_spec() };
+        assert!(ShaperCutter::new(&spec, &gear).is_ok());
     }
 
     #[test]

@@ -70,6 +70,12 @@ pub struct PreparedOperation {
 }
 
 impl PreparedOperation {
+    /// Strokes of half a turn of the work: strokes that are further apart and meet on a flank belong to different
+    /// turns.
+    pub fn half_turn(&self) -> usize {
+        self.schedule.strokes_per_revolution() as usize / 2
+    }
+
     /// How many strokes are cut: those of the program, or the scene's own.
     pub fn count(&self) -> usize {
         self.strokes.count()
@@ -160,7 +166,7 @@ impl ShapingJob {
             return Err(Refusal::new(
                 "gear.helix_angle_deg",
                 "shaping cuts spur gears: a helical gear needs a helical guide on the ram, which is not modelled yet",
-                "set helix_angle_deg = 0, or hob the gear with [tool.hob]",
+                "set helix_angle_deg = 0; a hob cuts helical gears, but no rings",
             )
             .into());
         }

@@ -19,8 +19,10 @@
 //! flanks say.
 
 mod corners;
+mod infeed;
 
 pub use corners::CornerPath;
+pub use infeed::Trimming;
 
 use crate::process::shaping::ShapingJob;
 use crate::process::shaping::target::{FlankEnd, TargetFlank};
@@ -135,37 +137,56 @@ pub struct TipPair {
 
 impl TipPair {
     /// How far the corners of two sharp tips pass each other, arc on the pitch circles, mm: positive where they come
-    /// clear. `None` where the tip circles do not cross, or the ring's tips lie inside its base circle.
+    /// clear. `None` where no place of the cutter decides it, or the ring's tips lie inside its base circle.
     ///
-    /// Law (fouling of internal gears): where the tip circles cross, the corners stand at the angles delta from the
-    /// line of centres, and each gear has turned by inv(alpha_a) - inv(alpha) and delta since its tip was in contact,
+    /// Law: at the place that decides the corners stand at the angles delta from the line of centres, and each gear has
+    /// turned by inv(alpha_a) - inv(alpha) and delta since its tip was in contact,
     ///
     /// ```text
     /// r_c (inv(alpha_a0) + delta_0) - rho (inv(alpha_a) + delta) + (rho - r_c) inv(alpha)  >=  0
     /// ```
-    fn passing_mm(&self, cutter_pitch_radius_mm: f64) -> Option<f64> {
+    ///
+    /// A cutter that **rolls** fouls where the tip circles cross. One that goes in **radially** trims where both
+    /// corners have the same distance from the line of centres, `h^2 = (rho^2 r_a0^2 - r_c^2 r_a^2) / (rho^2 - r_c^2)`
+    /// (trimming interference of internal gears; Elements of Metric Gear Technology, SDP/SI).
+    fn passing_mm(&self, cutter_pitch_radius_mm: f64, way: Way) -> Option<f64> {
         let alpha = self.pressure_angle_rad;
         let radii_mm = [cutter_pitch_radius_mm, self.radius_mm];
         let tips_mm = [cutter_pitch_radius_mm + self.cutter_addendum_mm, self.radius_mm - self.addendum_mm];
         let apart_mm = self.radius_mm - cutter_pitch_radius_mm;
-        let delta = [-1.0, 1.0].into_iter().zip(tips_mm).map(|(sign, tip_mm)| {
-            let across_mm2 = tips_mm[1].powi(2) - tips_mm[0].powi(2) + sign * apart_mm * apart_mm;
-            (across_mm2 / (2.0 * tip_mm * apart_mm)).acos()
-        });
-        let turned = delta
-            .zip(radii_mm)
-            .zip(tips_mm)
-            .map(|((delta, radius_mm), tip_mm)| radius_mm * (inv((radius_mm * alpha.cos() / tip_mm).acos()) + delta));
-        let turned: Vec<f64> = turned.collect();
-        let passing_mm = turned[0] - turned[1] + apart_mm * inv(alpha);
+        let delta = match way {
+            Way::Rolling => [(-1.0, tips_mm[0]), (1.0, tips_mm[1])].map(|(sign, tip_mm)| {
+                let across_mm2 = tips_mm[1].powi(2) - tips_mm[0].powi(2) + sign * apart_mm * apart_mm;
+                (across_mm2 / (2.0 * tip_mm * apart_mm)).acos()
+            }),
+            Way::Radial => {
+                let squares_mm2 = radii_mm.map(|mm| mm * mm);
+                let across_mm2 = squares_mm2[1] * tips_mm[0].powi(2) - squares_mm2[0] * tips_mm[1].powi(2);
+                let across_mm = (across_mm2 / (squares_mm2[1] - squares_mm2[0])).sqrt();
+                tips_mm.map(|tip_mm| (across_mm / tip_mm).asin())
+            }
+        };
+        let turned = |i: usize| radii_mm[i] * (inv((radii_mm[i] * alpha.cos() / tips_mm[i]).acos()) + delta[i]);
+        let passing_mm = turned(0) - turned(1) + apart_mm * inv(alpha);
         passing_mm.is_finite().then_some(passing_mm)
     }
 
-    /// Most teeth of a cutter whose sharp tip corners come clear of the ring's; `None` where none is known to.
-    pub fn clearing_teeth(&self, module_mm: f64) -> Option<u32> {
-        let clears = |teeth: &u32| self.passing_mm(0.5 * module_mm * f64::from(*teeth)).is_some_and(|mm| mm >= 0.0);
+    /// Most teeth of a cutter whose sharp tip corners come clear of the ring's on its way; `None` where none is known
+    /// to.
+    pub fn clearing_teeth(&self, module_mm: f64, way: Way) -> Option<u32> {
+        let passing_mm = |teeth: u32| self.passing_mm(0.5 * module_mm * f64::from(teeth), way);
+        let clears = |teeth: &u32| passing_mm(*teeth).is_some_and(|mm| mm >= 0.0);
         (1..=rolling_teeth(self.radius_mm, module_mm)).rev().find(clears)
     }
+}
+
+/// How a cutter comes into a ring.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Way {
+    /// It rolls in and out of the spaces.
+    Rolling,
+    /// It is fed along the line of centres.
+    Radial,
 }
 
 /// The condition of undercut as it is printed: that of an external gear whose pitch circle has the radius of curvature
@@ -229,6 +250,10 @@ pub struct RingFacts {
     pub rolling_teeth: u32,
     /// Most cutter teeth whose sharp tip corners come clear of the teeth at the sharpest place; `None` where not known.
     pub clearing_teeth: Option<u32>,
+    /// Most cutter teeth that go in along the line of centres at the sharpest place; `None` where not known.
+    pub radial_teeth: Option<u32>,
+    /// Deepest place where the strokes of an infeed trim the ring; `None` where the target's outline is not known.
+    pub trimming: Option<Trimming>,
     /// Lowest end of an involute before the tip: height over the pitch curve; `None` where all reach the tip.
     pub shortest_involute: Option<ToothPlace>,
     /// Fewest cutter teeth that generate the whole tips at the sharpest place; `None` where none does.
@@ -258,18 +283,20 @@ impl RingFacts {
             (1..=period).into_par_iter().map(|tooth| RingTooth::new(job, tooth, corners(tooth))).collect();
         // Where the involute ends before the tip.
         let ends = flanks(&teeth, |of| [0, 1].map(|side| of.ends_early[side].then_some(of.involute_mm[side])));
+        let tips = TipPair {
+            radius_mm: rho_mm,
+            addendum_mm: job.blank.addendum_mm,
+            cutter_addendum_mm: job.cutter.tip_radius_mm - job.cutter.pitch_radius_mm,
+            pressure_angle_rad: gear.pressure_angle_rad,
+        };
         let undercut = teeth.iter().flat_map(|of| of.undercut).filter(|&undercut| undercut).count() as u32;
         Self {
             // All periods are alike: the first place is told.
             sharpest: (rho_mm, sharpest.phi_rad.rem_euclid(TURN_RAD * f64::from(period) / f64::from(gear.teeth))),
             rolling_teeth: rolling_teeth(rho_mm, gear.module_mm),
-            clearing_teeth: TipPair {
-                radius_mm: rho_mm,
-                addendum_mm: job.blank.addendum_mm,
-                cutter_addendum_mm: job.cutter.tip_radius_mm - job.cutter.pitch_radius_mm,
-                pressure_angle_rad: gear.pressure_angle_rad,
-            }
-            .clearing_teeth(gear.module_mm),
+            clearing_teeth: tips.clearing_teeth(gear.module_mm, Way::Rolling),
+            radial_teeth: tips.clearing_teeth(gear.module_mm, Way::Radial),
+            trimming: infeed::deepest(job),
             shortest_involute: ends.flatten().reduce(|a, b| if b.mm < a.mm { b } else { a }),
             generating_teeth: generating_teeth(rho_mm, job.blank.addendum_mm, gear.pressure_angle_rad, gear.module_mm),
             relief: flanks(&teeth, |of| of.relief_mm)
@@ -305,4 +332,27 @@ fn tightest_corner(teeth: &[RingTooth]) -> Option<TightestCorner> {
         paths.map(|(path, entering)| TightestCorner { path, tooth: of.tooth, entering })
     });
     paths.reduce(|a, b| if b.path.clearance_mm < a.path.clearance_mm { b } else { a })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{TipPair, Way};
+
+    /// Rings of 40, 58 and 118 teeth: 22, 40 and 100 cutter teeth go in radially, as the condition of trimming gives
+    /// with the addenda 1.25 and 1 modules, worked out elsewhere from the angles of both corners.
+    #[test]
+    fn as_many_teeth_go_in_radially_as_the_condition_of_trimming_says() {
+        for (ring_teeth, cutter_teeth) in [(40, 22), (58, 40), (118, 100)] {
+            for module_mm in [1.0, 4.0] {
+                let tips = TipPair {
+                    radius_mm: 0.5 * module_mm * f64::from(ring_teeth),
+                    addendum_mm: module_mm,
+                    cutter_addendum_mm: 1.25 * module_mm,
+                    pressure_angle_rad: 20_f64.to_radians(),
+                };
+                assert_eq!(tips.clearing_teeth(module_mm, Way::Radial), Some(cutter_teeth));
+                assert!(tips.clearing_teeth(module_mm, Way::Rolling) > Some(cutter_teeth));
+            }
+        }
+    }
 }

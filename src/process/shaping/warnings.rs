@@ -7,7 +7,7 @@
 use super::chips::{ChipLedger, OperationChips, StrokeChips, entries};
 use super::findings::{program, returns, ring};
 use super::measure::below_finished::below_finished;
-use super::measure::{FlankReport, GearReport};
+use super::measure::{FlankReport, GearReport, closing};
 use super::scene::model::Retraction;
 use super::stroke_noise;
 use super::tooth_facts::{self, ToothFacts};
@@ -42,7 +42,6 @@ pub fn before(job: &ShapingJob, motion: &[OperationAxes], ring: Option<&Section>
         None => tooth_facts::warnings(job, &ToothFacts::of_job(job)),
         Some(_) => Vec::new(),
     };
-    sentences.extend(ring.and_then(ring::warning));
     for (index, (operation, motion)) in job.operations.iter().zip(motion).enumerate() {
         let other = program::not_of_the_operation(job, motion);
         match returns::section(job, index, other.as_deref())? {
@@ -54,6 +53,7 @@ pub fn before(job: &ShapingJob, motion: &[OperationAxes], ring: Option<&Section>
         }
     }
     warnings.extend(sentences.into_iter().map(Warning::warn));
+    warnings.extend(ring.into_iter().flat_map(|section| ring::warnings(section, gouge_mm(job.scene.gear.module_mm))));
     warnings.extend(too_deep(job));
     warnings.extend(axes::warnings(motion));
     warnings.extend(program::warnings(job, motion));
@@ -81,6 +81,7 @@ pub fn after(
     warnings.extend(beyond_record(report));
     warnings.extend(unsettled(report));
     warnings.extend(uncut(report));
+    warnings.extend(closing::warnings(job, report));
     warnings.extend(work.warnings());
     if let Some(blank) = blank {
         warnings.extend(blank_findings::warnings(&job.planar(), blank, depth_mm));

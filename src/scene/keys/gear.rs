@@ -81,7 +81,9 @@ pub(super) static SECTIONS: &[KeySection] = &[KeySection {
             0.0,
             "0.3",
             "Profile shift x: teeth are 2 x m tan(alpha) thicker on the pitch curve, tips and roots stand x modules \
-             further towards the tips. Every operation gets it.",
+             further towards the tips. Every operation gets it. In a ring that is the sign of DIN 3960, whose rings \
+             have negative numbers of teeth; tables that count a ring's teeth as positive (JIS, KHK) have the other \
+             one: their +0.3 is -0.3 here.",
         ),
         Key {
             name: "bore_diameter_mm",

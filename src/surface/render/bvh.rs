@@ -18,6 +18,11 @@ const LEAF: usize = 4;
 /// Nodes over more triangles than this build their halves side by side.
 const SIDE_BY_SIDE: usize = 4096;
 
+/// Nodes put aside on a walk at most: the tree is no deeper.
+const DEEPEST: usize = 64;
+/// Levels that the heuristic splits; those below are halved, which takes one more for every bit of a count of 32.
+const BY_HEURISTIC: u32 = 32;
+
 /// Tree over the triangles of a scene.
 #[derive(Debug, Default)]
 pub struct Bvh {
@@ -85,7 +90,7 @@ impl Bvh {
         let mut order: Vec<u32> = (0..corners_mm.len() as u32).collect();
         let mut nodes = Vec::with_capacity(corners_mm.len());
         if !order.is_empty() {
-            build(&bounds, &mut order, 0, &mut nodes);
+            build(&bounds, &mut order, [0, 0], &mut nodes);
         }
         let triangles = order
             .par_iter()
@@ -124,7 +129,7 @@ impl Bvh {
         let mut best: Option<Hit> = None;
         let mut limit_mm = limit_mm;
         // Nodes put aside, with the distance at which the ray enters them.
-        let mut stack = [(0_u32, 0.0_f64); 64];
+        let mut stack = [(0_u32, 0.0_f64); DEEPEST];
         let mut depth = 0;
         let mut index = 0;
         if self.nodes.is_empty() || entry(&self.nodes[0], sheared_mm, inverse, limit_mm).is_none() {
@@ -183,14 +188,14 @@ impl Bvh {
 
 /// Adds the nodes over `order[..]`, whose first place in the whole is `first`, in the order of a walk from the left.
 /// Large halves are built side by side and joined, which gives the same nodes.
-fn build(bounds: &[Bounds], order: &mut [u32], first: u32, nodes: &mut Vec<BvhNode>) {
+fn build(bounds: &[Bounds], order: &mut [u32], [first, depth]: [u32; 2], nodes: &mut Vec<BvhNode>) {
     let (whole, centers) = order.iter().fold((Bounds::EMPTY, Bounds::EMPTY), |(whole, centers), &i| {
         let (all, center) = (bounds[i as usize], bounds[i as usize].center());
         (whole.with(all), centers.with(Bounds { low: center, high: center }))
     });
     let index = nodes.len();
     nodes.push(BvhNode { low: whole.low, high: whole.high, link: first, count: order.len() as u32 });
-    // Depth stays below the walker's stack: splits by the median are taken where the heuristic finds none.
+    // Splits by the median are taken where the heuristic finds none, and deep down, so that the walker's stack holds.
     if order.len() <= LEAF {
         return;
     }
@@ -207,7 +212,7 @@ fn build(bounds: &[Bounds], order: &mut [u32], first: u32, nodes: &mut Vec<BvhNo
     });
     let small = order.len() / 16;
     let middle = match split {
-        Some(middle) if middle > small && order.len() - middle > small => middle,
+        Some(middle) if depth < BY_HEURISTIC && middle > small && order.len() - middle > small => middle,
         _ => {
             let extent = centers.high - centers.low;
             let axis = (0..3).max_by(|&a, &b| extent[a].total_cmp(&extent[b])).unwrap_or(0);
@@ -219,7 +224,7 @@ fn build(bounds: &[Bounds], order: &mut [u32], first: u32, nodes: &mut Vec<BvhNo
     let (left, right) = order.split_at_mut(middle);
     let half = |order: &mut [u32], first: u32| {
         let mut nodes = Vec::with_capacity(order.len());
-        build(bounds, order, first, &mut nodes);
+        build(bounds, order, [first, depth + 1], &mut nodes);
         nodes
     };
     let link = if side_by_side {
@@ -229,9 +234,9 @@ fn build(bounds: &[Bounds], order: &mut [u32], first: u32, nodes: &mut Vec<BvhNo
         append(nodes, right);
         link
     } else {
-        build(bounds, left, first, nodes);
+        build(bounds, left, [first, depth + 1], nodes);
         let link = nodes.len();
-        build(bounds, right, first + middle as u32, nodes);
+        build(bounds, right, [first + middle as u32, depth + 1], nodes);
         link
     };
     (nodes[index].link, nodes[index].count) = (link as u32, 0);

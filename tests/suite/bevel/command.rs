@@ -28,7 +28,7 @@ fn a_run_writes_the_same_files_on_one_thread_and_on_two() {
             ["cut", "scenes/bevel/setting_errors.toml", "--backend", "cpu", "--out", out.to_str().expect("a path")];
         let only = ["--only", if threads == 1 { "numbers" } else { "numbers,axes,report,texture,pictures" }];
         gearcut_on_threads(threads, &[&arguments[..], &COARSE[..], &only].concat()).done().says(&[
-            "highest mark",
+            "highest deviation",
             "slot depth",
             "idle share of the roll",
             "root angle off by 0.0",

@@ -28,7 +28,7 @@ fn class_limit_chip_force_and_load_come_first_and_marks_are_folded() {
         "largest cutting force",
         "hardest hob tooth to mean",
         "left to shift by",
-        "highest mark",
+        "highest deviation",
     ];
     let text = run.out.split_whitespace().collect::<Vec<_>>().join(" ");
     let places: Vec<usize> = first.iter().map(|words| text.find(words).unwrap_or_else(|| panic!("{words}"))).collect();

@@ -268,7 +268,7 @@ mod slow {
             assert!((seen / known - 1.0).abs() < 0.05, "{step}");
         }
         // Every pitch deviation is less than the marks are high.
-        let highest = number(&results["headline"]["highest_mark"]);
+        let highest = number(&results["headline"]["highest_deviation"]);
         assert!(number(&results["headline"]["single_pitch_deviation"]) < 2.0 * highest);
         let window = parts(&sections["texture"]["finish"]).next().expect("a window");
         let sz = &window["parameters"]["Sz"];

@@ -38,7 +38,7 @@ fn check_answers_what_is_asked_of_a_ring() {
     // The module's limit is where 13 teeth no longer roll on the oracle's smallest radius of curvature.
     let limit_mm = section.number("module_limit").expect("known");
     assert!((limit_mm - 2.0 * 72.305_560_356 / 13.0).abs() < 1e-6, "{limit_mm}");
-    assert!(ring::warning(&section).is_none());
+    assert!(ring::warnings(&section, 0.02).is_empty());
     gearcut(&["check", "scenes/shaping/internal_pair_ring.toml"]).done().says(&[
         "largest cutter that rolls     72 teeth",
         "largest cutter that clears    63 teeth",
@@ -91,4 +91,26 @@ fn a_cut_offers_the_direction_that_clears_stock() {
     let section = returns::section(&shipped("tilted_retraction"), 0, None).expect("poses").expect("drawn back");
     assert_eq!(section.number("depth_in_stock"), Some(0.0));
     assert!(section.number("smallest_clearance").expect("known") > 0.0);
+}
+
+/// An oval has no class: `check` offers the limits of the round gear of its mean diameter as lines of a scene. For 20
+/// teeth of module 2 ISO 1328-1:2013 gives f_p = (0.001 d + 0.4 m + 5) um sqrt(2)^2 = 11.7 um in class 7, rounded to
+/// 12.
+#[test]
+fn a_gear_without_a_class_is_offered_limits_to_paste() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("oval.toml");
+    let gear = "[gear]\nmodule_mm = 2.0\nteeth = 20\nface_width_mm = 10.0\n[gear.pitch_curve.ellipse]\norder = 2\n\
+                eccentricity = 0.05\n[tool.shaper_cutter]\nteeth = 24\n[tool.shaper_cutter.tip.sharp]\n";
+    let check = |text: &str| {
+        std::fs::write(&path, text).expect("a scene");
+        gearcut(&["check", path.to_str().expect("a path")]).done()
+    };
+    let offered =
+        check(gear).says(&["Limits of the round gear of the same mean diameter", "single_pitch_um = 12\n"]).out;
+    let from = offered.find("[measure.limits]").expect("limits");
+    let lines = offered[from..].lines().take_while(|line| !line.is_empty()).map(|line| format!("{}\n", line.trim()));
+    // Pasted, they are read, and no longer offered.
+    let outcome = check(&format!("{gear}{}", lines.collect::<String>()));
+    assert!(!outcome.out.contains("Limits of the round gear"), "{}", outcome.out);
 }

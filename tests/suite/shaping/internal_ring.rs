@@ -12,7 +12,7 @@ use gearcut::gear::PitchCurveShape;
 use gearcut::gear::blank_outline::BlankOutline;
 use gearcut::job::CylindricalGear;
 use gearcut::math::planar_rays::FAMILIES;
-use gearcut::measure::scallop::cusps;
+use gearcut::measure::scallop::{cusps, facets};
 use gearcut::measure::target_outline::TargetOutline;
 use gearcut::passes::planar::strokes::StrokeLaw;
 use gearcut::passes::{CutPlan, StrokeSet};
@@ -102,7 +102,7 @@ fn pitch_scallop_mm(job: &ShapingJob, tooth: u32, side: Side, feed_mm: f64) -> f
     let mut layer = field.blank_layer();
     let plan = CutPlan::new(&field, &strokes_around, &job.cutter);
     Cpu::default().cut(&field, &plan, &mut layer).expect("native");
-    cusps(&field, &layer, 0).iter().map(|c| c.height_mm).fold(f64::INFINITY, f64::min)
+    cusps(&facets(&field, &layer, 0)).iter().map(|c| c.height_mm).fold(f64::INFINITY, f64::min)
 }
 
 /// h = (f^2 sin(alpha) / 8) (1 / r_c - 1 / R_p) at the pitch point, with the arc f between two strokes.

@@ -7,7 +7,7 @@ use gearcut::cut::Backend;
 use gearcut::cut::cpu::Cpu;
 use gearcut::frame::Rigid2;
 use gearcut::gear::PitchCurveShape;
-use gearcut::measure::scallop::cusps;
+use gearcut::measure::scallop::{cusps, facets};
 use gearcut::passes::planar::strokes::StrokeLaw;
 use gearcut::passes::{CutPlan, StrokeSet};
 use gearcut::process::shaping::ShapingJob;
@@ -154,7 +154,7 @@ fn check_facets(data: &Value, shape: &PitchCurveShape) {
         let mut layer = field.blank_layer();
         let plan = CutPlan::new(&field, &strokes_around, &job.cutter);
         Cpu::default().cut(&field, &plan, &mut layer).expect("native");
-        let found = cusps(&field, &layer, 0);
+        let found = cusps(&facets(&field, &layer, 0));
         let height = found.iter().map(|c| c.height_mm).fold(f64::INFINITY, f64::min);
         let (closed, crest) = (number(&row["closed_form_mm"]), number(&row["crest_simulated_mm"]));
         println!(

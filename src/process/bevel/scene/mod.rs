@@ -61,6 +61,7 @@ pub static SCENE: SceneProcess = SceneProcess {
     per_revolution: &[],
     of_one_gear: &[],
     on_demand: &["material"],
+    cuts_rings: false,
     senseless: &[
         without("gear.kind", "the pitch angle says where teeth stand", "remove it"),
         without("gear.helix_angle_deg", "the machine's settings make the spiral", "remove it"),

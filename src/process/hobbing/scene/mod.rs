@@ -41,6 +41,7 @@ pub static SCENE: SceneProcess = SceneProcess {
     per_revolution: &[],
     of_one_gear: &[],
     on_demand: &["material", "measure"],
+    cuts_rings: false,
     senseless: &[
         Senseless {
             path: "material.normal_force_n_per_mm2",

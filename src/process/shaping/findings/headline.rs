@@ -42,6 +42,13 @@ fn quantity_at(
     }
 }
 
+/// What the witness mark is.
+pub const WITNESS: &str = "largest step where finishing strokes meet that are more than half a turn apart, mid-face: \
+                           how far the later facet lies over the earlier, negative where it is deeper";
+/// Why there is none.
+pub const NO_WITNESS: &str = "on no evaluated profile do facets of three dexels and more meet that are more than half \
+                              a turn apart";
+
 /// What to look at first.
 pub fn headline(job: &ShapingJob, report: &GearReport, chips: &ChipLedger, motion: &[OperationAxes]) -> Vec<Entry> {
     let flanks = &report.flanks;
@@ -56,12 +63,7 @@ pub fn headline(job: &ShapingJob, report: &GearReport, chips: &ChipLedger, motio
     let uneven = if last_stock.is_none() { SINGLE } else { "no tooth has an allowance on both flanks" };
     let form = |flank: &FlankReport| Some(Extreme { value_mm: flank.own.form.height_mm, arc_mm: 0.0, z_mm: 0.0 });
     let scallop = |flank: &FlankReport| {
-        // Below the target there is no height of a cusp over it.
-        flank.own.scallops.filter(|s| s.largest.height_mm >= 0.0).map(|s| Extreme {
-            value_mm: s.largest.height_mm,
-            arc_mm: s.largest.arc_mm,
-            z_mm: 0.0,
-        })
+        flank.own.scallops.map(|s| Extreme { value_mm: s.largest.height_mm, arc_mm: s.largest.arc_mm, z_mm: 0.0 })
     };
     let undercut =
         flanks.iter().filter(|f| f.own.form.end == FlankEnd::Undercut || f.own.tip.end == FlankEnd::Undercut).count();
@@ -152,9 +154,21 @@ pub fn headline(job: &ShapingJob, report: &GearReport, chips: &ChipLedger, motio
                 extreme_over(flanks, scallop, |a, b| a > b),
                 1e3,
                 "um",
-                "normal deviation of the highest cusp between two strokes' facets on the evaluated profiles",
-                "no cusp above the target between facets of three dexels and more was met: the dexels are too coarse \
-                 for the feed, or the flanks lie below the target",
+                "height of the highest cusp on the evaluated profiles over the line that touches its two facets, \
+                 mid-face",
+                "no cusp between facets of three dexels and more was met: the dexels are too coarse for the feed",
+            ),
+        ),
+        Entry::headline(
+            "highest_deviation",
+            "highest deviation",
+            quantity_at(
+                extreme_over(flanks, |f| f.own.finished.map(|[_, highest]| highest), |a, b| a > b),
+                1e3,
+                "um",
+                "largest normal deviation of the finished surface on the evaluated part of any flank, scallops \
+                 included",
+                none,
             ),
         ),
         Entry::headline(
@@ -171,11 +185,11 @@ pub fn headline(job: &ShapingJob, report: &GearReport, chips: &ChipLedger, motio
             "witness_mark",
             "witness mark",
             quantity_at(
-                extreme_over(flanks, |f| f.own.witness, |a, b| a > b),
+                extreme_over(flanks, |f| f.own.witness, |a, b| a.abs() > b.abs()),
                 1e3,
                 "um",
-                "how far what the first and last strokes left stands above the rest of its flank",
-                "no dexel of an evaluated profile was left by the first or last strokes",
+                WITNESS,
+                NO_WITNESS,
             ),
         ),
         axes::margin_entry(motion),

@@ -87,9 +87,14 @@ fn surface(section: Section, facts: &ReturnFacts, asked: Retraction) -> Section 
         Some(mm) if mm < CLEAR_MM => "set a larger machine.back_off_mm, or machine.retraction = \"auto\"",
         _ => "nothing: the returning cutter clears the teeth",
     };
-    let common = "area that the returning cutter has in common with the teeth there, in their transverse section";
-    answered(section, "smallest_clearance", "smallest clearance", clearance, advice)
-        .with("overlap", Quantity::number(facts.overlap_mm2, "mm^2", common))
+    let common = "area that the returning cutter has in common with the teeth where it lies deepest in them, in their \
+                  transverse section; elsewhere it may lie less deep and have more in common";
+    let overlap = Quantity::number(facts.overlap_mm2, "mm^2", common);
+    let overlap = match &facts.surface {
+        Some(room) => overlap.at(at(room)),
+        None => overlap,
+    };
+    answered(section, "smallest_clearance", "smallest clearance", clearance, advice).with("overlap", overlap)
 }
 
 /// Room to all material, stock included. That return strokes rub on stock is ordinary and costs the edge, not the gear:

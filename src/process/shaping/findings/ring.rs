@@ -6,7 +6,8 @@
 //! `tables/ring.csv`.
 
 use super::answers::answered;
-use crate::findings::{Datum, Place, Quantity, Section, Table, TableColumn};
+use crate::findings::{Datum, Place, Quantity, Section, Table, TableColumn, Warning};
+use crate::measure::damage::LEAST_DEPTH_MM;
 use crate::output::text::significant;
 use crate::process::shaping::ShapingJob;
 use crate::process::shaping::ring::{CornerPath, RingFacts, RingTooth, ToothPlace, rolling_module_mm, rolling_teeth};
@@ -27,6 +28,9 @@ const NO_OUTLINE: &str = "the target's outline is not known";
 /// What the largest cutters are.
 const ROLLING: &str = "most cutter teeth whose pitch circle rolls everywhere";
 const CLEARING: &str = "most cutter teeth whose tip corners come clear of the tips beside their space";
+const RADIAL: &str = "most cutter teeth that go in along the line of centres without trimming the tips";
+/// Why there is none.
+const NO_CUTTER: &str = "tips or rolling leave no such cutter, or tips lie inside the base circle";
 
 /// The section; none of an external gear. Where a program cuts another ring, `other` says why nothing of it holds.
 pub fn of_job(job: &ShapingJob, other: Option<&str>) -> Option<Section> {
@@ -55,22 +59,23 @@ fn section(job: &ShapingJob, facts: &RingFacts) -> Section {
         sharpest(Quantity::count(facts.rolling_teeth.into(), "teeth", ROLLING)),
         format!("this one has {z0}; for more, take a curve with a larger smallest radius of curvature"),
     );
-    let clearing = facts.clearing_teeth.map_or_else(
-        || {
-            Quantity::undefined(
-                "teeth",
-                CLEARING,
-                "tips or rolling leave no such cutter, or tips lie inside the base circle",
-            )
-        },
-        |teeth| Quantity::count(teeth.into(), "teeth", CLEARING),
-    );
+    let count = |teeth: Option<u32>, definition: &'static str| match teeth {
+        Some(teeth) => Quantity::count(teeth.into(), "teeth", definition),
+        None => Quantity::undefined("teeth", definition, NO_CUTTER),
+    };
     let section = answered(
         section,
         "clearing_teeth",
         "largest cutter that clears",
-        sharpest(clearing),
+        sharpest(count(facts.clearing_teeth, CLEARING)),
         "of a round ring of that radius, for sharp corners; a lower addendum of cutter or ring allows more",
+    );
+    let section = answered(
+        section,
+        "radial_teeth",
+        "largest for radial infeed",
+        sharpest(count(facts.radial_teeth, RADIAL)),
+        "the same ring and corners, at depth on every radius; larger cutters trim the tips while they are fed in",
     );
     let section = answered(
         section,
@@ -82,6 +87,7 @@ fn section(job: &ShapingJob, facts: &RingFacts) -> Section {
     let section = undercut(section, facts);
     let section = tips(section, job, facts);
     let section = corners(section, facts);
+    let section = trimming(section, job, facts);
     let modules = [rolling_module_mm(radius_mm, z0), facts.printed.module_limit_mm(radius_mm)];
     let definition =
         "module at which the pitch circle of a cutter of so many teeth no longer rolls on this pitch curve";
@@ -195,14 +201,49 @@ fn corners(section: Section, facts: &RingFacts) -> Section {
     answered(section, "tip_corner_clearance", "tip corners", clearance, advice)
 }
 
-/// What must be known before cutting.
-pub fn warning(section: &Section) -> Option<String> {
-    let depth_mm = -section.number("tip_corner_clearance").filter(|&mm| mm < 0.0)?;
-    let place = section.quantity("tip_corner_clearance")?.place().map(Place::words)?;
-    let way_out = section.words("tip_corner_clearance_advice");
-    Some(format!(
-        "the tip corners of the cutter cut {depth_mm:.3} mm into teeth beside their space ({place}): {way_out}"
-    ))
+/// What the strokes of the infeed take off the tips.
+fn trimming(section: Section, job: &ShapingJob, facts: &RingFacts) -> Section {
+    let definition = "largest depth of a tip corner of the cutter in the ring's teeth during the strokes of an infeed";
+    let Some(deepest) = facts.trimming else {
+        let unknown = Quantity::undefined("um", definition, NO_OUTLINE);
+        return answered(section, "trimming", "trimmed on the way in", unknown, "see the whole blank of a run");
+    };
+    let depth = Quantity::number(UM_PER_MM * deepest.depth_mm, "um", definition);
+    if deepest.depth_mm < LEAST_DEPTH_MM {
+        return answered(section, "trimming", "trimmed on the way in", depth, "nothing: the corners come clear");
+    }
+    let fewer =
+        facts.radial_teeth.map_or("fewer cutter teeth".to_owned(), |teeth| format!("{teeth} cutter teeth or less"));
+    let place = Place::default()
+        .and("operation", job.operations[deepest.operation].spec.name.clone())
+        .and("stroke", deepest.stroke as u64)
+        .and("tooth", deepest.tooth);
+    let advice = format!(
+        "use {fewer}, a lower addendum of cutter or ring, or a spiral over a larger operation.infeed.spiral.angle_deg"
+    );
+    answered(section, "trimming", "trimmed on the way in", depth.at(place), advice)
+}
+
+/// What must be known before cutting: a fault where it is deeper than a gouge.
+pub fn warnings(section: &Section, gouge_mm: f64) -> Vec<Warning> {
+    let told = |depth_mm: f64, key: &str, what: String| {
+        let quantity = section.quantity(key)?;
+        let place = quantity.place().map(Place::words)?;
+        let way_out = section.words(&format!("{key}_advice"));
+        let text = format!("{what} ({place}): {way_out}");
+        Some(if depth_mm > gouge_mm { Warning::fault(text) } else { Warning::warn(text) })
+    };
+    let corner = section.number("tip_corner_clearance").filter(|&mm| mm < 0.0).and_then(|clearance_mm| {
+        let what = format!("the tip corners of the cutter cut {:.3} mm into teeth beside their space", -clearance_mm);
+        told(-clearance_mm, "tip_corner_clearance", what)
+    });
+    let trimmed = section.number("trimming").map(|um| um / UM_PER_MM).filter(|&mm| mm >= LEAST_DEPTH_MM);
+    let trimmed = trimmed.and_then(|depth_mm| {
+        let what =
+            format!("going in, the cutter trims the ring's teeth by {} um", significant(UM_PER_MM * depth_mm, 3));
+        told(depth_mm, "trimming", what)
+    });
+    corner.into_iter().chain(trimmed).collect()
 }
 
 fn table(facts: &RingFacts, cutter_teeth: u32, module_mm: f64) -> Table {

@@ -1,5 +1,6 @@
 //! Single teeth: the stock and the allowances that an operation left, and the tooth as it is finished.
 
+use super::headline::{NO_WITNESS, WITNESS};
 use super::place;
 use super::program::of_scene;
 use crate::findings::{Datum, Place, Quantity, Section, Table, TableColumn};
@@ -340,24 +341,17 @@ fn finished_flank(report: &GearReport, tooth: u32, side: Side, other_gear: Optio
             "largest_scallop",
             cusp(
                 flank.and_then(|f| f.own.scallops).map(|s| s.largest),
-                "highest cusp on the evaluated profile, mid-face",
+                "highest cusp on the evaluated profile over the line that touches its two facets, mid-face",
             ),
         )
         .with(
             "scallop_at_pitch_curve",
             cusp(
                 flank.and_then(|f| f.own.scallops).and_then(|s| s.at_pitch_curve),
-                "cusp nearest to the pitch curve, mid-face",
+                "the same of the cusp nearest to the pitch curve",
             ),
         )
-        .with(
-            "witness_mark",
-            at(
-                flank.and_then(|f| f.own.witness),
-                "how far what the first and last strokes left stands above the rest of the flank",
-                "the first and last strokes left nothing on the evaluated profile",
-            ),
-        )
+        .with("witness_mark", at(flank.and_then(|f| f.own.witness), WITNESS, NO_WITNESS))
         .with(
             "single_pitch",
             pitch_um(

@@ -7,7 +7,7 @@
 use super::thin_tips;
 use crate::measure::deviation::Trace;
 use crate::measure::inspection::{InspectedFlank, TracedLines};
-use crate::measure::scallop::{Cusp, cusps};
+use crate::measure::scallop::{Cusp, cusps, facets, step};
 use crate::measure::stock::{Extreme, RESOLUTION_MM, Stock, extremes, lowest, stock};
 use crate::process::shaping::ShapingJob;
 use crate::process::shaping::target::{FlankEnd, TargetFlank};
@@ -19,8 +19,6 @@ const DEFAULT_MARGIN: f64 = 0.05;
 /// What may stay of the blank at the tip corner, in modules: rounding decides of the last ray, and errors that shift a
 /// gear within its tolerances shift its corner as far. Tips are broken by more.
 const TIP_CORNER_MODULES: f64 = 0.02;
-/// Strokes at either end of an operation that make its witness mark.
-const WITNESS_STROKES: usize = 2;
 
 /// Where a flank begins or ends.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -81,9 +79,11 @@ pub struct ShapedFlank {
     pub below_target: Option<Extreme>,
     /// Scallops in the middle of the face.
     pub scallops: Option<Scallops>,
-    /// What the first and last finishing strokes stand above the rest of this flank (0 if nothing), where they touched
-    /// it.
+    /// The step where strokes of the finishing operation meet that are more than half a turn apart, mid-face: how far
+    /// the later ones' facet lies over the earlier ones', negative where it is deeper.
     pub witness: Option<Extreme>,
+    /// Stroke of the finishing operation that left the flank at the pitch curve, mid-face.
+    pub pitch_stroke: Option<usize>,
     /// What is still the blank.
     pub uncut: Option<Uncut>,
     /// Dexels that were cut deeper than their rays record, but for rays that end in the next space.
@@ -145,7 +145,18 @@ pub fn measure(job: &ShapingJob, flank: &TargetFlank, cut: &CutField, rows_z_mm:
         lowest(field, &finished.heights_mm)
     };
 
-    let cusps: Vec<Cusp> = cusps(field, finished, middle).into_iter().filter(|cusp| inside(cusp.arc_mm)).collect();
+    let facets = facets(field, finished, middle);
+    let operation = job.finishing();
+    let stroke = |pass: u32| {
+        let is_finishing = pass >= operation.strokes.first_pass && pass != NO_PASS;
+        is_finishing.then(|| operation.strokes.stroke_and_blade(pass).0)
+    };
+    // Between strokes of different turns there is a step and no ridge.
+    let of_one_turn = |cusp: &Cusp| {
+        let [Some(left), Some(right)] = cusp.passes.map(stroke) else { return false };
+        left.abs_diff(right) <= operation.half_turn()
+    };
+    let cusps: Vec<Cusp> = cusps(&facets).into_iter().filter(|cusp| inside(cusp.arc_mm) && of_one_turn(cusp)).collect();
     let pitch_arc_mm = flank.at_height(&job.blank, 0.0).map(|(arc, _)| arc);
     let largest = cusps.iter().copied().max_by(|a, b| a.height_mm.total_cmp(&b.height_mm));
     let scallops = largest.map(|largest| Scallops {
@@ -155,25 +166,8 @@ pub fn measure(job: &ShapingJob, flank: &TargetFlank, cut: &CutField, rows_z_mm:
         }),
     });
 
-    // The witness mark: strokes at either end of the finishing operation, plunging strokes among them.
-    let operation = job.finishing();
-    let count = operation.strokes.count();
-    let first_ordinary = operation.schedule.plunge_count() + WITNESS_STROKES;
-    // Ids grow stroke by stroke: strokes are ranges of ids, and no dexel's pass is divided by the number of blades.
-    let id = |stroke: usize| operation.strokes.pass_id(stroke, 0);
-    let ordinary = id(first_ordinary)..id(count.saturating_sub(WITNESS_STROKES));
-    let makes_mark =
-        |pass: u32| (pass >= operation.strokes.first_pass && pass != NO_PASS).then(|| !ordinary.contains(&pass));
-    let highest = |mark: bool| {
-        extremes(field, counts, |index| {
-            (makes_mark(finished.passes[index]) == Some(mark)).then_some(finished.heights_mm[index])
-        })
-        .map(|[_, high]| high)
-    };
-    let witness = highest(true).map(|mark| {
-        let rest_mm = highest(false).map_or(0.0, |rest| rest.value_mm);
-        Extreme { value_mm: (mark.value_mm - rest_mm).max(0.0), ..mark }
-    });
+    // The witness mark: where the end of the operation meets its beginning, or an earlier turn.
+    let witness = step(&facets, operation.half_turn(), stroke).filter(|step| inside(step.arc_mm));
     let profile_trace = Trace::along_profile(field, finished, middle);
     let lead_arc_mm = pitch_arc_mm.unwrap_or(0.5 * (evaluated_mm[0] + evaluated_mm[1]));
     let lead_column = (0..field.columns.len())
@@ -182,6 +176,7 @@ pub fn measure(job: &ShapingJob, flank: &TargetFlank, cut: &CutField, rows_z_mm:
             distance(a).total_cmp(&distance(b))
         })
         .unwrap_or(0);
+    let pitch_stroke = pitch_arc_mm.and_then(|_| stroke(finished.passes[lead_column * rows + middle]));
     let lead_trace = Trace::along_tooth(field, finished, lead_column).over_rows(rows_z_mm);
     let (v_first, v_last) = (rows_z_mm[0], rows_z_mm[rows_z_mm.len() - 1]);
     let v_margin = DEFAULT_MARGIN * (v_last - v_first);
@@ -237,6 +232,7 @@ pub fn measure(job: &ShapingJob, flank: &TargetFlank, cut: &CutField, rows_z_mm:
         below_target: deepest.filter(|low| low.value_mm < -RESOLUTION_MM),
         scallops: scallops.filter(|_| !is_lost),
         witness: witness.filter(|_| !is_lost),
+        pitch_stroke,
         uncut,
         below_range,
         is_lost,

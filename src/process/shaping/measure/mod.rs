@@ -1,6 +1,7 @@
 //! What is measured on shaped gears.
 
 pub mod below_finished;
+pub mod closing;
 pub mod crossing;
 pub mod flank_deflection;
 pub mod flank_report;

@@ -16,7 +16,7 @@ use std::f64::consts::{PI, TAU};
 
 /// Points of the target's outline, mm: chords of the sharpest fillet, 0.2 mm, then miss a fifteenth of the least
 /// damage.
-const TARGET_SPACING_MM: f64 = 0.01;
+pub(super) const TARGET_SPACING_MM: f64 = 0.01;
 /// Places of a tip corner's path per pitch.
 const PLACES_PER_PITCH: i32 = 64;
 /// A corner is looked for this far from the teeth, in modules: more than half of a space at the tips.
@@ -32,17 +32,22 @@ pub struct CornerPath {
 }
 
 /// A round at the cutter's tip in the tooth's frame: centre and radius, mm.
-type Round = (DVec2, f64);
+pub(super) type Round = (DVec2, f64);
+
+/// The rounds at both corners of a cutter tooth.
+pub(super) fn tip_rounds(job: &ShapingJob) -> Vec<Round> {
+    let own = job.cutter.corner.iter().filter_map(|part| match *part {
+        CornerPart::Round { center_mm, radius_mm, .. } => Some((center_mm, radius_mm)),
+        CornerPart::Chamfer { .. } => None,
+    });
+    own.flat_map(|(at, radius)| [(at, radius), (DVec2::new(at.x, -at.y), radius)]).collect()
+}
 
 /// Of the spaces behind the first `teeth` teeth: on the way in, and out. `None` where the target's outline is not
 /// known.
 pub(super) fn of_period(job: &ShapingJob, teeth: u32) -> Option<Vec<[CornerPath; 2]>> {
     let target = job.target_outline(TARGET_SPACING_MM).ok()?;
-    let own = job.cutter.corner.iter().filter_map(|part| match *part {
-        CornerPart::Round { center_mm, radius_mm, .. } => Some((center_mm, radius_mm)),
-        CornerPart::Chamfer { .. } => None,
-    });
-    let rounds: Vec<Round> = own.flat_map(|(at, radius)| [(at, radius), (DVec2::new(at.x, -at.y), radius)]).collect();
+    let rounds = tip_rounds(job);
     let paths = |space: u32| [-1, 1].map(|direction| path(job, &target, &rounds, space, direction));
     Some((1..=teeth).into_par_iter().map(paths).collect())
 }

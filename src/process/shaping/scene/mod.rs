@@ -81,11 +81,12 @@ pub static SCENE: SceneProcess = SceneProcess {
     per_revolution: &["strokes_per_revolution"],
     of_one_gear: &["window_deg", "program"],
     on_demand: &[],
+    cuts_rings: true,
     senseless: &[
         Senseless {
             path: "gear.helix_angle_deg",
             why: "the ram strokes along the gear's axis: a helical guide is not modelled",
-            instead: "remove it, or hob the gear with [tool.hob]",
+            instead: "remove it",
         },
         Senseless { path: "gear.hand", why: "the ram strokes along the gear's axis", instead: "remove it" },
     ],

@@ -107,9 +107,10 @@ impl Room {
     }
 }
 
-/// Down to which half interval it is worth to look.
+/// Down to which half interval it is worth to look; a speed that is not a number ends the halving.
 fn is_fine(half_rad: f64, ball: &Ball, speed_mm: f64) -> bool {
-    half_rad * speed_mm <= SHORTEST_SHARE * ball.radius_mm.max(SMALLEST_MM)
+    let is_coarse = half_rad * speed_mm > SHORTEST_SHARE * ball.radius_mm.max(SMALLEST_MM);
+    !is_coarse
 }
 
 /// Tool angles of some intervals in order at which a ball may be in the room of all blades, wherever they stand: most

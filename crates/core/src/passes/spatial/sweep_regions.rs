@@ -170,13 +170,54 @@ impl<'a> Region<'a> {
     }
 
     /// Which directions are halved: both, or the longer one; facets are some two and a half times as long as wide. A
-    /// tile is halved in both, where it has lines in both halves.
+    /// tile is halved in both, where it has lines in both halves. Whatever the sizes are, 0 and not a number among
+    /// them, something of a region of many tiles is halved: halving ends after as many levels as the counts have bits.
     pub fn split(&self) -> [bool; 2] {
         let [width_mm, length_mm] = self.extent_mm();
         let (wide, long) = (self.columns.count > 1, self.rows.count > 1);
         if self.is_tile() {
             return [!self.columns.is_thin(), !self.rows.is_thin()];
         }
-        [wide && (!long || 5.0 * width_mm > length_mm), long && (!wide || length_mm > 1.25 * width_mm)]
+        let (is_narrow, is_short) = (5.0 * width_mm < length_mm, length_mm < 1.25 * width_mm);
+        [wide && !(long && is_narrow), long && !(wide && is_short)]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::dexel::Ray;
+    use glam::DVec3;
+
+    /// Rays that all lie on one point, and rays of which one is not a number: halving ends.
+    #[test]
+    fn halving_ends_whatever_the_rays_are() {
+        let on_a_point = |_, _| DVec3::X;
+        let one_lost =
+            |column, row| if column + row == 0 { DVec3::NAN } else { DVec3::new(column as f64, 0.0, row as f64) };
+        let lost = |_, _| DVec3::NAN;
+        let of_origins: [&dyn Fn(usize, usize) -> DVec3; 3] = [&on_a_point, &one_lost, &lost];
+        for origin_mm in of_origins {
+            let ray = |column, row| (Ray { origin_mm: origin_mm(column, row), normal: DVec3::X }, 1.0);
+            let field = SpatialField::new(100, 300, -0.5, ray);
+            let mut open = vec![(Region::whole(&field), 0)];
+            let mut tiles = 0;
+            while let Some((region, level)) = open.pop() {
+                assert!(level <= 10, "7 by 10 tiles have 3 and 4 bits");
+                if region.is_tile() {
+                    tiles += 1;
+                    continue;
+                }
+                let split = region.split();
+                let parts = |span: &LineSpan, split: bool| if split { span.halves().to_vec() } else { vec![*span] };
+                for columns in parts(&region.columns, split[0]) {
+                    for rows in parts(&region.rows, split[1]) {
+                        open.push((Region::new(&field, columns, rows), level + 1));
+                    }
+                }
+            }
+            let whole = Region::whole(&field);
+            assert_eq!(tiles, whole.columns.count * whole.rows.count);
+        }
     }
 }

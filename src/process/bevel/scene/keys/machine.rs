@@ -63,7 +63,8 @@ pub(super) static SECTIONS: &[KeySection] = &[
                 Range::above(0.0, 100.0),
                 "that of a crown gear in the plane of the root cone",
                 "1.13",
-                "Ratio of roll R_a: work angle per cradle angle.",
+                "Ratio of roll R_a: work angle per cradle angle. A gear that is cut without roll (Formate, form cut) \
+                 cannot be written: every flank here is generated.",
             ),
             Key::number(
                 "modified_roll_c",

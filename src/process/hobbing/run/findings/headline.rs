@@ -133,8 +133,8 @@ pub(super) fn headline(job: &HobbingJob, gear: &HobbedGear, measured: &Measured)
     entries.extend(tool(job, measured));
     entries.extend([
         Entry::headline(
-            "highest_mark",
-            "highest mark",
+            "highest_deviation",
+            "highest deviation",
             extreme_at(
                 &|f| f.own.finished.map(|h| h.highest_mm),
                 &|f| f.own.finished.map(|h| h.extremes_at_mm[1]),

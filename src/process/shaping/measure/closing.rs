@@ -1,0 +1,63 @@
+//! Where a finishing operation closes: what a gear inspector finds there is the machine's drift, and no fault of teeth.
+//!
+//! In: the gear as cut. Out: sentences on the largest step, and on the largest single pitch deviation if it is measured
+//! between teeth that strokes more than half a turn apart have left.
+
+use super::{FlankReport, GearReport};
+use crate::findings::Warning;
+use crate::output::text::significant;
+use crate::process::shaping::ShapingJob;
+use gearcut_core::terms::Side;
+use gearcut_core::units::UM_PER_MM;
+
+/// A step of a micrometre is more than scallops are, and seen in every profile trace.
+const LEAST_STEP_MM: f64 = 1e-3;
+
+/// The sentences.
+pub fn warnings(job: &ShapingJob, report: &GearReport) -> Vec<Warning> {
+    step(job, report).into_iter().chain(pitch(job, report)).collect()
+}
+
+fn step(job: &ShapingJob, report: &GearReport) -> Option<Warning> {
+    let steps = report.flanks.iter().filter_map(|flank| Some((flank, flank.own.witness?)));
+    let (flank, step) = steps.max_by(|a, b| a.1.value_mm.abs().total_cmp(&b.1.value_mm.abs()))?;
+    (step.value_mm.abs() > LEAST_STEP_MM).then(|| {
+        Warning::warn(format!(
+            "operation {}: where its end meets its beginning, on tooth {} {}, the later strokes lie {} um {} the \
+             earlier ones: something has drifted or yielded meanwhile; see machine.errors and machine.compliance",
+            job.finishing().spec.name,
+            flank.tooth,
+            flank.side.name(),
+            significant(UM_PER_MM * step.value_mm.abs(), 3),
+            if step.value_mm < 0.0 { "deeper than" } else { "above" }
+        ))
+    })
+}
+
+/// The largest single pitch deviation, if strokes of different turns made it.
+fn pitch(job: &ShapingJob, report: &GearReport) -> Option<Warning> {
+    let of_side = |(side, index): (Side, usize)| {
+        let single_mm = &report.inspection.pitch[index].as_ref()?.single_mm;
+        let worst = (0..single_mm.len()).max_by(|&a, &b| single_mm[a].abs().total_cmp(&single_mm[b].abs()))?;
+        Some((side, worst, single_mm[worst]))
+    };
+    let sides = [(Side::Left, 0), (Side::Right, 1)].into_iter().filter_map(of_side);
+    let (side, worst, single_mm) = sides.max_by(|a, b| a.2.abs().total_cmp(&b.2.abs()))?;
+    let teeth = job.scene.gear.teeth;
+    let tooth = worst as u32 + 1;
+    let before = if worst == 0 { teeth } else { tooth - 1 };
+    let stroke = |tooth: u32| {
+        let is_it = |flank: &&FlankReport| flank.tooth == tooth && flank.side == side;
+        report.flanks.iter().find(is_it)?.own.pitch_stroke
+    };
+    let closes = stroke(tooth)?.abs_diff(stroke(before)?) > job.finishing().half_turn();
+    (closes && single_mm.abs() > LEAST_STEP_MM).then(|| {
+        Warning::note(format!(
+            "the largest f_p, {} um from tooth {before} to tooth {tooth} {}, is measured where operation {} closes: it \
+             is what drifted during a turn, and no error of pitch of the machine",
+            significant(UM_PER_MM * single_mm, 3),
+            side.name(),
+            job.finishing().spec.name
+        ))
+    })
+}

@@ -1,0 +1,61 @@
+//! What a deviation is and what it is not: ridges between strokes stay as high on a gear off its axis, and where a
+//! turn closes on a machine that drifts, the step has its size and its sign.
+
+use crate::fixtures::command::{gearcut, read_json};
+use serde_json::Value;
+use std::fs;
+
+/// A round gear of module 1: 20 teeth, 600 strokes in a turn of 72 s.
+const SCENE: &str = "[gear]\nmodule_mm = 1.0\nteeth = 20\nface_width_mm = 1.0\nbore_diameter_mm = 5.0\n\
+                     [gear.pitch_curve.circle]\n[tool.shaper_cutter]\nteeth = 30\n[tool.shaper_cutter.tip.sharp]\n\
+                     [machine]\ndouble_strokes_per_minute = 500.0\n\
+                     [[operation]]\nname = \"finish\"\nstrokes_per_revolution = 600\nfeed_during_stroke = false\n\
+                     [fields.flank]\nprofile_spacing_um = 5.0\nlead_spacing_um = 500.0\n";
+
+/// What a run of the scene with this setting finds.
+fn cut(setting: &str) -> Value {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = |name: &str| folder.path().join(name).to_str().expect("a path").to_owned();
+    fs::write(path("gear.toml"), SCENE).expect("a scene");
+    let (scene, out) = (path("gear.toml"), path("out"));
+    let words = ["cut", &scene, "--out", &out, "--only", "numbers", "--quiet", "--backend", "cpu", "--set", setting];
+    let outcome = gearcut(&words);
+    assert!([0, 3].contains(&outcome.code), "{}", outcome.err);
+    read_json(&folder.path().join("out/results.json"))
+}
+
+fn headline_um(results: &Value, key: &str) -> f64 {
+    results["headline"][key]["value"].as_f64().unwrap_or_else(|| panic!("{}", results["headline"][key]))
+}
+
+/// A gear clamped 40 um off its axis: the deviation swings by as much, and ridges stay what they were.
+#[test]
+fn ridges_between_strokes_do_not_grow_with_the_eccentricity() {
+    let [sound, off] = ["mounting.eccentricity_um=0", "mounting.eccentricity_um=40"].map(cut);
+    let [before, after] = [&sound, &off].map(|results| headline_um(results, "scallop_height"));
+    // The highest lies up to a feed below the evaluated end, and ridges grow by some 5 % over a feed there.
+    assert!((after / before - 1.0).abs() < 0.1, "{before} um, off the axis {after} um");
+    let deviation_um = headline_um(&off, "highest_deviation");
+    // Towards the tip normals and radii close in: at most all of the shift.
+    assert!(deviation_um > 30.0 && deviation_um < 41.0, "{deviation_um} um");
+    assert!(headline_um(&sound, "highest_deviation") < 2.0 * before);
+}
+
+/// 600 um/h over a turn of 72 s are 12 um of centre distance, 12 sin(20 deg) um normal to a flank: deeper with a
+/// distance that shrinks, above with one that grows. The largest f_p is measured there, and both are said.
+#[test]
+fn a_drift_leaves_its_step_where_the_turn_closes() {
+    let expected_um = 12.0 * 20_f64.to_radians().sin();
+    for (sign, word) in [(-1.0, "deeper than"), (1.0, "above")] {
+        let results = cut(&format!("machine.errors.center_distance.drift_um_per_h={}", sign * 600.0));
+        let step_um = headline_um(&results, "witness_mark");
+        assert!((step_um / (sign * expected_um) - 1.0).abs() < 0.05, "{step_um} um for {} um", sign * expected_um);
+        // The step is no ridge.
+        assert!(headline_um(&results, "scallop_height") < 0.3);
+        let warnings = results["warnings"].to_string();
+        assert!(warnings.contains("where its end meets its beginning") && warnings.contains(word), "{warnings}");
+        assert!(warnings.contains("the largest f_p") && warnings.contains("closes"), "{warnings}");
+    }
+    let none = cut("machine.errors.center_distance.drift_um_per_h=0");
+    assert!(headline_um(&none, "witness_mark").abs() < 0.05 && !none["warnings"].to_string().contains("closes"));
+}
