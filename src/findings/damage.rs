@@ -40,7 +40,7 @@ pub fn damage(
             // From +0, so that no damage is not -0.
             Quantity::number(
                 places.iter().fold(0.0, |sum, d| sum + d.volume_mm3),
-                "mm3",
+                "mm^3",
                 "volume, all places together",
             ),
         )
@@ -106,7 +106,7 @@ pub fn damage_table(pass: [TableColumn; 2], rows: impl IntoIterator<Item = Vec<D
         number("x", "mm", "x of the gear frame, deepest place"),
         number("y", "mm", "y of the gear frame, deepest place"),
         number("depth", "mm", "largest depth along the normal"),
-        number("volume", "mm3", "volume"),
+        number("volume", "mm^3", "volume"),
     ];
     columns.extend(pass);
     Table::new("damage", "Places of damage", columns).with_rows(rows).in_file("damage")

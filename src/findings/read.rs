@@ -143,7 +143,7 @@ mod tests {
         let stock = Quantity::number(0.1 + 0.2, "mm", "smallest stock").at(Place::on_flank(7, "left", 1.5, 12.0));
         let columns = vec![
             TableColumn::words("tooth", "hob tooth"),
-            TableColumn::new("volume", "mm3", "volume that it takes").or("it takes nothing").as_bars(),
+            TableColumn::new("volume", "mm^3", "volume that it takes").or("it takes nothing").as_bars(),
         ];
         let mut table = Table::new("teeth", "Hob teeth", columns)
             .with_rows([vec!["B7".into(), 0.25.into()], vec!["8".into(), f64::NAN.into()]]);

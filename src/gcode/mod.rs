@@ -5,15 +5,19 @@
 
 mod axes;
 mod digits;
+mod file;
 mod lines;
 mod post;
 mod script;
+mod statement;
 mod timed;
 mod words;
 
 pub use axes::beyond_limits;
 pub use digits::Digits;
+pub use file::read_file;
 pub use lines::longest_lines;
+pub(crate) use post::ascii;
 pub use script::{AxisColumn, Ram, Script, StraightLine};
-pub use timed::{TimedKnot, read_timed};
-pub use words::{Word, blocks};
+pub use statement::{Grammar, Move, Statement, statements};
+pub use timed::{TimedKnot, TimedProgram, read_timed};

@@ -94,7 +94,7 @@ impl Post {
 }
 
 /// A comment in printable ASCII, round brackets left out, for they begin and end comments.
-fn ascii(words: &str) -> String {
+pub(crate) fn ascii(words: &str) -> String {
     let mut text = String::new();
     for c in words.chars() {
         match c {

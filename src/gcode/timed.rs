@@ -4,8 +4,11 @@
 //! the moments at which blocks end. Law: `G0` to the first position, then `G1` in `G93`, where F is the reciprocal of a
 //! block's time in minutes. Only what is known is read; everything else is refused by line and word.
 
-use super::{Word, blocks};
+use super::statement::{Grammar, Move, Statement, statements};
 use crate::machine::Axis;
+
+/// Moments that differ by less are one: what nine digits of F leave of an hour.
+const SAME_MOMENT_S: f64 = 1e-6;
 
 /// Axes at one moment.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -14,6 +17,63 @@ pub struct TimedKnot<const N: usize> {
     pub time_s: f64,
     /// Where the axes stand, mm or rad, in the machine's order.
     pub axes: [f64; N],
+}
+
+/// A program: straight lines between knots in order of time, the first at 0.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TimedProgram<const N: usize> {
+    /// At least one.
+    pub knots: Vec<TimedKnot<N>>,
+}
+
+impl<const N: usize> TimedProgram<N> {
+    /// Where the axes stand at a time; before the first and after the last knot the motion is continued.
+    pub fn at(&self, time_s: f64) -> [f64; N] {
+        let after = self.block_ending_after(|knot| knot.time_s <= time_s);
+        self.knots.get(after).map_or(self.knots[0].axes, |b| self.knots[after - 1].between(b, time_s))
+    }
+
+    /// Speeds of the axes in the block that is run at a time, per s.
+    pub fn speeds(&self, time_s: f64) -> [f64; N] {
+        let after = self.block_ending_after(|knot| knot.time_s <= time_s);
+        let Some(b) = self.knots.get(after) else { return [0.0; N] };
+        let a = &self.knots[after - 1];
+        std::array::from_fn(|axis| (b.axes[axis] - a.axes[axis]) / (b.time_s - a.time_s))
+    }
+
+    /// Knots from one moment to another, those that the digits of F leave beside its ends among them.
+    pub fn knots_between(&self, [from_s, to_s]: [f64; 2]) -> &[TimedKnot<N>] {
+        let first = self.knots.partition_point(|knot| knot.time_s < from_s - SAME_MOMENT_S);
+        let end = self.knots.partition_point(|knot| knot.time_s <= to_s + SAME_MOMENT_S);
+        &self.knots[first..end]
+    }
+
+    /// Time of the last knot, s.
+    pub fn end_s(&self) -> f64 {
+        self.knots[self.knots.len() - 1].time_s
+    }
+
+    /// When an axis that never rests or turns back stands at a place.
+    pub fn time_at(&self, axis: usize, place: f64) -> f64 {
+        let after = self.block_ending_after(|knot| knot.axes[axis] <= place);
+        let Some(b) = self.knots.get(after) else { return 0.0 };
+        let a = &self.knots[after - 1];
+        a.time_s + (b.time_s - a.time_s) * (place - a.axes[axis]) / (b.axes[axis] - a.axes[axis])
+    }
+
+    /// Number of the knot that ends the block after those that lie before; that of a block in any case.
+    fn block_ending_after(&self, before: impl Fn(&TimedKnot<N>) -> bool) -> usize {
+        self.knots.partition_point(before).clamp(1, self.knots.len().max(2) - 1)
+    }
+}
+
+impl<const N: usize> TimedKnot<N> {
+    /// Axes at a time on the straight line from this knot to another.
+    pub fn between(&self, other: &Self, time_s: f64) -> [f64; N] {
+        let lasts_s = other.time_s - self.time_s;
+        let share = if lasts_s > 0.0 { (time_s - self.time_s) / lasts_s } else { 0.0 };
+        std::array::from_fn(|axis| self.axes[axis] + share * (other.axes[axis] - self.axes[axis]))
+    }
 }
 
 /// Knots of a program in this dialect: `G0` to the start, `G1` in `G93` with `F` in every block, `G21`, `G90`, `G94`,
@@ -27,12 +87,10 @@ pub fn read_timed<const N: usize>(
     axes: &[Axis; N],
     standing: [Option<f64>; N],
 ) -> Result<Vec<TimedKnot<N>>, String> {
-    let mut reader =
-        Reader { axes, position: standing, motion: None, inverse_time: false, knots: Vec::new(), ended: false };
-    let (lines, ended) = blocks(text, |words| {
-        reader.block(words)?;
-        Ok(reader.ended)
-    })?;
+    let names = axes.map(|axis| axis.letter.to_string()).join(", ");
+    let grammar = Grammar { axes: axes.map(|axis| (axis.letter, axis.kind)), names: &names, ram: false };
+    let mut reader = Reader { axes, position: standing, knots: Vec::new() };
+    let (lines, ended) = statements(text, &grammar, |statement| reader.take(statement))?;
     ended?;
     if reader.knots.is_empty() {
         return Err(format!("line {lines}: no axis has moved"));
@@ -40,69 +98,34 @@ pub fn read_timed<const N: usize>(
     Ok(reader.knots)
 }
 
-/// What the blocks so far have said.
+/// What the blocks so far have done.
 struct Reader<'a, const N: usize> {
     axes: &'a [Axis; N],
     /// In mm and deg.
     position: [Option<f64>; N],
-    motion: Option<u32>,
-    inverse_time: bool,
     knots: Vec<TimedKnot<N>>,
-    ended: bool,
 }
 
 impl<const N: usize> Reader<'_, N> {
-    fn block(&mut self, words: &[Word]) -> Result<(), String> {
-        let (mut moves, mut per_minute) = (false, None);
-        let mut seen = Vec::new();
-        for word in words {
-            let refuse = |why: &str| Err(format!("word `{}`: {why}", word.text));
-            if !matches!(word.letter, 'G' | 'M') && seen.contains(&word.letter) {
-                return refuse("this letter stands twice in the block");
-            }
-            seen.push(word.letter);
-            match (word.letter, (word.number * 10.0).round() as i64) {
-                ('N', _) | ('G', 210 | 900) => {}
-                ('G', 0) => self.motion = Some(0),
-                ('G', 10) => self.motion = Some(1),
-                ('G', 930) => self.inverse_time = true,
-                ('G', 940) => self.inverse_time = false,
-                ('G', 200) => return refuse("inches are not read; write the program in mm (G21)"),
-                ('G', 910) => return refuse("relative positions are not read; write absolute ones (G90)"),
-                ('G', _) => return refuse("this G is not read; known are G0, G1, G21, G90, G93, G94"),
-                ('M', 20 | 300) => self.ended = true,
-                ('M', _) => return refuse("this M is not read; known are M2, M30"),
-                ('F', _) if word.number > 0.0 => per_minute = Some(word.rate()?),
-                ('F', _) => return refuse("a feed must be above zero"),
-                (letter, _) => match self.axes.iter().position(|axis| axis.letter == letter) {
-                    Some(axis) => {
-                        self.position[axis] = Some(word.position(self.axes[axis].kind)?);
-                        moves = true;
-                    }
-                    None => {
-                        let letters: Vec<String> = self.axes.iter().map(|axis| axis.letter.to_string()).collect();
-                        return refuse(&format!("this letter is not read; axes are {}", letters.join(", ")));
-                    }
-                },
-            }
+    fn take(&mut self, statement: Statement<N>) -> Result<(), String> {
+        let Some((motion, target)) = statement.travel else { return Ok(()) };
+        for (axis, value) in self.position.iter_mut().zip(target) {
+            *axis = value.or(*axis);
         }
-        if moves { self.travel(per_minute) } else { Ok(()) }
-    }
-
-    fn travel(&mut self, per_minute: Option<f64>) -> Result<(), String> {
         if let Some(axis) = self.position.iter().position(Option::is_none) {
             return Err(format!("axes move before axis {} has a position", self.axes[axis].letter));
         }
         let axes = std::array::from_fn(|axis| self.axes[axis].kind.from_shown(self.position[axis].unwrap_or_default()));
-        let time_s = match (self.motion, self.knots.last()) {
-            (None, _) => return Err("axes move, but neither G0 nor G1 has been given".to_owned()),
-            (Some(0), None) => 0.0,
-            (Some(0), Some(_)) => return Err("word `G0`: rapid travel after the start; use G1 with G93".to_owned()),
-            (Some(_), None) => return Err("the program does not begin with G0 to its first position".to_owned()),
-            (Some(_), Some(_)) if !self.inverse_time => {
+        let time_s = match (motion, self.knots.last()) {
+            (Move::Rapid, None) => 0.0,
+            (Move::Rapid, Some(_)) => return Err("word `G0`: rapid travel after the start; use G1 with G93".to_owned()),
+            (Move::Straight, None) => {
+                return Err("the program does not begin with G0 to its first position".to_owned());
+            }
+            (Move::Straight, Some(_)) if !statement.inverse_time => {
                 return Err("axes move without G93: the time of the block is not known".to_owned());
             }
-            (Some(_), Some(last)) => match per_minute {
+            (Move::Straight, Some(last)) => match statement.feed {
                 Some(per_minute) => last.time_s + 60.0 / per_minute,
                 None => return Err("word `F` is missing: in G93 every block needs its own".to_owned()),
             },

@@ -55,23 +55,35 @@ impl Word<'_> {
     }
 }
 
-/// Takes block after block; `block` tells whether the program has ended. Gives the number of lines, and whether an end
-/// was there; errors name the line.
+/// Takes block after block; `block` says whether the program has ended. Gives the number of lines, and whether an end
+/// was there; errors name the line. A `%` alone in its line begins a program, before everything else, or ends it.
 ///
 /// # Errors
-/// Line and word of what is malformed.
+/// Line and word of what is malformed, and whatever a control would not read any more.
 pub fn blocks(
     text: &str,
     mut block: impl FnMut(&[Word]) -> Result<bool, String>,
 ) -> Result<(usize, Result<(), String>), String> {
-    let (mut lines, mut ended) = (0, false);
+    let (mut lines, mut begun, mut ended, mut tape_ended) = (0, false, false, false);
     for (index, line) in text.lines().enumerate() {
         lines = index + 1;
+        let line = line.trim();
+        if tape_ended && !line.is_empty() {
+            return Err(format!(
+                "line {lines}: `{}` stands behind the `%` at which a control stops reading",
+                cut(line)
+            ));
+        }
+        if line == "%" {
+            tape_ended = std::mem::replace(&mut begun, true);
+            continue;
+        }
+        begun |= !line.is_empty();
         let words = words(line).map_err(|why| format!("line {lines}: {why}"))?;
         if ended && !words.is_empty() {
             return Err(format!("line {lines}: a block after the end of the program"));
         }
-        ended = block(&words).map_err(|why| format!("line {lines}: {why}"))?;
+        ended |= block(&words).map_err(|why| format!("line {lines}: {why}"))?;
     }
     let cut_off = || format!("line {lines}: the program ends without M30: it may have been cut off");
     Ok((lines, if ended { Ok(()) } else { Err(cut_off()) }))
@@ -82,8 +94,11 @@ fn words(line: &str) -> Result<Vec<Word<'_>>, String> {
     let mut found = Vec::new();
     let mut rest = line.trim();
     while let Some(first) = rest.chars().next() {
-        if first == ';' || first == '%' {
+        if first == ';' {
             break;
+        }
+        if first == '%' {
+            return Err(format!("`{}`: a `%` stands alone in its line", cut(rest)));
         }
         if first == '(' {
             let Some(end) = rest.find(')') else { return Err(format!("the comment `{}` is not closed", cut(rest))) };

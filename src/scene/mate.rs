@@ -154,6 +154,7 @@ impl Writer<'_> {
             "output" => name == "folder",
             // Balls fit the driver's spaces.
             "measure" => name == "ball_diameter_mm",
+            "operation[]" if name == "program" => true,
             _ => process.of_one_gear.contains(&name),
         };
         // Points that were read from a file stand for the file, which may lie in another folder.

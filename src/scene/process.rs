@@ -38,7 +38,7 @@ pub struct SceneProcess {
     pub operations: &'static [StandardOperation],
     /// Its keys that count per turn of the work: a mate with twice the teeth gets twice as many.
     pub per_revolution: &'static [&'static str],
-    /// Its keys that belong to one gear and do not pass to its mate: windows, programs.
+    /// Its keys that belong to one gear and do not pass to its mate: windows.
     pub of_one_gear: &'static [&'static str],
     /// Shared sections that hold only where they are written: no default stands in for them.
     pub on_demand: &'static [&'static str],

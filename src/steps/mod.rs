@@ -20,6 +20,7 @@ pub mod meshes;
 pub mod parts;
 pub mod pictures;
 pub mod planar;
+pub mod program_under_test;
 pub mod record;
 pub mod report;
 pub mod sheets;

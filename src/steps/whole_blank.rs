@@ -45,7 +45,7 @@ pub fn findings(
         GearKind::External => "volume of the uncut blank less its bore; mean of both families of rays",
         GearKind::Internal => "volume of the uncut ring; mean of both families of rays",
     };
-    let volume = |families, definition: &'static str| Quantity::number(mean(families), "mm3", definition);
+    let volume = |families, definition: &'static str| Quantity::number(mean(families), "mm^3", definition);
     let imbalance = operations.iter().map(OperationVolume::imbalance).fold(0.0, f64::max);
     Section::new("blank", "The whole gear")
         .with("spacing", Quantity::number(spacing_mm, "mm", "distance of the rays through the blank"))
@@ -67,7 +67,7 @@ pub fn findings(
 pub fn removed<'a>(names: impl Iterator<Item = &'a str>, operations: &[OperationVolume]) -> Section {
     let operations = names.zip(operations).map(|(name, of)| {
         let definition = "volume that its passes removed, summed pass by pass";
-        let volume = Quantity::number(mean(of.by_passes_mm3), "mm3", definition);
+        let volume = Quantity::number(mean(of.by_passes_mm3), "mm^3", definition);
         Section::new(name, format!("Operation {name}")).shown("removed_volume", "removed", volume)
     });
     Section::new("operations", "Removed by each operation").parts(operations)

@@ -1,14 +1,13 @@
 //! No control in particular: what gearcut's own reader takes.
 
-use super::Dialect;
+use super::{Dialect, ascii};
 
 pub(super) static DIALECT: Dialect = Dialect {
     extension: "ngc",
     opening: |_| vec!["%".to_owned()],
     tape_ends: true,
     comment_marks: ["(", ")"],
-    // Round brackets end a comment.
-    comment_words: |words| words.replace(['(', ')'], " "),
+    comment_words: ascii,
     told: &[],
     numbers_blocks: true,
     safe_start: |_| vec!["G21 G90 G94".to_owned()],

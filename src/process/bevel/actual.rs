@@ -1,11 +1,13 @@
 //! Where the head really stands in the gear: the commanded axes with the errors of machine, clamping and head.
 //!
-//! In: an operation's settings and roll, and the machine's errors. Out: the pose of the head in the gear's spindle at
-//! any cradle angle of any slot. What is commanded stays in tables, charts and programs.
+//! In: an operation's settings and roll, or the program that is cut instead, and the machine's errors. Out: the pose of
+//! the head in the gear's spindle at any cradle angle of any slot. What is commanded stays in tables, charts and
+//! programs.
 //!
 //! Errors that depend on where the work spindle stands see it with its indexing from slot to slot; drives have settled
 //! when a slot's roll begins.
 
+use super::axis_program::BevelProgram;
 use super::rolled_axes::rolled_axes;
 use crate::machine::AxisMotion;
 use crate::machine_errors::{ActualMotion, Course, MachineErrors, MachineMoment, ToolMounting, WorkMounting};
@@ -16,6 +18,8 @@ use glam::{DMat3, DVec3};
 
 /// Cells over a roll: it is a tenth of a turn.
 const CELLS: usize = 512;
+/// Place of the work spindle among the axes.
+const WORK: usize = 3;
 
 /// One slot's roll as the settings have it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -39,6 +43,7 @@ pub struct CommandedRoll {
 pub struct ActualRoll {
     machine: FiveAxisMachine,
     roll: CommandedRoll,
+    program: Option<BevelProgram>,
     motion: Option<ActualMotion<5>>,
     mounting: WorkMounting,
     head: ToolMounting,
@@ -60,12 +65,13 @@ pub struct SlotMoment {
 }
 
 impl ActualRoll {
-    /// Errors over an operation's rolls, on a gear whose face has its middle at `middle_z_mm`.
+    /// Errors over an operation's rolls, by its settings or by a program, on a gear whose face has its middle at
+    /// `middle_z_mm`.
     pub fn new(
         errors: &MachineErrors<5>,
         head: ToolMounting,
         machine: FiveAxisMachine,
-        roll: CommandedRoll,
+        (roll, program): (CommandedRoll, Option<&BevelProgram>),
         middle_z_mm: f64,
     ) -> Self {
         // Blades are in the work a little before and after the roll.
@@ -75,20 +81,28 @@ impl ActualRoll {
             let axes = rolled_axes(machine, &roll.settings, roll.from_rad + time_s * roll.rad_per_s);
             axes.map(|series| AxisMotion::along(series, roll.rad_per_s))
         });
-        Self { machine, roll, motion, mounting: errors.mounting, head, middle_z_mm }
+        Self { machine, roll, program: program.cloned(), motion, mounting: errors.mounting, head, middle_z_mm }
     }
 
     /// Pose of the head in the gear; `gear_from_work` is that of the work frame in the gear for slot 0, `index` turns
     /// the gear to a slot, `head_from_tool` turns the tool frame so that its x axis looks at the work.
     pub fn gear_from_head(&self, at: &SlotMoment, gear_from_work: &Rigid3, index: &Rigid3, head: &Rigid3) -> Rigid3 {
         let roll = &self.roll;
-        let pose = match &self.motion {
-            None => roll.settings.work_from_tool(at.cradle_rad),
-            Some(motion) => {
+        let pose = match (&self.motion, &self.program) {
+            (None, None) => roll.settings.work_from_tool(at.cradle_rad),
+            (motion, program) => {
                 let time_s = (at.cradle_rad - roll.from_rad) / roll.rad_per_s;
-                let commanded = |time_s: f64| {
-                    let cradle_rad = roll.from_rad + time_s * roll.rad_per_s;
-                    rolled_axes(self.machine, &roll.settings, cradle_rad).map(|axis| axis.value())
+                let commanded = |time_s: f64| match program {
+                    // The errors see the work where it has been indexed to, by the moment.
+                    Some(program) => {
+                        let mut axes = program.at(f64::from(at.slot) * roll.cycle_s + time_s);
+                        axes[WORK] -= at.indexed_rad;
+                        axes
+                    }
+                    None => {
+                        let cradle_rad = roll.from_rad + time_s * roll.rad_per_s;
+                        rolled_axes(self.machine, &roll.settings, cradle_rad).map(|axis| axis.value())
+                    }
                 };
                 let moment = MachineMoment {
                     time_s,
@@ -97,10 +111,17 @@ impl ActualRoll {
                     passage: 0,
                     indexed: [0.0, 0.0, 0.0, at.indexed_rad, 0.0],
                 };
-                let [x, y, z, work_rad, swing_rad] = motion.positions(&moment, commanded);
+                let [x, y, z, work_rad, swing_rad] = match motion {
+                    Some(motion) => {
+                        let mut axes = motion.positions(&moment, commanded);
+                        axes[WORK] -= at.indexed_rad;
+                        axes
+                    }
+                    None => commanded(time_s),
+                };
                 self.machine.work_from_tool(&SixAxes {
                     slides_mm: DVec3::new(x, y, z),
-                    work_rad: work_rad - at.indexed_rad,
+                    work_rad,
                     swing_rad,
                     head_rad: at.cradle_rad,
                 })

@@ -13,9 +13,10 @@ use crate::findings::Warning;
 use crate::machine::{Motion as _, Order, Peak, peaks};
 use crate::output::line_chart::LineChart;
 use crate::output::progress::duration_text;
-use crate::output::text::{Sheet, plain, significant};
+use crate::output::text::{Sheet, from_full_depth, plain, significant};
 use crate::steps::axes::charts::{chart, panels};
 use crate::steps::axes::{self, AxesOfOperation, Named, NamedChart, PeakWords, STEADY};
+use crate::steps::program_under_test::ProgramUnderTest;
 use gearcut_core::error::Result;
 use gearcut_core::math::least_squares::WindowFit;
 use gearcut_core::terms::Side;
@@ -47,6 +48,7 @@ pub struct BevelAxesReport<'a> {
     job: &'a BevelJob,
     operation: &'a PreparedBevel,
     peaks: Vec<Peak>,
+    program: Option<ProgramUnderTest>,
     charts: OnceLock<[NamedChart<LineChart>; 2]>,
 }
 
@@ -68,13 +70,18 @@ impl<'a> BevelAxesReport<'a> {
             let mut peaks = peaks(&RollMotion { job, operation }, &limits(job));
             // Speeds of all axes first.
             peaks.sort_by_key(|peak| peak.order);
-            Self { job, operation, peaks, charts: OnceLock::new() }
+            Self { job, operation, peaks, program: gcode::judged(job, operation), charts: OnceLock::new() }
         };
         job.operations.iter().map(one).collect()
     }
 
     fn motion(&self) -> RollMotion<'a> {
         RollMotion { job: self.job, operation: self.operation }
+    }
+
+    /// The program under test against the scene's own motion, if one is cut.
+    pub fn program(&self) -> Option<&ProgramUnderTest> {
+        self.program.as_ref()
     }
 
     /// The operation.
@@ -152,11 +159,15 @@ impl AxesOfOperation for BevelAxesReport<'_> {
         let (job, operation) = (self.job, self.operation);
         let spec = &operation.spec;
         sheet.heading(&format!(
-            "Operation {}: {}, offset {} mm",
+            "Operation {}: {}, {}",
             spec.name,
             self.linkage_words(),
-            plain(spec.offset_mm)
+            from_full_depth(spec.offset_mm)
         ));
+        if let Some(program) = &operation.program {
+            let knots = program.knots.len();
+            sheet.line("program", format!("{knots} positions are cut; tables, charts and peaks are the scene's own"));
+        }
         let speed = spec.head_speed_rad_per_s / TURN_RAD * 60.0;
         let cutting_m_per_min = TURN_RAD * job.head.radius_mm * speed / 1e3;
         sheet.line("head", format!("{} 1/min, {} m/min", significant(speed, 5), significant(cutting_m_per_min, 4)));
@@ -197,7 +208,9 @@ impl AxesOfOperation for BevelAxesReport<'_> {
     }
 
     fn own_warnings(&self) -> Vec<Warning> {
-        Vec::new()
+        let (asked_mm, module_mm) = (self.job.scene.output.gcode_contour_error_mm, self.job.scene.gear.module_mm);
+        let told = |program: &ProgramUnderTest| program.warnings(&self.operation.spec.name, asked_mm, module_mm);
+        self.program.as_ref().map(told).unwrap_or_default()
     }
 
     fn write_table(&self, path: &Path) -> Result<()> {

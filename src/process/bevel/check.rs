@@ -126,40 +126,43 @@ fn print_cost(sheet: &mut Sheet, job: &BevelJob) -> Result<()> {
     let surfaces = job.operations.len() as f64;
     let threads = rayon::current_num_threads();
     sheet.heading("Cost of the cut (nothing has been cut)");
-    sheet.line(
-        "flank fields",
-        format!(
-            "{} of at most {:.2} million dexels, {} by {} um; {} million in all",
-            2 * job.blank.teeth,
-            1e-6 * largest,
-            plain(1e3 * fields.profile_spacing_mm),
-            plain(1e3 * fields.lead_spacing_mm),
-            significant(1e-6 * dexels, 3)
-        ),
-    );
-    sheet.line(
-        "evaluations",
-        format!(
-            "{} million dexels against passes, {:.1} per dexel and operation",
-            significant(1e-6 * evaluations, 3),
-            evaluations / (dexels * surfaces)
-        ),
-    );
     let grid = CellGrid::of_scene(job)?;
-    let rays = f64::from(job.blank.teeth) * (grid.columns * grid.rows()) as f64;
-    let passes = f64::from(job.slots.count()) / f64::from(job.blank.teeth);
-    sheet.line(
-        "whole blank",
-        format!(
-            "{} thousand rays in {} rows, each met by some {:.0} passes",
-            significant(1e-3 * rays, 3),
-            grid.rows(),
-            passes
-        ),
-    );
-    // The rays of both sides are kept.
-    let bytes = largest * (threads as f64 * (BYTES_PER_RAY + BYTES_PER_DEXEL as f64 * surfaces) + 2.0 * BYTES_PER_RAY);
-    sheet.line("memory", format!("{:.0} MB: one flank at a time on each of {threads} threads", 1e-6 * bytes));
+    sheet.details(|sheet| {
+        sheet.line(
+            "flank fields",
+            format!(
+                "{} of at most {:.2} million dexels, {} by {} um; {} million in all",
+                2 * job.blank.teeth,
+                1e-6 * largest,
+                plain(1e3 * fields.profile_spacing_mm),
+                plain(1e3 * fields.lead_spacing_mm),
+                significant(1e-6 * dexels, 3)
+            ),
+        );
+        sheet.line(
+            "evaluations",
+            format!(
+                "{} million dexels against passes, {:.1} per dexel and operation",
+                significant(1e-6 * evaluations, 3),
+                evaluations / (dexels * surfaces)
+            ),
+        );
+        let rays = f64::from(job.blank.teeth) * (grid.columns * grid.rows()) as f64;
+        let passes = f64::from(job.slots.count()) / f64::from(job.blank.teeth);
+        sheet.line(
+            "whole blank",
+            format!(
+                "{} thousand rays in {} rows, each met by some {:.0} passes",
+                significant(1e-3 * rays, 3),
+                grid.rows(),
+                passes
+            ),
+        );
+        // The rays of both sides are kept.
+        let bytes =
+            largest * (threads as f64 * (BYTES_PER_RAY + BYTES_PER_DEXEL as f64 * surfaces) + 2.0 * BYTES_PER_RAY);
+        sheet.line("memory", format!("{:.0} MB: one flank at a time on each of {threads} threads", 1e-6 * bytes));
+    });
     let cut_s = dexels * (RAY_S_PER_DEXEL + surfaces * MEASURE_S_PER_DEXEL) + evaluations * CUT_S_PER_EVALUATION;
     let [cut_s, beside_s] = [cut_s, stages::beside_cutting_s(job, &STAGE_COSTS)].map(|s| s * machine.factor());
     let blank_s = blank_s(job, &grid)?;

@@ -18,6 +18,7 @@ use crate::output::text::significant;
 use crate::steps::axes::{self, AxesOfOperation as _};
 use crate::steps::foreseen::Foreseen;
 use crate::steps::machine_errors::{self, size, tool_words};
+use crate::steps::program_under_test::ProgramUnderTest;
 use crate::steps::untouched_dexels;
 use crate::texture::{self, WindowTexture};
 use gearcut_core::bevel::ease_off::{Explained, Setting};
@@ -274,7 +275,8 @@ fn operations(job: &BevelJob, motion: &[BevelAxesReport]) -> Result<Section> {
                     Quantity::number(idle_share(job, operation), "1", "share of the roll that generates no flank"),
                 )
                 .table(fits)
-                .part(axes::findings(report)),
+                .part(axes::findings(report))
+                .parts(report.program().map(ProgramUnderTest::section)),
         );
     }
     Ok(section)

@@ -13,11 +13,11 @@
 //! cradle angle goes back and the work is indexed in one block, and the head comes in again; together they take the
 //! operation's idle time. The head itself turns at the speed that the program's head says.
 
+mod judge;
 mod program;
-mod read;
 
-pub use program::{BevelKnot, BevelProgram};
-pub use read::read;
+pub use super::axis_program::{BevelKnot, BevelProgram, read};
+pub use judge::judged;
 
 use super::job::BevelJob;
 use super::motion::{AXES, RollMotion, limits};

@@ -9,9 +9,11 @@
 //! from the generated flanks. Which blades cut left flanks follows from them, too.
 
 use super::actual::{ActualRoll, SlotMoment};
+use super::axis_program::read;
 use super::operation::PreparedBevel;
 use super::scene::model::Bevel;
 use super::slots::Slots;
+use crate::gcode::read_file;
 use crate::machine_errors::refuse_fast_noise;
 use crate::scene::Scene;
 use gearcut_core::bevel::blank::BevelBlank;
@@ -118,11 +120,12 @@ impl BevelJob {
                         operation.roll_rad[1].unwrap_or(needed_rad[1] + ROLL_MARGIN_RAD),
                     ],
                     start_s,
+                    program: operation.program.as_deref().map(|path| read_file(path, read)).transpose()?,
                 };
                 start_s += f64::from(blank.teeth) * prepared.cycle_s();
-                prepared
+                Ok(prepared)
             })
-            .collect();
+            .collect::<Result<_>>()?;
         head.half_window_rad = 0.0;
         for operation in &operations {
             head.half_window_rad = head.half_window_rad.max(half_window_rad(operation, &head, &blank, middle_rad)?);
@@ -136,7 +139,8 @@ impl BevelJob {
             refuse_fast_noise(spec.errors.axes.iter().zip(names), operation.spec.head_speed_rad_per_s / TURN_RAD)?;
         }
         let actual = operations.iter().map(|operation| {
-            ActualRoll::new(&spec.errors, spec.head.mounting, machine, operation.commanded(), middle_z_mm)
+            let program = operation.program.as_ref();
+            ActualRoll::new(&spec.errors, spec.head.mounting, machine, (operation.commanded(), program), middle_z_mm)
         });
         let actual: Vec<ActualRoll> = actual.collect();
         let slots = Slots::new(

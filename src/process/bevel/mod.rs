@@ -5,6 +5,7 @@
 
 mod actual;
 pub mod axes_report;
+pub mod axis_program;
 pub mod blank;
 pub mod body;
 mod check;

@@ -7,17 +7,10 @@
 
 use super::job::BevelJob;
 use super::operation::PreparedBevel;
+pub use super::rolled_axes::AXES;
 use super::rolled_axes::rolled_axes;
-use crate::machine::{Axis, AxisKind, AxisMotion, Limits, Motion, MotionPiece};
+use crate::machine::{Axis, AxisMotion, Limits, Motion, MotionPiece};
 
-/// The linked axes.
-pub const AXES: [Axis; 5] = [
-    Axis::new("X", "x", 'X', AxisKind::Linear).called("X axis"),
-    Axis::new("Y", "y", 'Y', AxisKind::Linear).called("Y axis"),
-    Axis::new("Z", "z", 'Z', AxisKind::Linear).called("Z axis"),
-    Axis::new("A work spindle", "work", 'A', AxisKind::Rotary).called("work spindle"),
-    Axis::new("B swing", "swing", 'B', AxisKind::Rotary).called("swing axis"),
-];
 /// Cells of the search for peaks: the roll is a tenth of a turn.
 const CELLS: usize = 256;
 

@@ -1,6 +1,7 @@
 //! One run of the head over all slots: settings, roll, times.
 
 use super::actual::CommandedRoll;
+use super::axis_program::BevelProgram;
 use super::scene::model::BevelOperation;
 use gearcut_core::bevel::cradle::CradleSettings;
 
@@ -17,6 +18,8 @@ pub struct PreparedBevel {
     pub roll_rad: [f64; 2],
     /// Time from the beginning of the first operation to that of this one, s.
     pub start_s: f64,
+    /// The program that is cut in place of the settings, if the scene names one.
+    pub program: Option<BevelProgram>,
 }
 
 impl PreparedBevel {

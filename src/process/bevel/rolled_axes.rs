@@ -1,8 +1,18 @@
 //! The linked axes as series in the cradle angle.
 
+use crate::machine::{Axis, AxisKind};
 use gearcut_core::bevel::cradle::CradleSettings;
 use gearcut_core::bevel::five_axis::FiveAxisMachine;
 use gearcut_core::math::Jet;
+
+/// The linked axes.
+pub const AXES: [Axis; 5] = [
+    Axis::new("X", "x", 'X', AxisKind::Linear).called("X axis"),
+    Axis::new("Y", "y", 'Y', AxisKind::Linear).called("Y axis"),
+    Axis::new("Z", "z", 'Z', AxisKind::Linear).called("Z axis"),
+    Axis::new("A work spindle", "work", 'A', AxisKind::Rotary).called("work spindle"),
+    Axis::new("B swing", "swing", 'B', AxisKind::Rotary).called("swing axis"),
+];
 
 /// X, Y, Z, A and B at a cradle angle with two derivatives with respect to it, mm and rad: those of a circle and of the
 /// roll's polynomial.

@@ -8,6 +8,7 @@
 //! q = q_from + (tau - tau0) dq/dt / omega. Every blade passes that points to the work within that time, those of the
 //! turns that the roll begins or ends in the middle of among them.
 
+use super::axis_program::BevelKnot;
 use super::operation::PreparedBevel;
 use gearcut_core::bevel::face_mill::FaceMill;
 use gearcut_core::error::Refusal;
@@ -55,7 +56,10 @@ impl Slots {
                 let cradle_rad =
                     |tool_rad: f64| operation.roll_rad[0] + (tool_rad - from) * operation.cradle_rad_per_s() / speed;
                 let beyond = head.half_window_rad;
-                let motion = MotionTable::new([from - beyond, to + beyond], &[], |tool_rad| {
+                let start_s = operation.cycle_s() * f64::from(slot);
+                let at = |knot: &BevelKnot| from + speed * (knot.time_s - start_s);
+                let corners: Vec<f64> = operation.program.iter().flat_map(|program| &program.knots).map(at).collect();
+                let motion = MotionTable::new([from - beyond, to + beyond], &corners, |tool_rad| {
                     gear_from_head(number, slot, cradle_rad(tool_rad), tool_rad).inverse()
                 });
                 Ok(TurningPasses::new(0, &tool, 1.0, motion)?.with_parts_of_turns())

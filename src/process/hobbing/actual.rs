@@ -1,14 +1,14 @@
 //! Where hob and work really stand: the commanded axes with the errors of machine, clamping and hob.
 //!
-//! In: a linkage and the machine's errors. Out: the pose of the work in the hob's head at any hob angle, from which
-//! passes are made. What is commanded stays in tables, charts and programs.
+//! In: a linkage or the program that is cut instead, and the machine's errors. Out: the pose of the work in the hob's
+//! head at any hob angle, from which passes are made. What is commanded stays in tables, charts and programs.
 //!
 //! The tool angle of the passes is the commanded one. What the hob spindle is off by turns the head with it; so do the
 //! runout and the wobble of the hob, whose own axis the head carries.
 
+use super::commanded::HobbingCommand;
 use super::linkage::HobbingLinkage;
-use super::linkage::dynamics::in_order;
-use crate::machine::Motion;
+use crate::machine::Motion as _;
 use crate::machine_errors::{
     ActualMotion, Course, Guide, MachineErrors, MachineMoment, ToolMounting, WorkMounting, refuse_fast_noise,
 };
@@ -44,22 +44,23 @@ impl ActualHobbing {
     pub fn new(
         errors: &MachineErrors<6>,
         hob: ToolMounting,
-        linkage: &HobbingLinkage,
+        commanded: HobbingCommand,
         start_s: f64,
         half_face_mm: f64,
     ) -> Result<Self, Refusal> {
+        let linkage = commanded.linkage;
         refuse_fast_waves(errors, linkage)?;
         let beyond_s = BEYOND_TURNS * linkage.end_s() / (linkage.axes::<1>(linkage.end_s()).hob_rad.value() / TURN_RAD);
         refuse_fast_noise(errors.axes.iter().zip(SECTIONS), BEYOND_TURNS / beyond_s)?;
-        let cycles = (linkage.end_s() + 2.0 * beyond_s) / linkage.cycle_s();
+        let cycles = (commanded.end_s() + 2.0 * beyond_s) / linkage.cycle_s();
         let course = Course {
             from_s: -beyond_s,
-            to_s: linkage.end_s() + beyond_s,
-            corners_s: linkage.corners_s(),
+            to_s: commanded.end_s() + beyond_s,
+            corners_s: commanded.corners_s(),
             cells: (linkage.curve().samples_per_turn().clamp(64, 2048) as f64 * cycles).ceil() as usize,
         };
         Ok(Self {
-            motion: ActualMotion::new(&errors.axes, &course, |time_s| linkage.at(time_s)),
+            motion: ActualMotion::new(&errors.axes, &course, |time_s| commanded.motion(time_s)),
             guide: errors.guide,
             mounting: errors.mounting,
             hob,
@@ -69,18 +70,18 @@ impl ActualHobbing {
     }
 
     /// Pose of the work in the hob's head when the hob has been told to turn to `hob_rad`.
-    pub fn head_from_work(&self, linkage: &HobbingLinkage, hob_rad: f64) -> Rigid3 {
-        let exact = self.motion.is_none() && self.hob.is_none();
+    pub fn head_from_work(&self, commanded: HobbingCommand, hob_rad: f64) -> Rigid3 {
+        let linkage = commanded.linkage;
+        let exact = commanded.program.is_none() && self.motion.is_none() && self.hob.is_none();
         if exact && self.guide.is_none() && self.mounting.is_none() {
             return linkage.head_from_work(hob_rad);
         }
-        let time_s = linkage.time_at_hob_angle(hob_rad);
-        let commanded = |time_s: f64| in_order(&linkage.axes::<1>(time_s)).map(|axis| axis.value());
+        let time_s = commanded.time_at_hob_angle(hob_rad);
         let since_start_s = self.start_s + time_s;
         let moment = MachineMoment { time_s, since_start_s, at_rest_s: 0.0, passage: 0, indexed: [0.0; 6] };
         let axes = match &self.motion {
-            Some(motion) => motion.positions(&moment, commanded),
-            None => commanded(time_s),
+            Some(motion) => motion.positions(&moment, |time_s| commanded.positions(time_s)),
+            None => commanded.positions(time_s),
         };
         // The slide runs along the work's rotation vector, against the gear's z.
         let [_, work_rad, _, _, slide_mm, _] = axes;

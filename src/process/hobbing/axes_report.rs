@@ -22,6 +22,7 @@ use crate::process::hobbing::job::PreparedHobbing;
 use crate::process::hobbing::linkage::dynamics::{self, AXES};
 use crate::process::hobbing::scene::model::{HobbingKind, ShiftDirection, ShiftStrategy};
 use crate::steps::axes::{self, AxesOfOperation, Named, NamedChart, PeakWords, STEADY};
+use crate::steps::program_under_test::ProgramUnderTest;
 use gearcut_core::error::Result;
 use gearcut_core::units::UM_PER_MM;
 use std::path::Path;
@@ -49,6 +50,8 @@ pub struct HobbingAxesReport<'a> {
     job: &'a HobbingJob,
     index: usize,
     peaks: Vec<Peak>,
+    /// The program under test, if one is cut.
+    program: Option<ProgramUnderTest>,
     /// Charts for folder and page, drawn once.
     charts: OnceLock<[NamedChart<LineChart>; 3]>,
 }
@@ -59,12 +62,18 @@ impl<'a> HobbingAxesReport<'a> {
         let mut peaks = peaks(&job.operations[index].linkage, &dynamics::limits(&job.limits));
         // Speeds of all axes first.
         peaks.sort_by_key(|peak| peak.order);
-        Self { job, index, peaks, charts: OnceLock::new() }
+        let program = gcode::judged(job, &job.operations[index]);
+        Self { job, index, peaks, program, charts: OnceLock::new() }
     }
 
     /// Of all operations of a job, in order.
     pub fn of_job(job: &'a HobbingJob) -> Vec<Self> {
         (0..job.operations.len()).map(|index| Self::new(job, index)).collect()
+    }
+
+    /// The program under test against the scene's own motion, if one is cut.
+    pub fn program(&self) -> Option<&ProgramUnderTest> {
+        self.program.as_ref()
     }
 
     fn operation(&self) -> &'a PreparedHobbing {
@@ -119,6 +128,8 @@ impl AxesOfOperation for HobbingAxesReport<'_> {
                 is no circle, and no G-code is written"
             )));
         }
+        let (asked_mm, module_mm) = (self.job.scene.output.gcode_contour_error_mm, self.job.scene.gear.module_mm);
+        warnings.extend(self.program.iter().flat_map(|program| program.warnings(name, asked_mm, module_mm)));
         warnings
     }
 

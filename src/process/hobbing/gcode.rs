@@ -21,12 +21,13 @@
 //! Road not taken: cycles of single controls. Their names and parameters differ from maker to maker; the coupling's
 //! three numbers stand in the head of the program instead.
 
+mod judge;
 mod program;
-mod read;
 mod text;
 
-pub use program::{Gearbox, HobbingKnot, HobbingProgram, Positions};
-pub use read::read;
+pub use crate::process::hobbing::commanded::{HobbingKnot, HobbingProgram, Positions, read};
+pub use judge::judged;
+pub use program::Gearbox;
 pub use text::program_numbers;
 
 use crate::findings::Warning;

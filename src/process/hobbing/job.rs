@@ -8,6 +8,7 @@ use crate::machine_errors::MachineErrors;
 use crate::material::CuttingForce;
 use crate::process::hobbing::Hob;
 use crate::process::hobbing::actual::ActualHobbing;
+use crate::process::hobbing::commanded::{HobbingCommand, HobbingProgram, program_of};
 use crate::process::hobbing::kept::{self, Kept, KeptTargets};
 use crate::process::hobbing::linkage::{FeedPlan, HobbingGeometry, HobbingLaw, HobbingLinkage, feed_marks};
 use crate::process::hobbing::rack_generation::{Rack, RackGeneration};
@@ -40,8 +41,17 @@ pub struct PreparedHobbing {
     pub plan: FeedPlan,
     /// The six axes.
     pub linkage: HobbingLinkage,
+    /// The program that is cut in their place, if the scene names one.
+    pub program: Option<HobbingProgram>,
     /// What the machine makes of them.
     pub actual: ActualHobbing,
+}
+
+impl PreparedHobbing {
+    /// What the axes are told.
+    pub fn commanded(&self) -> HobbingCommand<'_> {
+        HobbingCommand { linkage: &self.linkage, program: self.program.as_ref() }
+    }
 }
 
 /// Everything known before the first dexel is cut.
@@ -111,9 +121,11 @@ impl HobbingJob {
             let plan = FeedPlan::new(spec, offset_mm, &hob, &geometry, gear, &curve, cycle_s)?;
             let linkage =
                 HobbingLinkage::new(curve.clone(), geometry, law(spec), spec.hob_speed_rad_per_s, &plan.path)?;
-            let actual = ActualHobbing::new(errors, tool.mounting, &linkage, start_s, 0.5 * gear.face_width_mm)?;
-            start_s += linkage.end_s();
-            operations.push(PreparedHobbing { spec: spec.clone(), offset_mm, plan, linkage, actual });
+            let program = spec.program.as_deref().map(|path| program_of(path, &spec.name, &linkage)).transpose()?;
+            let commanded = HobbingCommand { linkage: &linkage, program: program.as_ref() };
+            let actual = ActualHobbing::new(errors, tool.mounting, commanded, start_s, 0.5 * gear.face_width_mm)?;
+            start_s += commanded.end_s();
+            operations.push(PreparedHobbing { spec: spec.clone(), offset_mm, plan, linkage, program, actual });
         }
         let finishing_mm = operations.last().map_or(0.0, |operation| operation.offset_mm);
         let rack = rack(gear, &hob, tool.tip_radius_mm, tool.thinning_mm).pulled_back(finishing_mm);
@@ -165,7 +177,7 @@ impl HobbingJob {
 
     /// Passes of an operation: every tooth in every turn of the hob.
     pub fn passes(&self, operation: &PreparedHobbing) -> f64 {
-        kept::passes(&self.hob, &operation.linkage)
+        kept::passes(&self.hob, operation.commanded())
     }
 
     /// Passes, made when somebody asks first and the same ever after.
@@ -173,7 +185,7 @@ impl HobbingJob {
     /// # Errors
     /// More passes than can be numbered.
     pub(super) fn kept(&self) -> Result<&Kept, Refusal> {
-        let operations = || self.operations.iter().map(|of| (of.spec.name.as_str(), &of.linkage, &of.actual));
+        let operations = || self.operations.iter().map(|of| (of.spec.name.as_str(), of.commanded(), &of.actual));
         let make = || Kept::new(&self.hob, operations());
         self.kept.get_or_init(make).as_ref().map_err(Clone::clone)
     }

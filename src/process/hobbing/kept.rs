@@ -6,8 +6,8 @@
 
 use crate::process::hobbing::Hob;
 use crate::process::hobbing::actual::ActualHobbing;
+use crate::process::hobbing::commanded::HobbingCommand;
 use crate::process::hobbing::flank_patch::FlankPatch;
-use crate::process::hobbing::linkage::HobbingLinkage;
 use gearcut_core::error::Refusal;
 use gearcut_core::passes::{MotionTable, TurningPasses};
 use gearcut_core::terms::Side;
@@ -38,30 +38,31 @@ pub struct ForeseenChip {
 pub struct KeptTargets(Arc<[OnceLock<Result<FlankPatch, Refusal>>]>);
 
 impl Kept {
-    /// Passes of operations with these names, linkages and errors.
+    /// Passes of operations with these names, motions and errors.
     ///
     /// # Errors
     /// More passes than can be numbered.
     pub fn new<'a>(
         hob: &Hob,
-        of: impl IntoIterator<Item = (&'a str, &'a HobbingLinkage, &'a ActualHobbing)>,
+        of: impl IntoIterator<Item = (&'a str, HobbingCommand<'a>, &'a ActualHobbing)>,
     ) -> Result<Self, Refusal> {
         let mut operations = Vec::new();
         let mut first_pass = 0;
-        for (name, linkage, actual) in of {
-            let hob_at = |time_s: f64| linkage.axes::<1>(time_s).hob_rad.value();
+        for (name, commanded, actual) in of {
+            let [from, to] = commanded.turned_rad();
             // Sweeps reach a little further than the moments at which their blades point to the work.
             let beyond_rad = hob.half_window_rad();
-            let range_rad = [hob_at(0.0) - beyond_rad, hob_at(linkage.end_s()) + beyond_rad];
-            if f64::from(first_pass) + passes(hob, linkage) >= f64::from(u32::MAX) {
+            let range_rad = [from - beyond_rad, to + beyond_rad];
+            if f64::from(first_pass) + passes(hob, commanded) >= f64::from(u32::MAX) {
                 return Err(Refusal::new(
                     "operation.axial_feed_mm_per_revolution",
                     format!("operation {name} has more passes than can be numbered"),
                     "use a larger feed or fewer gashes",
                 ));
             }
-            let corners: Vec<f64> = linkage.corners_s().iter().map(|&time_s| hob_at(time_s)).collect();
-            let motion = MotionTable::new(range_rad, &corners, |angle| actual.head_from_work(linkage, angle));
+            let corners: Vec<f64> =
+                commanded.corners_s().iter().map(|&time_s| commanded.positions(time_s)[0]).collect();
+            let motion = MotionTable::new(range_rad, &corners, |angle| actual.head_from_work(commanded, angle));
             let passes = TurningPasses::new(first_pass, hob, hob.hand, motion)?;
             first_pass = passes.end_pass();
             operations.push(passes);
@@ -107,7 +108,7 @@ impl KeptTargets {
 }
 
 /// Passes of an operation: every tooth in every turn of the hob.
-pub fn passes(hob: &Hob, linkage: &HobbingLinkage) -> f64 {
-    let turns = linkage.axes::<1>(linkage.end_s()).hob_rad.value() / TURN_RAD;
-    turns * hob.teeth.len() as f64
+pub fn passes(hob: &Hob, commanded: HobbingCommand) -> f64 {
+    let [from, to] = commanded.turned_rad();
+    (to - from) / TURN_RAD * hob.teeth.len() as f64
 }

@@ -4,6 +4,7 @@ pub mod actual;
 pub mod axes_report;
 pub mod blank;
 pub mod check;
+pub mod commanded;
 pub mod cutter;
 pub mod flank_patch;
 pub mod foreseen;

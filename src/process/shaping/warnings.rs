@@ -255,7 +255,7 @@ fn rubbing(job: &ShapingJob, report: &BlankReport) -> Option<Warning> {
     };
     Some(Warning::warn(format!(
         "operation {}: in the gear as cut, the returning cutter stands after stroke {} {} um deep in tooth {} {}, and \
-         in {} mm3 in all: {way_out}; gearcut check says where it clears",
+         in {} mm^3 in all: {way_out}; gearcut check says where it clears",
         job.operations[deepest.operation].spec.name,
         deepest.stroke,
         significant(UM_PER_MM * deepest.depth_mm, 3),

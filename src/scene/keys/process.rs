@@ -41,6 +41,16 @@ pub(super) static SECTIONS: &[KeySection] = &[
                 "0.2",
                 "Stock to leave on each flank, normal to it; the offset is stock / sin(pressure angle).",
             ),
+            Key {
+                name: "program",
+                kind: Kind::Path,
+                unit: "",
+                default: Default::LeftOut("the linkage moves the axes"),
+                example: "\"finish.ngc\"",
+                teach: "Axis program (G-code, relative to the scene file) that is cut instead of the linkage's own \
+                    positions; the linkage remains the target, so that maps show what the program does wrong. Hobbing \
+                    reads the fully interpolated form.",
+            },
         ],
         groups: &[Group { names: &["offset_mm", "stock_per_flank_mm"], required: false }],
         teach: "One run of the cutter over the work. Operations are cut in the order written; the last one is the \

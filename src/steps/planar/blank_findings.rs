@@ -14,7 +14,7 @@ const NO_TARGET: &str = "the target's outline is not known in closed form: the c
 
 /// The section.
 pub fn findings(gear: &PlanarGear, cut: &CutBlank, report: &BlankReport) -> Section {
-    let area = |value: Option<f64>, definition: &'static str| Quantity::number_or(value, "mm2", definition, NO_TARGET);
+    let area = |value: Option<f64>, definition: &'static str| Quantity::number_or(value, "mm^2", definition, NO_TARGET);
     let end_face = report.end_face;
     let against_target = |key, title, places: &[Damage], what| {
         if end_face.is_some() { damage_of(key, title, places, what) } else { without_target(key, title, what) }
@@ -31,7 +31,7 @@ pub fn findings(gear: &PlanarGear, cut: &CutBlank, report: &BlankReport) -> Sect
             "end_face_area",
             Quantity::number(
                 mean(report.left_mm3) / gear.scene.gear.face_width_mm,
-                "mm2",
+                "mm^2",
                 "transverse section that is left, mean over the face",
             ),
         )
@@ -130,7 +130,7 @@ fn without_target(key: &str, title: &str, what: &'static str) -> Section {
     Section::new(key, title)
         .shown("places", "sides of teeth", undefined("sides of teeth"))
         .shown("deepest", "deepest", undefined("mm"))
-        .with("volume", undefined("mm3"))
+        .with("volume", undefined("mm^3"))
 }
 
 fn damage_of(key: &str, title: &str, places: &[Damage], what: &'static str) -> Section {

@@ -11,4 +11,5 @@ mod jobs;
 mod machine_errors;
 mod oracle;
 mod pair;
+mod program_under_test;
 mod refusals;

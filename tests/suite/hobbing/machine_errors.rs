@@ -302,7 +302,7 @@ fn passes_follow_a_machine_with_errors_and_candidates_equal_brute_force() {
     let cutter = HobCutter::new(&faulty).expect("passes");
     let operation = faulty.finishing();
     let passes = &cutter.operations[0];
-    let off_mm = passes.motion.error_mm(40.0, |angle| operation.actual.head_from_work(&operation.linkage, angle));
+    let off_mm = passes.motion.error_mm(40.0, |angle| operation.actual.head_from_work(operation.commanded(), angle));
     // 10 arcsec of eight waves in a turn of the hob are 2 um on the gear; a hundredth of a micrometre is left.
     println!("the table of the motion is {off_mm:e} mm off");
     assert!(off_mm < 1e-5, "{off_mm:e} mm");

@@ -16,6 +16,7 @@ mod metrology;
 mod oracle;
 mod page;
 mod papers;
+mod program_under_test;
 mod round_gear;
 mod section_polygon;
 mod spatial;

@@ -92,7 +92,7 @@ fn defaults_are_allowed_and_units_stand_in_the_names() {
             "mm/s^2" => "_mm_per_s2",
             "1/min" => "_per_minute",
             "m/min" => "_m_per_min",
-            "/mm2" => "_per_mm2",
+            "1/mm^2" => "_per_mm2",
             "s" => "_s",
             "ms" => "_ms",
             "min" => "_min",

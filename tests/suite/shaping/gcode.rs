@@ -263,9 +263,9 @@ fn malformed_programs_are_refused_by_line_and_word() {
         ("X1 X2\n", "line 1: word `X2`: this letter stands twice"),
         ("#1=3\n", "line 1: `#1=3` does not begin with a letter"),
         ("(open\n", "line 1: the comment `(open` is not closed"),
-        ("X1 C1 B1\n", "line 1: axes move, but neither G0 nor G1"),
-        ("G0 X90\nS300 M3\n", "line 2: word `M3`: the ram starts before axis C"),
-        ("G0 X90 C0 B0\nM3\n", "line 2: word `M3`: the ram starts without S"),
+        ("G21 G90 X1 C1 B1\n", "line 1: axes move, but neither G0 nor G1"),
+        ("G21 G90 G0 X90\nS300 M3\n", "line 2: word `M3`: the ram starts before axis C"),
+        ("G21 G90 G0 X90 C0 B0\nM3\n", "line 2: word `M3`: the ram starts without S"),
         ("S-3\n", "line 1: word `S-3`: double strokes"),
         ("G4\n", "line 1: word `G4`: a dwell needs P"),
         ("G1 P3\n", "line 1: word `P3`: P belongs to a dwell"),
@@ -286,6 +286,20 @@ fn malformed_programs_are_refused_by_line_and_word() {
     ] {
         let why = read::program(&format!("G21 G90 G94\nG0 X90 C0 B0\nS300 M3\n{tail}")).expect_err(tail);
         assert!(why.contains(expected), "{tail:?}: {why}");
+    }
+}
+
+/// Names and warnings from anywhere stand in comments of printable characters: a line end in one of them would end the
+/// comment, and what follows would be run.
+#[test]
+fn names_are_cleaned_in_every_form() {
+    let mut job = job(operation("cut", NORMAL, 2.0, 600));
+    job.scene.name = "half µ (two)\nG0 X0 %".to_owned();
+    for gcode in [GcodeDialect::Linear, GcodeDialect::PaperG84] {
+        job.gcode = gcode;
+        let text = text(&job);
+        assert!(text.contains("half u  two ?G0 X0 %"), "{}", &text[..400]);
+        assert!(text.is_ascii() && !text.contains("\nG0 X0"), "{}", &text[..400]);
     }
 }
 

@@ -343,6 +343,70 @@ fn programs_draw_the_cutter_back_and_are_read_back() {
     }
 }
 
+/// Defects of the drawing back, each planted at one stroke: before the cut has ended, while the ram returns, before the
+/// next cut begins.
+#[test]
+fn drawing_back_is_judged_over_the_whole_way_of_the_ram() {
+    use gcode::{AxisProgram, Knot};
+    type Plant = Box<dyn Fn(&mut [Knot])>;
+    // Knots of stroke 200: it has cut, is drawn back, still is, and stands for the next cut.
+    const CUT: usize = 1 + 4 * 200;
+    let mut scene = paper_scene(vec![operation("finish", NORMAL, 0.0, 480)]);
+    let part = shaping::Shaping::of_mut(&mut scene).expect("shaping");
+    part.machine.retraction = shaping::Retraction::Normal;
+    part.machine.limits = shaping::AxisLimits::default();
+    let mut job = ShapingJob::new(scene).expect("a gear");
+    let operation = job.finishing();
+    let text = programs::text(&job, operation, &[]).expect("wanted").expect("written");
+    let own = gcode::read::program(&text).expect("it is read");
+    let ram = job.ram_times();
+    let [cut_mm, back_mm] = [CUT, CUT + 1].map(|knot| own.knots[knot].center_distance_mm);
+    println!("stroke 200 at {cut_mm:.4} mm, drawn back to {back_mm:.4} mm");
+    let moved = |knots: std::ops::RangeInclusive<usize>, drawn: f64| -> Plant {
+        Box::new(move |all| {
+            let (cut, back) = (all[CUT].axes(), all[CUT + 1].axes());
+            for knot in knots.clone() {
+                let at = |axis: usize| cut[axis] + drawn * (back[axis] - cut[axis]);
+                all[knot] =
+                    Knot { stroke: all[knot].stroke, psi_c_rad: at(0), psi_b_rad: at(1), center_distance_mm: at(2) };
+            }
+        })
+    };
+    let at = |knot: usize, moment: f64| -> Plant { Box::new(move |all| all[knot].stroke = 200.0 + moment) };
+    let (off, drags) = ("off the scene's own strokes, at stroke 200.", "it drags over the flanks");
+    let cases: Vec<(&str, Option<&str>, Plant)> = vec![
+        ("the program itself", None, Box::new(|_| {})),
+        ("a tenth before the cut ends", Some(off), at(CUT, 0.9 * ram.cut_ends)),
+        ("in the middle of the cut", Some(off), at(CUT, 0.1 * ram.cut_ends)),
+        ("never", Some(drags), moved(CUT + 1..=CUT + 2, 0.0)),
+        ("a millimetre deep on the way back", Some(drags), moved(CUT + 1..=CUT + 2, -2.0)),
+        ("half as far", Some("it clears the flanks by less"), moved(CUT + 1..=CUT + 2, 0.5)),
+        ("twice as far", None, moved(CUT + 1..=CUT + 2, 2.0)),
+        ("back in the middle of the return alone", Some("by less than the scene says"), at(CUT + 1, ram.return_middle)),
+        ("not before the return stroke has entered the face", Some(drags), moved(CUT + 1..=CUT + 1, 0.0)),
+        ("in again before the return ends", Some("short of where"), at(CUT + 2, ram.return_middle)),
+        (
+            "in again when the next cut has begun",
+            Some("off the scene's own strokes, at stroke 200."),
+            at(CUT + 3, 0.5 * (1.0 + ram.next_begins)),
+        ),
+    ];
+    let mut wrong = Vec::new();
+    for (name, words, plant) in cases {
+        let mut knots = own.knots.clone();
+        plant(&mut knots);
+        job.operations[0].program = Some(AxisProgram { knots, ..own.clone() });
+        let motion = OperationAxes::of_job(&job);
+        let told = findings::program::warnings(&job, &motion);
+        let text = told.iter().map(|of| of.text.as_str()).collect::<Vec<_>>().join("; ");
+        println!("{name}: {text}");
+        if words.map_or(!told.is_empty(), |words| !text.contains(words)) {
+            wrong.push(name);
+        }
+    }
+    assert!(wrong.is_empty(), "{wrong:?}");
+}
+
 #[test]
 fn the_ram_is_at_the_ends_of_the_face_when_it_is_said_to_be() {
     for [approach, overrun] in [[3.0, 3.0], [5.0, 1.0], [0.0, 2.0]] {

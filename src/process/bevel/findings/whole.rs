@@ -30,7 +30,7 @@ pub(super) fn blank(job: &BevelJob, whole: &CutCells) -> Section {
         Section::new(name, format!("Operation {name}")).shown(
             "removed_volume",
             "removed",
-            number(removed_mm3, "mm3", definition),
+            number(removed_mm3, "mm^3", definition),
         )
     });
     let operations: Vec<Section> = operations.collect();
@@ -57,7 +57,7 @@ pub(super) fn blank(job: &BevelJob, whole: &CutCells) -> Section {
             "blank",
             number(
                 whole.blank_mm3,
-                "mm3",
+                "mm^3",
                 "volume of the uncut ring, from the face cone to the rim's thickness under the root cone",
             ),
         )
@@ -66,7 +66,7 @@ pub(super) fn blank(job: &BevelJob, whole: &CutCells) -> Section {
             "left",
             number(
                 whole.left_mm3.last().copied().unwrap_or(whole.blank_mm3),
-                "mm3",
+                "mm^3",
                 "volume of the ring that is left after the last operation",
             ),
         )
@@ -90,7 +90,7 @@ pub(super) fn chips(job: &BevelJob, ledger: &SlotLedger) -> Section {
         .shown(
             "slot_volume",
             "a slot",
-            number(removed_mm3, "mm3", "volume taken from a slot, as missing from its rays"),
+            number(removed_mm3, "mm^3", "volume taken from a slot, as missing from its rays"),
         )
         .with(
             "imbalance",
@@ -104,7 +104,7 @@ pub(super) fn chips(job: &BevelJob, ledger: &SlotLedger) -> Section {
             "overhang",
             number(
                 ledger.overhang_mm3,
-                "mm3",
+                "mm^3",
                 "material of the slot that hangs over the lowest cut on its ray, as on undercut teeth; the whole gear \
                 is shown without it",
             ),
@@ -154,13 +154,13 @@ fn of_operation(job: &BevelJob, ledger: &SlotLedger, operation: usize) -> Sectio
     let section = Section::new(name, format!("Operation {name}"))
         .with(
             "volume",
-            Quantity::number(of_operation().map(|pass| pass.volume_mm3).sum(), "mm3", "volume that its passes took"),
+            Quantity::number(of_operation().map(|pass| pass.volume_mm3).sum(), "mm^3", "volume that its passes took"),
         )
         .with(
             "plunge_volume",
             Quantity::number(
                 plunge_mm3,
-                "mm3",
+                "mm^3",
                 "part of it that the first revolution of the head takes, at full depth from the beginning of the roll: \
                  what the plunge would take, which is not modelled; thickness, forces and power leave it out",
             ),
@@ -173,7 +173,10 @@ fn of_operation(job: &BevelJob, ledger: &SlotLedger, operation: usize) -> Sectio
                 pass.thickness_mm * UM_PER_MM
             }),
         )
-        .with("largest_section", largest("mm2", "largest section of a chip in the rake face", &|pass| pass.section_mm2))
+        .with(
+            "largest_section",
+            largest("mm^2", "largest section of a chip in the rake face", &|pass| pass.section_mm2),
+        )
         .with(
             "largest_engaged_edge",
             largest("mm", "largest length of edge that takes material at once", &|pass| pass.edge_mm),
@@ -228,7 +231,7 @@ fn by_blade(job: &BevelJob, ledger: &SlotLedger) -> Table {
         TableColumn::words("kind", "outside or inside"),
         TableColumn::new(
             "volume",
-            "mm3",
+            "mm^3",
             "volume that it took from the slot, but for the first revolution of the head",
         ),
         TableColumn::new("thickness", "um", "its thickest chip after that"),
@@ -260,10 +263,10 @@ fn by_pass(job: &BevelJob, ledger: &SlotLedger) -> Table {
         TableColumn::new("blade", "1", "number of the blade, from 0"),
         TableColumn::new("revolution", "1", "revolution of the head in the roll; 0 takes what the plunge would take"),
         TableColumn::new("cradle_angle", "deg", "cradle angle while the blade is in the middle of the slot"),
-        TableColumn::new("volume", "mm3", "volume that it took"),
+        TableColumn::new("volume", "mm^3", "volume that it took"),
         TableColumn::new("thickness", "um", "its thickest chip"),
         TableColumn::new("along", "mm", "where that is along the tooth, from the middle of the face to the heel"),
-        TableColumn::new("section", "mm2", "largest section of its chip in the rake face"),
+        TableColumn::new("section", "mm^2", "largest section of its chip in the rake face"),
         TableColumn::new("engaged_edge", "mm", "largest length of its edge that takes material at once"),
         TableColumn::new("force", "N", "its largest cutting force").or(NO_MATERIAL),
     ];

@@ -3,8 +3,8 @@
 //! In: a roll and the contour error. Out: [`BevelProgram`]: the longest blocks that keep the tips of the blades within
 //! that error, repeated for every slot with the work indexed, and the way back between slots.
 
-use crate::gcode::TimedKnot;
 use crate::gcode::{Digits, longest_lines};
+use crate::process::bevel::axis_program::{BevelKnot, BevelProgram};
 use crate::process::bevel::job::BevelJob;
 use crate::process::bevel::motion::{AXES, RollMotion};
 use gearcut_core::bevel::face_mill::BladeKind;
@@ -23,16 +23,6 @@ const SAMPLES: usize = 4;
 const SAMPLED_SHARE: f64 = 0.95;
 /// Parts of the idle time: withdraw, back and index, come in.
 const IDLE_PARTS: [f64; 3] = [0.2, 0.6, 0.2];
-
-/// Axes at one moment.
-pub type BevelKnot = TimedKnot<5>;
-
-/// A program: straight lines between knots in order of time, the first at 0.
-#[derive(Debug, Clone, PartialEq)]
-pub struct BevelProgram {
-    /// At least one.
-    pub knots: Vec<BevelKnot>,
-}
 
 /// Digits of lengths and angles: angles count at the gear's outer end.
 pub(super) fn digits(job: &BevelJob, contour_error_mm: f64) -> Digits {
@@ -63,11 +53,6 @@ fn pose(job: &BevelJob, [x, y, z, work_rad, swing_rad]: [f64; 5]) -> Rigid3 {
     job.machine.work_from_tool(&SixAxes { slides_mm: DVec3::new(x, y, z), work_rad, swing_rad, head_rad: 0.0 })
 }
 
-fn between(a: &BevelKnot, b: &BevelKnot, time_s: f64) -> [f64; 5] {
-    let share = if b.time_s > a.time_s { (time_s - a.time_s) / (b.time_s - a.time_s) } else { 0.0 };
-    std::array::from_fn(|i| a.axes[i] + share * (b.axes[i] - a.axes[i]))
-}
-
 impl BevelProgram {
     /// Longest straight lines that keep the tips of the blades within `contour_error_mm` of the roll, as far as the
     /// shortest blocks can, slot after slot.
@@ -90,18 +75,12 @@ impl BevelProgram {
             // Places of long lines are thinned out: a chord's error is a smooth hump.
             let step = ((to - from) * SAMPLES / 64).max(1);
             samples[from * SAMPLES..=to * SAMPLES].iter().step_by(step).all(|knot| {
-                displacement_mm(motion, knot, &between(&a, &b, knot.time_s)) <= SAMPLED_SHARE * contour_error_mm
+                displacement_mm(motion, knot, &a.between(&b, knot.time_s)) <= SAMPLED_SHARE * contour_error_mm
             })
         };
         let mut roll = vec![written(0)];
         roll.extend(longest_lines(blocks, fits).into_iter().map(written));
         Self { knots: over_all_slots(motion, &roll, digits) }
-    }
-
-    /// Where the axes stand at a time; before the first and after the last knot the motion is continued.
-    pub fn at(&self, time_s: f64) -> [f64; 5] {
-        let after = self.knots.partition_point(|k| k.time_s <= time_s).clamp(1, self.knots.len().max(2) - 1);
-        self.knots.get(after).map_or(self.knots[0].axes, |b| between(&self.knots[after - 1], b, time_s))
     }
 
     /// Largest displacement of the tips from the first slot's roll, mm, and when, s.
@@ -130,7 +109,7 @@ pub(super) fn clear_mm(job: &BevelJob, program: &BevelProgram) -> f64 {
 }
 
 /// Largest displacement in the work of the tips that look at it, mm.
-fn displacement_mm(motion: &RollMotion, exact: &BevelKnot, other: &[f64; 5]) -> f64 {
+pub(super) fn displacement_mm(motion: &RollMotion, exact: &BevelKnot, other: &[f64; 5]) -> f64 {
     let [a, b] = [exact.axes, *other].map(|axes| pose(motion.job, axes));
     let tips = tips(motion, motion.cradle_rad(exact.time_s));
     tips.into_iter().map(|tip| a.point(tip).distance(b.point(tip))).fold(0.0, f64::max)

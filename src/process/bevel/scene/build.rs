@@ -16,10 +16,10 @@ use std::path::Path;
 const LIMITED: [(&str, bool); 5] = [("x", false), ("y", false), ("z", false), ("a", true), ("b", true)];
 
 /// The part of a bevel scene.
-pub(super) fn build(values: &Values, _base_dir: &Path) -> Option<ScenePart> {
+pub(super) fn build(values: &Values, base_dir: &Path) -> Option<ScenePart> {
     let pressure_angle_rad = values.view("gear").rad("pressure_angle_deg")?;
     let operations: Option<Vec<BevelOperation>> = (0..values.count("operation"))
-        .map(|index| operation(values.view(&format!("operation.{index}")), pressure_angle_rad))
+        .map(|index| operation(values.view(&format!("operation.{index}")), base_dir, pressure_angle_rad))
         .collect();
     let programs = linear_programs(values)?;
     let limit =
@@ -120,7 +120,7 @@ fn travel(limits: View<'_>) -> [[Option<f64>; 2]; 4] {
     [ends("x"), ends("y"), ends("z"), ["b_from_deg", "b_to_deg"].map(|key| limits.rad(key))]
 }
 
-fn operation(operation: View<'_>, pressure_angle_rad: f64) -> Option<BevelOperation> {
+fn operation(operation: View<'_>, base_dir: &Path, pressure_angle_rad: f64) -> Option<BevelOperation> {
     Some(BevelOperation {
         name: operation.text("name")?.to_owned(),
         offset_mm: stock_or_offset_mm(operation, pressure_angle_rad)?,
@@ -128,5 +128,6 @@ fn operation(operation: View<'_>, pressure_angle_rad: f64) -> Option<BevelOperat
         roll_speed_rad_per_s: operation.rad("roll_speed_deg_per_s")?,
         roll_rad: [operation.rad("roll_from_deg"), operation.rad("roll_to_deg")],
         idle_s: operation.number("idle_s")?,
+        program: operation.text("program").map(|name| base_dir.join(name)),
     })
 }

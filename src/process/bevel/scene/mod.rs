@@ -11,6 +11,7 @@ use crate::scene::problems::Found;
 use crate::scene::values::{Checked, Values};
 use crate::scene::{FINISH_ALONE, ProcessPart, SceneProcess, Senseless};
 use model::Bevel;
+use std::path::Path;
 
 /// Why keys of the normal force are refused, and what is there instead.
 const NO_NORMAL_FORCE: &str = "the cutting force alone is computed";
@@ -128,6 +129,10 @@ fn rolls(found: &mut Found) {
 impl ProcessPart for Bevel {
     fn process(&self) -> &'static SceneProcess {
         &SCENE
+    }
+
+    fn files_read(&self) -> Vec<&Path> {
+        self.operations.iter().filter_map(|operation| operation.program.as_deref()).collect()
     }
 
     fn error_layers(&self) -> Vec<ErrorLayer> {

@@ -6,6 +6,7 @@ use crate::scene::Scene;
 use gearcut_core::bevel::blank::MatingCones;
 use gearcut_core::bevel::cradle::CradleSettings;
 use gearcut_core::bevel::ease_off::Setting;
+use std::path::PathBuf;
 
 /// Spiral bevel gears: blank, head, machine and operations.
 #[derive(Debug, Clone, PartialEq)]
@@ -116,4 +117,6 @@ pub struct BevelOperation {
     pub roll_rad: [Option<f64>; 2],
     /// Time between two slots: withdraw, roll back, index, s.
     pub idle_s: f64,
+    /// Axis program (G-code) that is cut instead of the settings' own positions.
+    pub program: Option<PathBuf>,
 }

@@ -1,12 +1,12 @@
 //! Straight lines in all axes that follow a linkage.
 //!
-//! In: a prepared operation, the contour error. Out: [`HobbingProgram`]: the longest blocks that keep the hob, where it
-//! can be in the work, within that error; what it asks of the axes; the share of it that an electronic gearbox takes
+//! In: a prepared operation, the contour error. Out: a [`HobbingProgram`]: the longest blocks that keep the hob, where
+//! it can be in the work, within that error; what it asks of the axes; the share of it that an electronic gearbox takes
 //! over.
 
-use crate::gcode::TimedKnot;
 use crate::gcode::{Digits, beyond_limits, longest_lines};
 use crate::process::hobbing::HobbingJob;
+use crate::process::hobbing::commanded::{HobbingKnot, HobbingProgram, Positions};
 use crate::process::hobbing::job::PreparedHobbing;
 use crate::process::hobbing::linkage::HobbingLinkage;
 use crate::process::hobbing::linkage::dynamics::{self, AXES, in_order};
@@ -24,19 +24,6 @@ const SHARE_OF_CYCLE: f64 = 1.0 / 1440.0;
 const SAMPLES: usize = 2;
 /// Share of the contour error that the samples may show, so that what lies between them stays below all of it.
 const SAMPLED_SHARE: f64 = 0.95;
-
-/// Positions of hob (rad), work (rad), tangential, radial with infeed, slide and shift (mm).
-pub type Positions = [f64; 6];
-
-/// Axes at one moment.
-pub type HobbingKnot = TimedKnot<6>;
-
-/// A program: straight lines between knots in order of time, the first at 0.
-#[derive(Debug, Clone, PartialEq)]
-pub struct HobbingProgram {
-    /// At least one.
-    pub knots: Vec<HobbingKnot>,
-}
 
 /// What an electronic gearbox adds to the work's angle, rad.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -67,13 +54,13 @@ impl Gearbox {
 }
 
 /// Points of the hob that can be in the work, machine frame at the pitch point, mm.
-struct ContactZone {
+pub(super) struct ContactZone {
     geometry: HobbingGeometry,
     points_mm: Vec<DVec3>,
 }
 
 impl ContactZone {
-    fn new(job: &HobbingJob, operation: &PreparedHobbing) -> Self {
+    pub(super) fn new(job: &HobbingJob, operation: &PreparedHobbing) -> Self {
         let geometry = *operation.linkage.geometry();
         let along_mm = operation.plan.contact_half_length_mm;
         let tip_mm = job.hob.tip_radius_mm - job.hob.pitch_radius_mm;
@@ -85,7 +72,7 @@ impl ContactZone {
     }
 
     /// Largest displacement of these points of the hob in the work between two positions, mm.
-    fn displacement_mm(&self, exact: &Positions, other: &Positions) -> f64 {
+    pub(super) fn displacement_mm(&self, exact: &Positions, other: &Positions) -> f64 {
         let [a, b] = [exact, other].map(|&[hob, work, x, y, slide, shift]| {
             // Infeed counts in Y: the pitch plane stands where the program says.
             let machine_from_tool = self.geometry.machine_from_tool(hob, 0.0, slide, shift);
@@ -113,13 +100,15 @@ pub(super) fn digits(job: &HobbingJob, contour_error_mm: f64) -> Digits {
     job.scene.output.post.digits(contour_error_mm, reach_mm)
 }
 
-fn exact(linkage: &HobbingLinkage, time_s: f64) -> Positions {
+pub(super) fn exact(linkage: &HobbingLinkage, time_s: f64) -> Positions {
     in_order(&linkage.axes::<1>(time_s)).map(|series| series.value())
 }
 
-fn between(a: &HobbingKnot, b: &HobbingKnot, time_s: f64) -> Positions {
-    let share = if b.time_s > a.time_s { (time_s - a.time_s) / (b.time_s - a.time_s) } else { 0.0 };
-    std::array::from_fn(|i| a.axes[i] + share * (b.axes[i] - a.axes[i]))
+/// Moments at which a program is compared with its linkage.
+pub(super) fn sample_times_s(linkage: &HobbingLinkage, shortest_s: f64) -> impl ParallelIterator<Item = f64> {
+    let count = (linkage.end_s() / shortest_s * SAMPLES as f64).ceil() as u32;
+    let end_s = linkage.end_s();
+    (0..=count).into_par_iter().map(move |i| end_s * f64::from(i) / f64::from(count))
 }
 
 /// Positions as they will be written.
@@ -153,7 +142,7 @@ impl HobbingProgram {
                 let (a, b) = (written(from), written(to));
                 samples[from * SAMPLES..=to * SAMPLES]
                     .iter()
-                    .all(|knot| zone.displacement_mm(&knot.axes, &between(&a, &b, knot.time_s)) <= sampled_mm)
+                    .all(|knot| zone.displacement_mm(&knot.axes, &a.between(&b, knot.time_s)) <= sampled_mm)
             };
             if knots.is_empty() {
                 knots.push(written(0));
@@ -163,23 +152,12 @@ impl HobbingProgram {
         Self { knots }
     }
 
-    /// Where the axes stand at a time; before the first and after the last knot the motion is continued.
-    pub fn at(&self, time_s: f64) -> Positions {
-        let after = self.knots.partition_point(|k| k.time_s <= time_s).clamp(1, self.knots.len().max(2) - 1);
-        self.knots.get(after).map_or(self.knots[0].axes, |b| between(&self.knots[after - 1], b, time_s))
-    }
-
     /// Largest displacement of the hob from an operation's linkage, mm, and when, s.
     pub fn contour_error_mm(&self, job: &HobbingJob, operation: &PreparedHobbing) -> (f64, f64) {
         let (linkage, zone) = (&operation.linkage, ContactZone::new(job, operation));
         let shortest_s = shortest_block_s(job, linkage);
-        let count = (linkage.end_s() / shortest_s * SAMPLES as f64).ceil() as u32;
-        (0..=count)
-            .into_par_iter()
-            .map(|i| {
-                let time_s = linkage.end_s() * f64::from(i) / f64::from(count);
-                (zone.displacement_mm(&exact(linkage, time_s), &self.at(time_s)), time_s)
-            })
+        sample_times_s(linkage, shortest_s)
+            .map(|time_s| (zone.displacement_mm(&exact(linkage, time_s), &self.at(time_s)), time_s))
             .reduce(|| (0.0, 0.0), |worst, next| if next.0 > worst.0 { next } else { worst })
     }
 

@@ -1,11 +1,12 @@
 //! A hobbing program ready for a control: what the operator must know, then the lines.
 
-use super::program::{Gearbox, HobbingKnot, HobbingProgram, digits};
+use super::program::{Gearbox, digits};
 use crate::findings::Warning;
 use crate::gcode::{AxisColumn, Script, StraightLine};
 use crate::machine::Axis;
 use crate::output::text::{plain, significant};
 use crate::process::hobbing::HobbingJob;
+use crate::process::hobbing::commanded::{HobbingKnot, HobbingProgram};
 use crate::process::hobbing::job::PreparedHobbing;
 use crate::process::hobbing::linkage::dynamics::AXES;
 use crate::process::hobbing::scene::model::HobbingKind;

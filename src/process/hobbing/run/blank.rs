@@ -85,12 +85,12 @@ pub fn findings(cutter: &HobCutter, whole: &WholeBlank) -> Section {
         [report.blank_mm3, report.left_mm3],
         &report.operations,
     )
-    .with("section_area", number(mean(section.cut_mm2), "mm2", "transverse section that is left, mean over the face"))
+    .with("section_area", number(mean(section.cut_mm2), "mm^2", "transverse section that is left, mean over the face"))
     .with(
         "target_section_area",
         number(
             section.target_mm2,
-            "mm2",
+            "mm^2",
             "area of the target's section less the bore, from the rack's meshing condition, mean over the slices",
         ),
     )
@@ -98,7 +98,7 @@ pub fn findings(cutter: &HobCutter, whole: &WholeBlank) -> Section {
         "section_area_bound",
         number(
             section.bound_mm2[0].max(section.bound_mm2[1]),
-            "mm2",
+            "mm^2",
             "how far the section may be off because of the rays' distance: half of it times the travel of the \
                  outline along the rays",
         ),

@@ -16,6 +16,7 @@ use crate::process::hobbing::{HobCutter, HobbedGear, HobbingJob, warnings};
 use crate::steps::axes::{self, AxesOfOperation as _};
 use crate::steps::inspection::Inspected;
 use crate::steps::machine_errors::{self, tool_words};
+use crate::steps::program_under_test::ProgramUnderTest;
 use crate::texture::{self, WindowTexture};
 use gearcut_core::error::Result;
 use gearcut_core::units::UM_PER_MM;
@@ -145,6 +146,7 @@ fn operation(operation: &PreparedHobbing, motion: &HobbingAxesReport, passes: u3
         .shown("cycle_time", "time", Quantity::number(operation.linkage.end_s(), "s", "time of the operation"))
         .shown("idle_time", "idle", Quantity::number(operation.plan.idle_s, "s", "time in which the hob does not cut"))
         .part(axes::findings(motion))
+        .parts(motion.program().map(ProgramUnderTest::section))
 }
 
 /// Pitch and thickness of a tooth, middle of the face.

@@ -160,7 +160,9 @@ fn of_operation(job: &HobbingJob, name: &str, force: &OperationForce) -> Section
         )
         .with(
             "largest_section",
-            largest("mm2", "largest section of a chip in the rake face, referred to the tip", &|pass| pass.section_mm2),
+            largest("mm^2", "largest section of a chip in the rake face, referred to the tip", &|pass| {
+                pass.section_mm2
+            }),
         )
         .with(
             "largest_engaged_edge",
@@ -199,7 +201,7 @@ fn by_tooth(job: &HobbingJob, forces: &[OperationForce]) -> Table {
         number("largest_force", "N", "its largest cutting force, referred to the tip"),
         TableColumn::new("mean_force", "N", "its mean cutting force over its travel in the cut, referred to the tip")
             .or(NOTHING),
-        number("largest_section", "mm2", "its largest section of a chip"),
+        number("largest_section", "mm^2", "its largest section of a chip"),
         number("largest_engaged_edge", "mm", "largest length of its edge that takes material at once"),
         number("mean_engaged_edge", "mm", "mean length of its edge that takes material, over its travel in the cut"),
         number("largest_power", "W", "its largest cutting force in a pass times the speed of the tip"),
@@ -235,7 +237,7 @@ fn by_pass(job: &HobbingJob, forces: &[OperationForce]) -> Table {
         TableColumn::words("hob_tooth", "hob tooth along the thread, from the entering end"),
         number("largest_force", "N", "largest cutting force in the pass, referred to the tip"),
         number("mean_force", "N", "mean cutting force over the travel in the cut, referred to the tip"),
-        number("largest_section", "mm2", "largest section of the chip"),
+        number("largest_section", "mm^2", "largest section of the chip"),
         number("largest_engaged_edge", "mm", "largest length of edge that takes material at once"),
     ];
     let labels = labels(job);

@@ -59,7 +59,7 @@ fn table(job: &HobbingJob, loads: &[OperationLoad]) -> Table {
         TableColumn::words("operation", "operation"),
         TableColumn::words("hob_tooth", "hob tooth along the thread, from the entering end"),
         TableColumn::new("axial", "mm", "its place along the hob's axis"),
-        TableColumn::new("volume", "mm3", "volume that it takes").or(missing),
+        TableColumn::new("volume", "mm^3", "volume that it takes").or(missing),
         TableColumn::new("volume_share", "1", "its share of the operation's volume").or("the operation takes nothing"),
         TableColumn::new("largest_thickness", "mm", "its largest uncut chip thickness").or(missing),
         TableColumn::new(
@@ -129,7 +129,7 @@ fn of_operation(job: &HobbingJob, of: &OperationLoad, index: usize) -> Section {
     let bars = |key, unit, definition| TableColumn::new(key, unit, definition).or(missing).as_bars();
     let columns = vec![
         TableColumn::words("tooth", "hob tooth along the thread, from the entering end"),
-        bars("volume", "mm3", "volume that it takes"),
+        bars("volume", "mm^3", "volume that it takes"),
         bars("thickness", "mm", "its largest uncut chip thickness"),
         bars("travel", "mm", "travel of its tip through the work while any part of its edge takes material"),
     ];
@@ -138,11 +138,11 @@ fn of_operation(job: &HobbingJob, of: &OperationLoad, index: usize) -> Section {
     });
     let name = &job.operations[index].spec.name;
     Section::new(name, format!("Operation {name}"))
-        .with("volume", number(Some(of.volume_mm3()), "mm3", "volume that all hob teeth take together"))
+        .with("volume", number(Some(of.volume_mm3()), "mm^3", "volume that all hob teeth take together"))
         .shown(
             "largest_volume",
             "most of a tooth",
-            number(hardest.map(|t| of.teeth[t].volume_mm3), "mm3", "volume of the hob tooth that takes the most"),
+            number(hardest.map(|t| of.teeth[t].volume_mm3), "mm^3", "volume of the hob tooth that takes the most"),
         )
         .shown("hardest_working_tooth", "tooth", tooth(hardest, "number of the hob tooth that takes the most"))
         .shown(

@@ -14,10 +14,10 @@ use gearcut_core::units::{TURN_RAD, UM_PER_MM};
 use std::path::Path;
 
 /// Hobbing: hob, limits and operations.
-pub(super) fn build(values: &Values, _base_dir: &Path) -> Option<ScenePart> {
+pub(super) fn build(values: &Values, base_dir: &Path) -> Option<ScenePart> {
     let pressure_angle_rad = values.view("gear").rad("pressure_angle_deg")?;
     let operations: Option<Vec<HobbingOperation>> = (0..values.count("operation"))
-        .map(|index| operation(values, &format!("operation.{index}"), pressure_angle_rad))
+        .map(|index| operation(values, &format!("operation.{index}"), base_dir, pressure_angle_rad))
         .collect();
     let tool = hob(values.view("tool.hob"), values.view("gear"))?;
     let material = match values.view("material") {
@@ -122,7 +122,7 @@ fn limits(values: &Values) -> HobbingAxisLimits {
     }
 }
 
-fn operation(values: &Values, path: &str, pressure_angle_rad: f64) -> Option<HobbingOperation> {
+fn operation(values: &Values, path: &str, base_dir: &Path, pressure_angle_rad: f64) -> Option<HobbingOperation> {
     let operation = values.view(path);
     Some(HobbingOperation {
         name: operation.text("name")?.to_owned(),
@@ -145,6 +145,7 @@ fn operation(values: &Values, path: &str, pressure_angle_rad: f64) -> Option<Hob
         head_angle_rad: operation.rad("head_angle_deg"),
         shift_start_mm: operation.number("shift_start_mm"),
         ridge_tolerance_mm: operation.mm_from_um("ridge_tolerance_um")?,
+        program: operation.text("program").map(|name| base_dir.join(name)),
     })
 }
 

@@ -11,6 +11,7 @@ use crate::scene::machine_errors;
 use crate::scene::problems::Found;
 use crate::scene::{FINISH_ALONE, ProcessPart, SceneProcess, Senseless};
 use model::Hobbing;
+use std::path::Path;
 
 /// Why coefficients of the force normal to the edge have no sense.
 const NO_NORMAL_FORCE: &str = "only the force against the edge's motion is computed";
@@ -144,6 +145,10 @@ fn pitch_errors(found: &mut Found) -> Option<()> {
 impl ProcessPart for Hobbing {
     fn process(&self) -> &'static SceneProcess {
         &SCENE
+    }
+
+    fn files_read(&self) -> Vec<&Path> {
+        self.operations.iter().filter_map(|operation| operation.program.as_deref()).collect()
     }
 
     fn error_layers(&self) -> Vec<ErrorLayer> {

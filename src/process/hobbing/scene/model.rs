@@ -4,6 +4,7 @@ use crate::machine_errors::{MachineErrors, ToolMounting};
 use crate::material::CuttingForce;
 use crate::scene::Scene;
 use gearcut_core::terms::Hand;
+use std::path::PathBuf;
 
 /// Hobbing: tool, machine and operations.
 #[derive(Debug, Clone, PartialEq)]
@@ -200,6 +201,8 @@ pub struct HobbingOperation {
     pub shift_start_mm: Option<f64>,
     /// Feed marks higher than this are warned of, mm.
     pub ridge_tolerance_mm: f64,
+    /// Axis program (G-code) that is cut instead of the linkage's own positions.
+    pub program: Option<PathBuf>,
 }
 
 /// How the axes are linked.

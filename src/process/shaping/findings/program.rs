@@ -15,8 +15,8 @@ use gearcut_core::units::UM_PER_MM;
 
 /// The section; none where the operation is cut by the scene's own strokes.
 pub fn section(motion: &OperationAxes) -> Option<Section> {
-    let Judgement { distance_mm, distance_at, between_mm, between_at, missing, doubled, off, strokes_per_minute } =
-        motion.program()?;
+    let judgement = motion.program()?;
+    let Judgement { distance_mm, distance_at, between_mm, between_at, missing, doubled, off, .. } = judgement;
     let count = |of: &[usize], definition: &'static str| {
         let quantity = Quantity::count(of.len() as u64, "strokes", definition);
         match of.first() {
@@ -24,12 +24,22 @@ pub fn section(motion: &OperationAxes) -> Option<Section> {
             None => quantity,
         }
     };
-    let [program, scene] = *strokes_per_minute;
+    let [program, scene] = judgement.strokes_per_minute;
     let distance = "largest displacement of the cutter's edge in the work from the scene's own strokes";
     let between = "largest displacement of the cutter's edge between two strokes from the straight way from the one to \
                    the other; drawing back is none";
+    let short = "largest displacement of the cutter's edge while the ram returns through the face from where the scene \
+                 has it drawn back to; drawn back further is none";
+    let section = Section::new("program", "Program under test");
+    let section = match judgement.back {
+        Some(back) => section.with(
+            "short_of_drawn_back",
+            Quantity::number(UM_PER_MM * back.short_mm, "um", short).at(Place::default().and("stroke", back.at)),
+        ),
+        None => section,
+    };
     Some(
-        Section::new("program", "Program under test")
+        section
             .shown(
                 "largest_distance",
                 "off the scene's strokes",
@@ -136,6 +146,22 @@ fn told(job: &ShapingJob, motion: &OperationAxes, judgement: &Judgement) -> Vec<
             significant(UM_PER_MM * clearance_mm, 3)
         );
         warnings.push(graded(gouges(scraping_mm), text));
+    }
+    if let Some(back) = judgement.falls_short(asked_mm) {
+        let text = format!(
+            "operation {name}: while the ram returns the program has the cutter up to {} um short of where \
+             machine.retraction draws it back to, {} um away, at stroke {}; {}",
+            significant(UM_PER_MM * back.short_mm, 4),
+            significant(UM_PER_MM * back.asked_mm, 4),
+            significant(back.at, 6),
+            if back.drags() {
+                "it drags over the flanks: draw back before the return stroke enters the face, and come in after it \
+                 has left it"
+            } else {
+                "it clears the flanks by less than the scene says"
+            }
+        );
+        warnings.push(graded(back.drags(), text));
     }
     for (strokes, one, several) in [
         (

@@ -15,6 +15,10 @@ use crate::process::shaping::returns::RetractionPlan;
 use crate::process::shaping::returns::motion::axes_of;
 use gearcut_core::gear::GearKind;
 
+/// A cutter may be drawn back this many times as far as the scene does: some two millimetres, in which the law still
+/// leads it out of the space.
+pub(super) const MOST_TIMES_BACK: f64 = 4.0;
+
 /// Axis positions or their differences, in the order of [`Knot::axes`].
 type Axes = [f64; 3];
 
@@ -36,17 +40,24 @@ impl AxisProgram {
         };
         let drawn_back: Vec<Axes> = (0..schedule.count()).map_while(drawn_back).collect();
         let back_at = |stroke: f64| drawn_back.get(stroke as usize).or(drawn_back.last()).copied().unwrap_or_default();
+        // Drawn back as far as the scene does, or further.
+        let off_the_way_mm = |knot: &Knot, way: &[Knot; 2], back: Axes| {
+            [1.0, MOST_TIMES_BACK]
+                .map(|times| off_the_way_mm(knot, way, back.map(|axis| times * axis), gear, tip_radius_mm))
+                .into_iter()
+                .fold(f64::INFINITY, f64::min)
+        };
         let own = |stroke: f64| Knot::of(schedule, stroke.min(schedule.count() as f64));
         // The axes go to no further stroke after the last knot.
         let last = (self.last().stroke + WHOLE_STROKE).floor();
         let off_mm = |knot: &Knot, stroke: f64| {
             let way = [stroke, stroke + 1.0].map(|stroke| self.at(stroke.min(last)));
-            off_the_way_mm(knot, &way, back_at(stroke), gear, tip_radius_mm)
+            off_the_way_mm(knot, &way, back_at(stroke))
         };
         let off = self.knots.iter().map(|knot| {
             // A knot on a whole stroke may belong to the way before it or after it.
             let beside = [-WHOLE_STROKE, WHOLE_STROKE].map(|by| (knot.stroke + by).floor().max(0.0));
-            let off_the_scene = off_the_way_mm(knot, &[own(knot.stroke); 2], back_at(knot.stroke), gear, tip_radius_mm);
+            let off_the_scene = off_the_way_mm(knot, &[own(knot.stroke); 2], back_at(knot.stroke));
             (beside.map(|stroke| off_mm(knot, stroke)).into_iter().fold(off_the_scene, f64::min), knot.stroke)
         });
         off.fold((0.0, 0.0), |worst, next| if next.0 > worst.0 { next } else { worst })
@@ -54,7 +65,13 @@ impl AxisProgram {
 }
 
 /// Displacement of a knot from its nearest place on the way from one knot to another, mm.
-fn off_the_way_mm(knot: &Knot, [from, to]: &[Knot; 2], back: Axes, gear: GearKind, tip_radius_mm: f64) -> f64 {
+pub(super) fn off_the_way_mm(
+    knot: &Knot,
+    [from, to]: &[Knot; 2],
+    back: Axes,
+    gear: GearKind,
+    tip_radius_mm: f64,
+) -> f64 {
     let out = gear.tip_sign();
     // Beyond the axis of a ring the cutter comes to the teeth on the other side.
     let clears =
@@ -64,8 +81,7 @@ fn off_the_way_mm(knot: &Knot, [from, to]: &[Knot; 2], back: Axes, gear: GearKin
     let way = sum(to.axes(), from.axes(), -1.0);
     let gone_by = sum(knot.axes(), from.axes(), -1.0);
     let (gone, drawn) = shares(gone_by, way, back, weights);
-    let [psi_c_rad, psi_b_rad, center_distance_mm] = sum(sum(from.axes(), way, gone), back, drawn);
-    let mut nearest = Knot { stroke: knot.stroke, psi_c_rad, psi_b_rad, center_distance_mm };
+    let mut nearest = Knot::at(knot.stroke, sum(sum(from.axes(), way, gone), back, drawn));
     if clears(&nearest) {
         nearest.center_distance_mm = knot.center_distance_mm;
     }
@@ -73,7 +89,7 @@ fn off_the_way_mm(knot: &Knot, [from, to]: &[Knot; 2], back: Axes, gear: GearKin
 }
 
 /// `a + times b`.
-fn sum(a: Axes, b: Axes, times: f64) -> Axes {
+pub(super) fn sum(a: Axes, b: Axes, times: f64) -> Axes {
     std::array::from_fn(|axis| a[axis] + times * b[axis])
 }
 

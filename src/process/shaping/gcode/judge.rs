@@ -11,6 +11,7 @@
 //! leave one large chip, and few strokes on few teeth leave chips that differ as if one were missing between them.
 
 use super::program::{AxisProgram, Knot};
+use super::retracting::DrawnBack;
 use crate::process::shaping::linkage::StrokeSchedule;
 use crate::process::shaping::returns::RetractionPlan;
 use crate::process::shaping::returns::motion::RamTimes;
@@ -34,6 +35,8 @@ pub struct Judgement {
     pub between_mm: f64,
     /// Stroke coordinate that has it.
     pub between_at: f64,
+    /// How far the cutter is drawn back while the ram returns, where the axes do that.
+    pub back: Option<DrawnBack>,
     /// Strokes of the schedule that the program does not make.
     pub missing: Vec<usize>,
     /// Strokes of the program that repeat one that it has made.
@@ -48,6 +51,11 @@ impl Judgement {
     /// Whether it lies further off than what a program may: the gear is then another one than the scene's strokes make.
     pub fn is_off(&self, asked_mm: f64) -> bool {
         self.distance_mm > asked_mm + LAST_DIGIT_MM
+    }
+
+    /// The drawing back, where it falls short of what the scene asks by more than a program may be off.
+    pub fn falls_short(&self, asked_mm: f64) -> Option<DrawnBack> {
+        self.back.filter(|back| back.short_mm > asked_mm + LAST_DIGIT_MM)
     }
 
     /// Whether the ram runs at another speed than the scene says.
@@ -67,7 +75,8 @@ impl AxisProgram {
         differ(self.double_strokes_per_minute, asked_per_minute)
     }
 
-    /// The program against a schedule; `back` where its axes draw the cutter back: it is then compared while it cuts.
+    /// The program against a schedule; `back` where its axes draw the cutter back: it is then compared over the whole
+    /// way of the ram, there and back.
     /// `contour_error_mm` is what a program may be off, `asked_per_minute` the scene's double strokes.
     pub fn judged(
         &self,
@@ -83,6 +92,7 @@ impl AxisProgram {
             None => self.contour_error_mm(schedule, tip_radius_mm, continuous),
         };
         let (between_mm, between_at) = self.between_mm(schedule, tip_radius_mm, back.map(|(_, plan)| plan));
+        let drawn_back = |(ram, plan)| self.drawn_back(schedule, tip_radius_mm, ram, plan, continuous);
         let gear = schedule.linkage().gear();
         let strokes: Vec<Knot> = (0..schedule.count()).map(|stroke| Knot::of(schedule, stroke as f64)).collect();
         let apart_mm = |a: &Knot, b: &Knot| a.displacement_mm(b, gear, tip_radius_mm);
@@ -113,6 +123,16 @@ impl AxisProgram {
         }
         let missing = (0..made.len()).filter(|&stroke| !made[stroke]).collect();
         let strokes_per_minute = [self.double_strokes_per_minute, asked_per_minute];
-        Judgement { distance_mm, distance_at, between_mm, between_at, missing, doubled, off, strokes_per_minute }
+        Judgement {
+            distance_mm,
+            distance_at,
+            between_mm,
+            between_at,
+            back: back.map(drawn_back),
+            missing,
+            doubled,
+            off,
+            strokes_per_minute,
+        }
     }
 }

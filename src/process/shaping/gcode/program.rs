@@ -58,9 +58,12 @@ impl Knot {
     /// The knot as it will be written.
     pub(super) fn rounded(&self, digits: Digits) -> Self {
         let axes = self.axes();
-        let rounded: [f64; 3] = std::array::from_fn(|index| digits.rounded(AXES[index].kind, axes[index]));
-        let [psi_c_rad, psi_b_rad, center_distance_mm] = rounded;
-        Self { psi_c_rad, psi_b_rad, center_distance_mm, ..*self }
+        Self::at(self.stroke, std::array::from_fn(|index| digits.rounded(AXES[index].kind, axes[index])))
+    }
+
+    /// Of axes in the order of [`AXES`].
+    pub(super) fn at(stroke: f64, [psi_c_rad, psi_b_rad, center_distance_mm]: [f64; 3]) -> Self {
+        Self { stroke, psi_c_rad, psi_b_rad, center_distance_mm }
     }
 
     /// In the order of [`AXES`].

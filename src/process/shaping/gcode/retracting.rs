@@ -7,15 +7,23 @@
 //! above the face. Straight lines join the knots, as everywhere in these programs.
 //!
 //! A whole stroke coordinate is the moment at which the cutting stroke passes the middle of the face.
+//!
+//! A program under test is judged over the whole way of the ram: from one end of the face to the other where the cutter
+//! cuts, and back where it is to be drawn back. Straight lines lie farthest off at their ends, so that both ends of the
+//! face are looked at and every knot between them.
 
+use super::between::{MOST_TIMES_BACK, off_the_way_mm, sum};
 use super::program::{AxisProgram, Knot};
 use crate::process::shaping::linkage::StrokeSchedule;
 use crate::process::shaping::returns::RetractionPlan;
 use crate::process::shaping::returns::motion::{RamTimes, axes_of};
 use crate::scene::Post;
 
-/// Shares of the way through the face at which a moving cut is compared with the schedule.
+/// Shares of the way through the face at which a cut is compared with the schedule, beside the knots within.
 const CUT_SHARES: [f64; 5] = [-1.0, -0.5, 0.0, 0.5, 1.0];
+/// Drawn back by less than this share of what is asked, the cutter drags: of the usual half a millimetre these are the
+/// hundredths by which ram and cutter spring forward when the cut ends.
+const LEAST_SHARE: f64 = 0.1;
 
 impl AxisProgram {
     /// The strokes of a schedule with their return strokes, rounded as they will be written for `contour_error_mm`;
@@ -69,15 +77,89 @@ impl AxisProgram {
         continuous: bool,
     ) -> (f64, f64) {
         let gear = schedule.linkage().gear();
-        let last = (schedule.count() - 1) as f64;
-        let shares = if continuous { &CUT_SHARES[..] } else { &[0.0] };
-        let [before, after] = [1.0 - ram.next_begins, ram.cut_ends];
-        (0..schedule.count())
-            .flat_map(|stroke| {
-                let moment = move |share: f64| stroke as f64 + share * if share < 0.0 { before } else { after };
-                shares.iter().map(move |&share| moment(share).clamp(0.0, last))
+        let [before, after] = [ram.next_begins - 1.0, ram.cut_ends];
+        let off = (0..schedule.count()).flat_map(|stroke| {
+            let at = stroke as f64;
+            let places = CUT_SHARES.map(|share| at + share.abs() * if share < 0.0 { before } else { after });
+            let moments = places.into_iter().chain(self.knots_between(at + before, at + after));
+            // The ram starts in the middle of the face.
+            moments.filter(|&moment| moment >= 0.0).map(move |moment| {
+                let cuts = Knot::of(schedule, if continuous { moment } else { at });
+                (cuts.displacement_mm(&self.rested_at(moment), gear, tip_radius_mm), moment)
             })
-            .map(|moment| (Knot::of(schedule, moment).displacement_mm(&self.at(moment), gear, tip_radius_mm), moment))
-            .fold((0.0, 0.0), |worst, next| if next.0 > worst.0 { next } else { worst })
+        });
+        largest(off)
     }
+
+    /// How the axes draw the cutter back while the ram returns through the face.
+    pub fn drawn_back(
+        &self,
+        schedule: &StrokeSchedule,
+        tip_radius_mm: f64,
+        ram: &RamTimes,
+        plan: &RetractionPlan,
+        continuous: bool,
+    ) -> DrawnBack {
+        let gear = schedule.linkage().gear();
+        let last = schedule.count() - 1;
+        let short = (0..=last.min(self.count() - 1)).flat_map(|stroke| {
+            let middle = stroke as f64;
+            // What the program is off while it cuts is judged there.
+            let off = sum(self.at(middle).axes(), Knot::of(schedule, middle).axes(), -1.0);
+            let [from, to] = [ram.return_begins, ram.return_ends].map(|moment| middle + moment);
+            [from, to].into_iter().chain(self.knots_between(from, to)).map(move |moment| {
+                let state = schedule.state(if continuous { moment } else { middle });
+                let here = [state.psi_c_rad, state.psi_b_rad, state.center_distance_mm];
+                let back = axes_of(&state, &plan.retracted(schedule.linkage(), &state.pose, state.phi_rad));
+                let back = sum(back, here, -1.0);
+                // A feed that rests during the cut may be made on the way back.
+                let next = if continuous { here } else { Knot::of(schedule, (stroke + 1).min(last) as f64).axes() };
+                let at = |axes| Knot::at(moment, axes);
+                let way = [here, next].map(|axes| at(sum(axes, back, 1.0)));
+                let stands = at(sum(self.rested_at(moment).axes(), off, -1.0));
+                let further = back.map(|axis| (MOST_TIMES_BACK - 1.0) * axis);
+                // The nearest place by the axes is not quite the nearest of the edge.
+                let nearest = off_the_way_mm(&stands, &way, further, gear, tip_radius_mm);
+                let short_mm = nearest.min(way[0].displacement_mm(&stands, gear, tip_radius_mm));
+                (short_mm, moment, at(here).displacement_mm(&way[0], gear, tip_radius_mm))
+            })
+        });
+        let (short_mm, at, asked_mm) =
+            short.fold((0.0, 0.0, 0.0), |worst, next| if next.0 > worst.0 { next } else { worst });
+        DrawnBack { short_mm, at, asked_mm }
+    }
+
+    /// Moments of knots between two moments.
+    fn knots_between(&self, from: f64, to: f64) -> impl Iterator<Item = f64> {
+        let first = self.knots.partition_point(|knot| knot.stroke <= from);
+        self.knots[first..].iter().map(|knot| knot.stroke).take_while(move |&stroke| stroke < to)
+    }
+
+    /// Where the axes stand; after the last knot they rest.
+    fn rested_at(&self, moment: f64) -> Knot {
+        self.at(moment.min(self.last().stroke))
+    }
+}
+
+/// How far the cutter is from where it is to be drawn back to.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct DrawnBack {
+    /// Largest displacement of its edge in the work while the ram returns through the face, mm; drawing back further is
+    /// none.
+    pub short_mm: f64,
+    /// Stroke coordinate that has it.
+    pub at: f64,
+    /// Displacement of the edge there by the whole of the drawing back, mm.
+    pub asked_mm: f64,
+}
+
+impl DrawnBack {
+    /// Whether the cutter drags over the flanks that it has cut, or goes into them.
+    pub fn drags(&self) -> bool {
+        self.short_mm > (1.0 - LEAST_SHARE) * self.asked_mm
+    }
+}
+
+fn largest(of: impl Iterator<Item = (f64, f64)>) -> (f64, f64) {
+    of.fold((0.0, 0.0), |worst, next| if next.0 > worst.0 { next } else { worst })
 }

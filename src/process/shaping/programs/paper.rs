@@ -6,6 +6,7 @@
 //! else.
 
 use crate::findings::Warning;
+use crate::gcode::ascii;
 use crate::output::text::plain;
 use crate::process::shaping::job::{PreparedOperation, ShapingJob};
 use crate::process::shaping::scene::model::Linkage;
@@ -23,7 +24,7 @@ pub fn text(job: &ShapingJob, operation: &PreparedOperation, warnings: &[Warning
         return Err("the one-block form stands for the normal linkage; use gcode = \"linear\"".to_owned());
     };
     let start_rad = operation.schedule.phi_rad(0.0);
-    let comment = |warning: &Warning| format!("({})\n", warning.line().replace(['(', ')'], " "));
+    let comment = |warning: &Warning| format!("({})\n", ascii(&warning.line()));
     let told = warnings.iter().map(comment).collect::<Vec<_>>().concat();
     // r = a (1 - k^2) / (1 - k cos n phi) is a (1 + k) at phi = 0.
     let semi_major_axis_mm = job.curve.frame(0.0).point_mm.length() / (1.0 + eccentricity);
@@ -35,8 +36,8 @@ pub fn text(job: &ShapingJob, operation: &PreparedOperation, warnings: &[Warning
          {told}\
          G84 A{} N{order} K{} R{} D{} S{}\n",
         env!("CARGO_PKG_VERSION"),
-        operation.spec.name,
-        job.scene.name,
+        ascii(&operation.spec.name),
+        ascii(&job.scene.name),
         plain(semi_major_axis_mm),
         plain(eccentricity),
         plain(job.cutter.pitch_radius_mm),

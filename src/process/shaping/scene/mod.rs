@@ -54,7 +54,7 @@ static CUT_ERRORS: &[ErrorSource] = &[
     rounding(KeyForm::Missing("recovery_share"), "1", 0.1, "share that stays pressed down").needs("radius_um"),
     ErrorSource::new(keys::EDGE_ROUGHNESS, KeyForm::Amount("rq_um"), "um", 0.1, "edge roughness Rq")
         .tried(Tried::ByName),
-    marks("density_per_mm2", "1/mm2", 5.0, "marks of a built-up edge"),
+    marks("density_per_mm2", "1/mm^2", 5.0, "marks of a built-up edge"),
     marks("depth_um", "um", 0.1, "depth of these marks"),
     marks("width_um", "um", 2.0, "width of these marks"),
     marks("scratch_length_um", "um", 5.0, "length of scratches"),
@@ -79,7 +79,7 @@ pub static SCENE: SceneProcess = SceneProcess {
         StandardOperation { name: "finish", template: &[("name", "\"finish\""), ("strokes_per_revolution", "4200")] },
     ],
     per_revolution: &["strokes_per_revolution"],
-    of_one_gear: &["window_deg", "program"],
+    of_one_gear: &["window_deg"],
     on_demand: &[],
     cuts_rings: true,
     senseless: &[

@@ -111,15 +111,6 @@ pub(super) static ADDED: Addition = Addition {
             teach: "true: the rotary feed goes on while the cutter is in the work, as on a crank machine; false: \
                 the axes rest during each stroke.",
         },
-        Key {
-            name: "program",
-            kind: Kind::Path,
-            unit: "",
-            default: Default::LeftOut("the linkage moves the axes"),
-            example: "\"finish.ngc\"",
-            teach: "Axis program (G-code, relative to the scene file) that is cut instead of the linkage's own \
-                positions; the linkage remains the target, so that maps show what the program does wrong.",
-        },
     ],
     groups: &[Group { names: &["strokes_per_revolution", "circular_feed_mm_per_stroke"], required: false }],
 };

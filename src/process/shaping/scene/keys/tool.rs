@@ -190,7 +190,7 @@ pub(super) static SECTIONS: &[KeySection] = &[
         keys: &[
             Key::optional(
                 "density_per_mm2",
-                "/mm2",
+                "1/mm^2",
                 Range::above(0.0, 1000.0),
                 "no marks",
                 "20.0",

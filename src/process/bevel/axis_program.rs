@@ -1,8 +1,12 @@
-//! Axis positions from the text of a bevel program.
+//! A program of the six-axis machine, and how it is read.
 
-use super::program::BevelProgram;
-use crate::gcode::read_timed;
-use crate::process::bevel::motion::AXES;
+use super::rolled_axes::AXES;
+use crate::gcode::{TimedKnot, TimedProgram, read_timed};
+
+/// Axes at one moment.
+pub type BevelKnot = TimedKnot<5>;
+/// A program over all slots.
+pub type BevelProgram = TimedProgram<5>;
 
 /// Axis positions of a program of straight lines over time ([`read_timed`]).
 ///
