@@ -15,6 +15,7 @@ use crate::output::progress::{Progress, ProgressMode};
 use crate::process::{CutDone, ProcessJob};
 use crate::scene::LoadedScene;
 use crate::steps::parts::Parts;
+use crate::steps::summary::Summary;
 use crate::steps::{Tools, record};
 use gearcut_core::error::Result;
 use std::path::{Path, PathBuf};
@@ -25,7 +26,7 @@ pub struct Done {
     /// Where the files are: the folder that was asked for, or the partial one beside it.
     pub folder: PathBuf,
     /// Summary for the terminal.
-    pub summary: String,
+    pub summary: Summary,
     /// What was found; `results.json` is the same tree.
     pub findings: Findings,
     /// Whether Ctrl-C ended it early.

@@ -58,7 +58,7 @@ pub enum Command {
     #[command(after_help = "Example:\n  \
         gearcut check scenes/shaping/elliptical_normal.toml --set gear.teeth=45\n\n\
         Prints lengths in mm or um, angles in deg, speeds in deg/s and mm/s; writes no files.")]
-    Check(SceneArguments),
+    Check(CheckArguments),
     /// Write the axis positions of every stroke, with charts.
     #[command(after_help = "Example:\n  \
         gearcut axes scenes/shaping/elliptical_normal.toml --out out/axes_of_my_gear\n\n\
@@ -78,7 +78,7 @@ pub enum Command {
         first and the first over it (2 means that this result has half); and bar charts as SVG. \
         Shaped gears: unevenness of the allowance by tooth (%), in one chart (first period of the pitch \
         curve, and all teeth) and each on its own scale.\n\
-        Hobbed gears: what each tooth of the hob does over the whole process: volume (mm3), largest \
+        Hobbed gears: what each tooth of the hob does over the whole process: volume (mm^3), largest \
         uncut chip thickness (mm), travel in the cut (mm).\n\
         Load is no life: wear follows heat and chip thickness besides. Prints what changed most; with --all \
         headline and summary.")]
@@ -215,8 +215,20 @@ pub struct SceneArguments {
     pub settings: Vec<String>,
 }
 
+/// Arguments of `check`.
+#[derive(Debug, Args)]
+pub struct CheckArguments {
+    /// The scene.
+    #[command(flatten)]
+    pub scene: SceneArguments,
+    /// Print everything: tables along the curve, peaks of the axes, what the cost is made of.
+    #[arg(long)]
+    pub verbose: bool,
+}
+
 /// Arguments of `cut`.
 #[derive(Debug, Args)]
+#[expect(clippy::struct_excessive_bools, reason = "what a command may be asked for are switches")]
 pub struct CutArguments {
     /// The scene.
     #[command(flatten)]
@@ -243,6 +255,9 @@ pub struct CutArguments {
     /// Show no progress and no summary.
     #[arg(long, conflicts_with = "json")]
     pub quiet: bool,
+    /// Print every section of the findings, not only what a screen holds.
+    #[arg(long)]
+    pub verbose: bool,
     /// Report progress on standard error as one JSON object per line, and print results.json instead of the summary.
     #[arg(long)]
     pub json: bool,

@@ -56,7 +56,7 @@ pub fn run(arguments: &CutArguments) -> Result<(), Failure> {
             .map_err(|reason| Error::Output { path: done.folder.clone(), reason: reason.to_string() })?;
         print::to_stdout(&format!("{text}\n"))?;
     } else if !arguments.quiet {
-        print::sheet(&done.summary)?;
+        print::sheet(if arguments.verbose { &done.summary.whole } else { &done.summary.brief })?;
     }
     if done.interrupted {
         return Err(Failure::ended_early(&done.folder, &out));

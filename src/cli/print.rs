@@ -55,6 +55,46 @@ pub fn warnings(warnings: &[Warning]) {
     }
 }
 
+/// The same of the gravest, no more than a terminal shows on so many lines.
+pub fn warnings_within(all: &[Warning], most: usize) {
+    let mut room = most;
+    let fits = |warning: &&Warning| {
+        let lines = lines_on_a_terminal(std::slice::from_ref(*warning));
+        let fits = lines <= room;
+        room = room.saturating_sub(lines);
+        fits
+    };
+    let shown = all.iter().take_while(fits).count().max(1).min(all.len());
+    for warning in &all[..shown] {
+        to_stderr(&warning.line());
+    }
+    let more = all.len() - shown;
+    let count = count_words(all);
+    to_stderr(&if more == 0 { count } else { format!("{count}, {more} of them not shown: --verbose") });
+}
+
+/// How many lines of a terminal warnings take.
+pub fn lines_on_a_terminal(warnings: &[Warning]) -> usize {
+    warnings.iter().map(|warning| fitted(&warning.line(), WIDTH).lines().count()).sum()
+}
+
+/// A text cut to so many lines of a terminal before its last part; a line there says how much is left out.
+pub fn at_most(text: &str, most: usize) -> String {
+    let taken = |lines: &[&str]| lines.iter().map(|line| fitted(line, WIDTH).lines().count().max(1)).sum::<usize>();
+    let lines: Vec<&str> = text.lines().collect();
+    if taken(&lines) <= most {
+        return text.to_owned();
+    }
+    let last = lines.iter().rposition(|line| line.is_empty()).unwrap_or(lines.len());
+    let room = most.saturating_sub(taken(&lines[last..]) + 1);
+    let mut kept = last;
+    while kept > 0 && taken(&lines[..kept]) > room {
+        kept -= 1;
+    }
+    let (before, end) = (lines[..kept].join("\n"), lines[last..].join("\n"));
+    format!("{}\n{} more lines: --verbose\n{end}\n", before.trim_end(), last - kept)
+}
+
 /// Prints lines on standard error; on a terminal in lines of 80 characters, their first word in colour. Nobody is left
 /// to be told when standard error is closed.
 pub fn to_stderr(text: &str) {

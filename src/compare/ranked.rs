@@ -20,7 +20,7 @@ pub(super) const FIRST: usize = 8;
 /// listed nowhere (counts, rates, angles in seconds of arc) one.
 fn worth_telling(unit: Option<&str>) -> f64 {
     match unit {
-        Some("mm" | "mm^2" | "mm2" | "kN" | "um^3/um^2") => 1e-3,
+        Some("mm" | "mm^2" | "kN" | "um^3/um^2") => 1e-3,
         Some("1" | "cm^3/min" | "deg/s") => 0.01,
         _ => 1.0,
     }

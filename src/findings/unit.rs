@@ -11,8 +11,6 @@ const OF_COORDINATES: [&str; 3] = ["mm", "deg", "s"];
 pub fn signs(unit: &str) -> String {
     match unit {
         "1" => String::new(),
-        "mm2" => "mm²".to_owned(),
-        "mm3" => "mm³".to_owned(),
         unit => unit.replace("um", "µm").replace("deg", "°").replace("^2", "²").replace("^3", "³"),
     }
 }

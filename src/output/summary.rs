@@ -4,12 +4,15 @@
 //! Neighbouring sections that show the same quantities become the rows of one table, such as the texture of all
 //! windows. What is undefined is told with its reason in the headline and left out below it.
 
-use crate::findings::{Entry, Findings, Level, Quantity, Section};
+use crate::findings::{Entry, Findings, Level, Quantity, Section, Warning};
 use crate::output::progress::duration_text;
 use crate::output::text::{Sheet, VALUE_COLUMN, plain, significant};
 use crate::wrap::wrapped;
 use gearcut_core::cut::KERNEL_UM;
 
+/// Most lines of all warnings in a brief summary, and of each.
+const LINES_OF_WARNINGS: usize = 12;
+const LINES_OF_A_WARNING: usize = 3;
 /// Widest line, characters.
 const WIDTH: usize = 80;
 /// Shares below this are rounding, per cent.
@@ -28,6 +31,61 @@ pub fn print(findings: &Findings, sheet: &mut Sheet) {
         sheet.heading(&lines.next().unwrap_or_default());
         lines.for_each(|line| sheet.words(&line));
     }
+}
+
+/// What a screen holds: the headline, the deviations and whatever else has room, then the gravest warnings; the sheet
+/// has `most` lines at most.
+pub fn print_brief(findings: &Findings, sheet: &mut Sheet, most: usize) {
+    let warnings = brief_warnings(&findings.warnings);
+    // An empty line and the heading.
+    let most = most.saturating_sub(warnings.len() + 2);
+    let headline = findings.headline.iter().filter(|entry| is_defined(entry) && !is_none(&entry.quantity));
+    for entry in headline.take(most.saturating_sub(sheet.count_lines())) {
+        sheet.line(&entry.title, on_a_line(&entry.quantity));
+    }
+    let (deviations, others): (Vec<&Section>, Vec<&Section>) =
+        findings.sections.iter().partition(|section| section.key == "deviations");
+    for section in deviations.into_iter().chain(others) {
+        let mut own = Sheet::default();
+        print_section(&mut own, &section.title, section);
+        sheet.append_within(&own, most.saturating_sub(sheet.count_lines()));
+    }
+    sheet.heading("What must be known, the gravest first");
+    for line in &warnings {
+        sheet.margin(line);
+    }
+}
+
+/// Lines of warnings in a brief summary: the gravest first, each on few lines.
+fn brief_warnings(warnings: &[Warning]) -> Vec<String> {
+    let mut lines = Vec::new();
+    for (index, warning) in warnings.iter().enumerate() {
+        let mut own = wrapped(&warning.line(), WIDTH - "   ...".len());
+        if own.len() > LINES_OF_A_WARNING {
+            own.truncate(LINES_OF_A_WARNING);
+            own[LINES_OF_A_WARNING - 1].push_str(" ...");
+        }
+        for line in &mut own[1..] {
+            line.insert_str(0, "  ");
+        }
+        if lines.len() + own.len() > LINES_OF_WARNINGS {
+            lines.push(format!("and {} more", warnings.len() - index));
+            break;
+        }
+        lines.extend(own);
+    }
+    lines
+}
+
+/// A count of nothing, which is as it should be.
+fn is_none(quantity: &Quantity) -> bool {
+    quantity.is_count() && quantity.value() == Some(0.0)
+}
+
+/// Value and unit, with the place where a line has room for it.
+fn on_a_line(quantity: &Quantity) -> String {
+    let whole = shown(quantity);
+    if whole.chars().count() <= WIDTH - VALUE_COLUMN { whole } else { without_place(quantity) }
 }
 
 /// A label and its value on as many lines as it takes.
@@ -115,23 +173,28 @@ fn value_text(quantity: &Quantity) -> String {
     if quantity.is_count() { plain(value) } else { significant(if value.abs() < least { 0.0 } else { value }, 4) }
 }
 
+/// Value and unit.
+fn without_place(quantity: &Quantity) -> String {
+    match (quantity.value(), quantity.unit()) {
+        (Some(seconds), Some("s")) => duration_text(seconds),
+        (Some(_), Some(unit)) if unit != "1" => format!("{} {unit}", value_text(quantity)),
+        _ => value_text(quantity),
+    }
+}
+
 /// Value, unit and place, or why there is none.
 pub fn shown(quantity: &Quantity) -> String {
     if let Some(why) = quantity.why() {
         return format!("none ({why})");
     }
-    let text = match (quantity.value(), quantity.unit()) {
-        (Some(seconds), Some("s")) => duration_text(seconds),
-        (Some(_), Some(unit)) if unit != "1" => format!("{} {unit}", value_text(quantity)),
-        _ => value_text(quantity),
-    };
+    let text = without_place(quantity);
     quantity.place().map_or_else(|| text.clone(), |place| format!("{text} ({})", place.words()))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::findings::{Place, Warning};
+    use crate::findings::Place;
 
     fn window(key: &str, sa: f64) -> Section {
         Section::new(key, key.replace('_', " "))
@@ -161,11 +224,37 @@ mod tests {
                     .part(window("tooth_03_left", 0.25))
                     .part(window("tooth_03_right", 2.0)),
                 Section::new("blank", "The whole gear")
-                    .shown("left_volume", "left", Quantity::number(123.4, "mm3", "volume"))
+                    .shown("left_volume", "left", Quantity::number(123.4, "mm^3", "volume"))
                     .shown("deepest", "deepest", Quantity::undefined("mm", "depth", "there is none")),
                 Section::new("empty", "Nothing to show").with("slices", Quantity::count(3, "slices", "slices")),
             ],
         }
+    }
+
+    /// Forty entries, ten sections and thirty long warnings on 33 lines, nothing but the ends of them cut off.
+    #[test]
+    fn a_brief_summary_is_no_longer_than_asked() {
+        let mut found = findings();
+        let count = |value: u64| Quantity::count(value, "teeth", "teeth");
+        found.headline.extend((0..40).map(|i| Entry::headline("more", &format!("more {i}"), count(i))));
+        let title = |i: u64| format!("section {i}");
+        found.sections.extend((0..10).map(|i| Section::new("some", title(i)).shown("a", "of it", count(i))));
+        found.sections.push(Section::new("deviations", "Deviations").shown("a", "F_alpha", count(7)));
+        found.warnings = (0..30).map(|i| Warning::warn(format!("{i} {}", "many words ".repeat(30)))).collect();
+        let mut sheet = Sheet::brief();
+        sheet.heading("a gear");
+        print_brief(&found, &mut sheet, 33);
+        assert!(sheet.count_lines() <= 33, "{}", sheet.count_lines());
+        let text = sheet.into_text();
+        assert!(text.contains("smallest normal stock         0.6772 mm\n"), "{text}");
+        assert!(!text.contains("witness mark") && !text.contains("more 0 "), "none and nothing are left out: {text}");
+        assert!(text.contains("many words ...") && text.contains("and 26 more"), "{text}");
+        found.headline.truncate(1);
+        let mut sheet = Sheet::brief();
+        print_brief(&found, &mut sheet, 33);
+        let text = sheet.into_text();
+        let [deviations, first] = ["Deviations", "Texture"].map(|words| text.find(words));
+        assert!(deviations.is_some() && deviations < first, "{text}");
     }
 
     #[test]
@@ -184,7 +273,7 @@ mod tests {
                         \u{20} tooth 03 left    0.2500\n\
                         \u{20} tooth 03 right    2.000\n\
                         \nThe whole gear\n\
-                        \u{20} left                          123.4 mm3\n\
+                        \u{20} left                          123.4 mm^3\n\
                         \nwarning: words that go on and on until the line is much wider than any\n\
                         \u{20} terminal would like it\n";
         assert_eq!(text, expected);

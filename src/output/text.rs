@@ -14,35 +14,77 @@ const LINE: usize = 80;
 /// many, the columns keep apart.
 const GAPS: [usize; 3] = [3, 2, 1];
 
-/// Text that grows line by line.
+/// Offsets below this are rounding, mm.
+const LEAST_OFFSET_MM: f64 = 5e-7;
+
+/// Text that grows line by line. A brief one leaves out tables and details, and headings under which nothing is left.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Sheet {
     text: String,
+    brief: bool,
+    /// Headings of a brief sheet that nothing has followed yet.
+    awaited: String,
 }
 
 impl Sheet {
+    /// A sheet without tables and details.
+    pub fn brief() -> Self {
+        Self { brief: true, ..Self::default() }
+    }
+
+    /// Whether tables and details are left out.
+    pub fn is_brief(&self) -> bool {
+        self.brief
+    }
+
+    /// What is printed unless the sheet is brief.
+    pub fn details(&mut self, print: impl FnOnce(&mut Self)) {
+        if !self.brief {
+            print(self);
+        }
+    }
+
     /// A heading, set off by an empty line unless it is the first.
     pub fn heading(&mut self, words: &str) {
-        if !self.text.is_empty() {
-            self.text.push('\n');
+        let gap = if self.text.is_empty() { "" } else { "\n" };
+        if self.brief && !self.text.is_empty() {
+            self.awaited = format!("{gap}{words}\n");
+        } else {
+            let _ = writeln!(self.text, "{gap}{words}");
         }
-        let _ = writeln!(self.text, "{words}");
+    }
+
+    fn awaited_heading(&mut self) {
+        self.text.push_str(&std::mem::take(&mut self.awaited));
     }
 
     /// A label and its value, indented under the heading.
     pub fn line(&mut self, label: &str, value: impl AsRef<str>) {
-        let _ = writeln!(self.text, "  {label:<width$}{}", value.as_ref(), width = VALUE_COLUMN - 2);
+        self.awaited_heading();
+        // A label as wide as the column keeps apart from its value.
+        let gap = if label.chars().count() < VALUE_COLUMN - 2 { "" } else { "  " };
+        let _ = writeln!(self.text, "  {label:<width$}{gap}{}", value.as_ref(), width = VALUE_COLUMN - 2);
     }
 
     /// A line of words, indented under the heading.
     pub fn words(&mut self, words: &str) {
+        self.awaited_heading();
         let _ = writeln!(self.text, "  {words}");
+    }
+
+    /// A line at the margin.
+    pub fn margin(&mut self, words: &str) {
+        self.awaited_heading();
+        let _ = writeln!(self.text, "{words}");
     }
 
     /// A table, indented under the heading: words to the left, numbers to the right, as wide as their widest cell.
     /// Where lines would be too long, the first row, which names the columns, is broken between words, and columns
     /// stand closer.
     pub fn table(&mut self, rows: &[Vec<String>]) {
+        if self.brief {
+            return;
+        }
         let columns = rows.iter().map(Vec::len).max().unwrap_or(0);
         let width = |rows: &[Vec<String>], column: usize| {
             rows.iter().filter_map(|row| row.get(column)).map(|cell| cell.chars().count()).max().unwrap_or(0)
@@ -81,6 +123,21 @@ impl Sheet {
         let _ = writeln!(self.text, "{}", line.trim_end());
     }
 
+    /// Adds another sheet, set off by an empty line, if both together have no more than so many lines; whether it did.
+    pub fn append_within(&mut self, other: &Self, most: usize) -> bool {
+        let fits = !other.text.is_empty() && other.text.lines().count() < most;
+        if fits {
+            let gap = if self.text.is_empty() { "" } else { "\n" };
+            let _ = write!(self.text, "{gap}{}", other.text);
+        }
+        fits
+    }
+
+    /// How many lines it has.
+    pub fn count_lines(&self) -> usize {
+        self.text.lines().count()
+    }
+
     /// Whether one of its lines has more characters.
     pub fn is_wider_than(&self, width: usize) -> bool {
         self.text.lines().any(|line| line.chars().count() > width)
@@ -102,6 +159,15 @@ pub fn significant(value: f64, digits: u32) -> String {
     if text.trim_start_matches(['-', '0', '.']).is_empty() { "0".to_owned() } else { text }
 }
 
+/// How far a tool stays back from full depth, in words.
+pub fn from_full_depth(offset_mm: f64) -> String {
+    match offset_mm {
+        short if short > LEAST_OFFSET_MM => format!("{} mm short of full depth", plain(offset_mm)),
+        beyond if beyond < -LEAST_OFFSET_MM => format!("{} mm beyond full depth", plain(-offset_mm)),
+        _ => "at full depth".to_owned(),
+    }
+}
+
 /// A number as a scene gives it, to six decimals and without trailing zeros, such as "3", "0.5", "61.11".
 pub fn plain(value: f64) -> String {
     let text = format!("{value:.6}");
@@ -112,6 +178,41 @@ pub fn plain(value: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_label_as_wide_as_its_column_keeps_apart_from_its_value() {
+        let mut sheet = Sheet::default();
+        sheet.line("mean power while a slot is rolled", "216.9 W");
+        sheet.line("time", "3 s");
+        assert_eq!(
+            sheet.into_text(),
+            format!("  mean power while a slot is rolled  216.9 W\n  time{}3 s\n", " ".repeat(26))
+        );
+    }
+
+    #[test]
+    fn a_brief_sheet_leaves_out_tables_details_and_headings_of_nothing() {
+        let print = |mut sheet: Sheet| {
+            sheet.heading("title");
+            sheet.heading("Peaks");
+            sheet.table(&[vec!["axis".to_owned(), "1".to_owned()]]);
+            sheet.heading("Cost");
+            sheet.details(|sheet| sheet.line("memory", "24 MB"));
+            sheet.line("time", "8 s");
+            sheet.into_text()
+        };
+        let time = format!("  time{}8 s\n", " ".repeat(26));
+        assert_eq!(print(Sheet::brief()), format!("title\n\nCost\n{time}"));
+        let whole = print(Sheet::default());
+        assert!(whole.contains("\nPeaks\n  axis   1\n") && whole.contains("24 MB"), "{whole}");
+    }
+
+    #[test]
+    fn an_offset_says_which_way_it_goes() {
+        let words = [2.0, 0.0, -0.068_687, 1e-13].map(from_full_depth);
+        let expected = ["2 mm short of full depth", "at full depth", "0.068687 mm beyond full depth", "at full depth"];
+        assert_eq!(words, expected);
+    }
 
     #[test]
     fn given_numbers_look_as_given() {

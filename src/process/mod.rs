@@ -19,6 +19,7 @@ use crate::job::GearJob;
 use crate::output::folder::OutputFolder;
 use crate::output::text::Sheet;
 use crate::scene::{self, KeyTable, LoadedScene, Scene, SceneErrors, SceneProcess};
+use crate::steps::summary::Summary;
 use crate::steps::{Tools, Work};
 use gearcut_core::error::Result;
 use std::path::Path;
@@ -30,7 +31,7 @@ pub struct CutDone {
     /// What was found; `results.json` is the same tree.
     pub findings: Findings,
     /// Summary for the terminal.
-    pub summary: String,
+    pub summary: Summary,
     /// How much work it was.
     pub work: Work,
 }

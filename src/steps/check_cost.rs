@@ -85,39 +85,41 @@ impl TimeCost {
 pub fn print(sheet: &mut Sheet, fields: &Fields, flanks: &FlankCost, blank: &BlankCost, beside_s: f64) {
     let cores = rayon::current_num_threads();
     sheet.heading("Cost of the cut (nothing has been cut)");
-    sheet.line(
-        "flank fields",
-        format!(
-            "{} of at most {:.2} million dexels, {} by {} um; {} million in all",
-            flanks.flanks,
-            1e-6 * flanks.largest,
-            plain(1e3 * fields.profile_spacing_mm),
-            plain(1e3 * fields.lead_spacing_mm),
-            significant(1e-6 * flanks.dexels, 3)
-        ),
-    );
-    sheet.line(
-        "evaluations",
-        format!(
-            "{} million dexels against passes, {:.1} per dexel and operation, from {} thousand records{}",
-            significant(1e-6 * flanks.evaluations, 3),
-            flanks.per_dexel,
-            (1e-3 * flanks.records).round(),
-            flanks.note
-        ),
-    );
-    let rays: usize = blank.grid.rows.iter().map(|row| row.count).sum();
-    let sections = blank.grid.slices_z_mm.len();
-    sheet.line(
-        "whole blank",
-        format!(
-            "{} rays {} mm apart in {sections} sections; {}; {:.0} MB",
-            rays * sections,
-            plain(fields.blank_spacing_mm),
-            blank.crossings,
-            1e-6 * blank.bytes
-        ),
-    );
-    sheet.line("memory", format!("{:.0} MB: one flank at a time on each of {cores} threads", 1e-6 * flanks.bytes));
+    sheet.details(|sheet| {
+        sheet.line(
+            "flank fields",
+            format!(
+                "{} of at most {:.2} million dexels, {} by {} um; {} million in all",
+                flanks.flanks,
+                1e-6 * flanks.largest,
+                plain(1e3 * fields.profile_spacing_mm),
+                plain(1e3 * fields.lead_spacing_mm),
+                significant(1e-6 * flanks.dexels, 3)
+            ),
+        );
+        sheet.line(
+            "evaluations",
+            format!(
+                "{} million dexels against passes, {:.1} per dexel and operation, from {} thousand records{}",
+                significant(1e-6 * flanks.evaluations, 3),
+                flanks.per_dexel,
+                (1e-3 * flanks.records).round(),
+                flanks.note
+            ),
+        );
+        let rays: usize = blank.grid.rows.iter().map(|row| row.count).sum();
+        let sections = blank.grid.slices_z_mm.len();
+        sheet.line(
+            "whole blank",
+            format!(
+                "{} rays {} mm apart in {sections} sections; {}; {:.0} MB",
+                rays * sections,
+                plain(fields.blank_spacing_mm),
+                blank.crossings,
+                1e-6 * blank.bytes
+            ),
+        );
+        sheet.line("memory", format!("{:.0} MB: one flank at a time on each of {cores} threads", 1e-6 * flanks.bytes));
+    });
     TimeCost { flanks_s: flanks.seconds, blank_s: blank.seconds, beside_s }.print(sheet);
 }

@@ -19,7 +19,7 @@ pub fn print(sheet: &mut Sheet, curve: &PitchCurve, gear: &Gear, rolling_radius_
     sheet.line("shape", gear.pitch_curve.words());
     let (name, given) = size_words(&gear.pitch_curve);
     let origin = if given { "given" } else { "solved so that the curve closes" };
-    sheet.line(name, format!("{:.6} mm, {origin}", curve.size_mm()));
+    sheet.details(|sheet| sheet.line(name, format!("{:.6} mm, {origin}", curve.size_mm())));
     if let Some(factor) = curve.scaling() {
         sheet.line("scaling", format!("radii of the points times {factor:.6}"));
     }

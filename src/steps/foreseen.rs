@@ -44,8 +44,10 @@ impl Foreseen {
 
 /// Says in `check` which kinds of warnings only a cut can find.
 pub fn print_unknown(sheet: &mut Sheet, kinds: &[&str]) {
-    sheet.heading("Warnings that only a cut can find");
-    summary::line(sheet, "about", &kinds.join("; "));
+    sheet.details(|sheet| {
+        sheet.heading("Warnings that only a cut can find");
+        summary::line(sheet, "about", &kinds.join("; "));
+    });
 }
 
 /// What no process knows of its windows before they are cut.

@@ -8,6 +8,18 @@ use crate::output::text::{Sheet, plain, significant};
 use crate::scene::model::Gear;
 use std::path::Path;
 
+/// Most lines of a brief summary.
+const BRIEF_LINES: usize = 40;
+
+/// What is printed of a run, briefly and as a whole.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Summary {
+    /// On one screen: headline, deviations, what must be known.
+    pub brief: String,
+    /// Every section.
+    pub whole: String,
+}
+
 /// The summary of a run that has finished `flanks` flanks, of which `lost` are cut away, on `backend` and has written
 /// to `out`.
 pub fn text(
@@ -17,24 +29,38 @@ pub fn text(
     work: &Work,
     out: &Path,
     backend: &str,
-) -> String {
-    let mut sheet = Sheet::default();
+) -> Summary {
     let state = if findings.complete { "" } else { ", stopped before all were done" };
     let away = if lost > 0 { format!(", {lost} of them away") } else { String::new() };
-    sheet.heading(&format!(
+    let title = format!(
         "{}: {} teeth, module {} mm, {flanks} of {} flanks cut{away}{state}",
         findings.scene,
         gear.teeth,
         plain(gear.module_mm),
         2 * gear.teeth,
-    ));
-    summary::print(findings, &mut sheet);
-    sheet.heading("Run");
-    summary::line(&mut sheet, "backend", backend);
-    summary::line(&mut sheet, "dexels", &work.dexels_in_words());
-    let seconds = significant(work.elapsed.as_secs_f64(), 3);
-    summary::line(&mut sheet, "cut, measured and mapped in", &format!("{seconds} s"));
-    sheet.line("written to", out.display().to_string());
-    sheet.line("told above", count_words(&findings.warnings));
-    sheet.into_text()
+    );
+    let run = |sheet: &mut Sheet| {
+        sheet.heading("Run");
+        summary::line(sheet, "backend", backend);
+        sheet.details(|sheet| summary::line(sheet, "dexels", &work.dexels_in_words()));
+        let seconds = significant(work.elapsed.as_secs_f64(), 3);
+        summary::line(sheet, "cut, measured and mapped in", &format!("{seconds} s"));
+        sheet.line("written to", out.display().to_string());
+        sheet.line("told above", count_words(&findings.warnings));
+        if sheet.is_brief() {
+            sheet.line("more", "with --verbose, in results.json and report.html");
+        }
+    };
+    let mut whole = Sheet::default();
+    whole.heading(&title);
+    summary::print(findings, &mut whole);
+    run(&mut whole);
+    let [mut brief, mut end] = [Sheet::brief(), Sheet::brief()];
+    brief.heading(&title);
+    // A first heading is written at once.
+    end.words("");
+    run(&mut end);
+    summary::print_brief(findings, &mut brief, BRIEF_LINES - end.count_lines());
+    run(&mut brief);
+    Summary { brief: brief.into_text(), whole: whole.into_text() }
 }

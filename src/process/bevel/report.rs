@@ -15,7 +15,7 @@ use crate::job::rows_z_mm;
 use crate::output::folder::OutputFolder;
 use crate::output::line_chart::{LineChart, LineSeries, Panel};
 use crate::output::report::{Block, Page, PageSection, PageTable};
-use crate::output::text::{plain, significant};
+use crate::output::text::{from_full_depth, plain, significant};
 use crate::steps;
 use crate::steps::axes;
 use crate::steps::report::facts::table;
@@ -60,8 +60,8 @@ pub fn page(
     sections.push(files::section(folder)?);
     sections.push(record(gear.flanks.len(), &gear.work, run));
     let operation = |operation: &findings::Section| {
-        let mm = |key: &str| operation.number(key).map_or_else(|| "–".to_owned(), plain);
-        format!("{}: {}, head held back by {} mm", operation.key, operation.words("linkage"), mm("offset"))
+        let offset = operation.number("offset").map_or_else(|| "–".to_owned(), from_full_depth);
+        format!("{}: {}, head {offset}", operation.key, operation.words("linkage"))
     };
     let key_numbers = found.headline.iter().map(|entry| key_number(&entry.heading(), &entry.quantity)).collect();
     let page_gear = PageGear { words: gear_words(job), mesh: mesh(job, whole)? };

@@ -9,7 +9,7 @@ use crate::output::bar_chart::BarChart;
 use crate::output::folder::OutputFolder;
 use crate::output::line_chart::LineChart;
 use crate::output::report::{Block, Page, PageSection, PageTable};
-use crate::output::text::{plain, significant};
+use crate::output::text::{from_full_depth, plain, significant};
 use crate::process::hobbing::axes_report::HobbingAxesReport;
 use crate::process::hobbing::{HobCutter, HobbedGear, HobbingJob};
 use crate::steps;
@@ -69,10 +69,10 @@ pub fn page(
     let operation = |operation: &findings::Section| {
         let mm = |key: &str| operation.number(key).map_or_else(|| "–".to_owned(), plain);
         format!(
-            "{}: {}, hob held back by {} mm, {} mm axial feed per revolution",
+            "{}: {}, hob {}, {} mm axial feed per revolution",
             operation.key,
             operation.words("linkage"),
-            mm("offset"),
+            operation.number("offset").map_or_else(|| "–".to_owned(), from_full_depth),
             mm("axial_feed")
         )
     };

@@ -14,7 +14,7 @@ use crate::findings::{self, Findings, Quantity};
 use crate::measure::verdict::GearVerdict;
 use crate::output::folder::OutputFolder;
 use crate::output::report::{KeyNumber, Page};
-use crate::output::text::{plain, significant};
+use crate::output::text::{from_full_depth, significant};
 use crate::process::shaping::CutGear;
 use crate::process::shaping::ShapingJob;
 use crate::process::shaping::axes_report::OperationAxes;
@@ -78,14 +78,10 @@ fn operation_words(operation: &findings::Section, count: usize) -> String {
     let (Some(offset_mm), Some(feed_mm)) = (operation.number("offset"), operation.number("circular_feed")) else {
         return format!("{name}: by a program off the scene's own strokes, {strokes} strokes");
     };
-    let offset = if offset_mm.abs() < 1e-12 {
-        "to the finished shape".to_owned()
-    } else {
-        format!("cutter held back by {} mm", plain(offset_mm))
-    };
     format!(
-        "{name}: {}, {offset}, {strokes} strokes, {} mm circular feed per stroke",
+        "{name}: {}, cutter {}, {strokes} strokes, {} mm circular feed per stroke",
         operation.words("linkage"),
+        from_full_depth(offset_mm),
         significant(feed_mm, 3),
     )
 }

@@ -21,8 +21,8 @@ fn the_papers_axes_are_written() {
     let out = folder.path().join("axes_of_paper");
     let text = out.display().to_string();
     let outcome = gearcut(&["axes", PAPER, "--out", &text]).done().says(&[
-        "Operation rough: normal linkage, offset 2 mm",
-        "Operation finish: normal linkage, offset 0 mm",
+        "Operation rough: normal linkage, 2 mm short of full depth",
+        "Operation finish: normal linkage, at full depth",
         "14.95 deg",
         "26 % of a circular gear's",
         "1.321 deg/s",

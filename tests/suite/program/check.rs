@@ -1,6 +1,6 @@
 //! `gearcut check`: facts, warnings, every committed scene, in a second.
 
-use crate::fixtures::command::gearcut;
+use crate::fixtures::command::{gearcut, gearcut_briefly};
 use gearcut::passes::SweepPlan;
 use gearcut::process::hobbing::{HobCutter, HobbingJob};
 use gearcut::process::{PROCESSES, load};
@@ -36,6 +36,31 @@ fn the_papers_gear_is_described() {
         assert!(outcome.err.contains(words), "no {words:?} in {}", outcome.err);
     }
     assert!(outcome.out.contains("Warnings that only a cut can find"), "{}", outcome.out);
+}
+
+/// The verdict comes first, and all of it fits on a screen of 50 lines of 80 characters; `--verbose` prints the rest.
+#[test]
+fn a_screen_holds_the_verdict_and_the_rest_is_asked_for() {
+    let many = ["--set", "gear.teeth=9", "--set", "gear.pitch_curve.circle={}", "--set", "tool.shaper_cutter.teeth=40"];
+    for arguments in [
+        &["check", PAPER][..],
+        &["check", "scenes/hobbing/circular_spur.toml"],
+        &["check", "scenes/bevel/five_linkage_printed.toml"],
+        &[&["check", PAPER][..], &many].concat(),
+    ] {
+        let [brief, whole] = [gearcut_briefly, gearcut].map(|run| run(arguments));
+        let lines = |text: &str| text.lines().map(|line| line.chars().count().div_ceil(80).max(1)).sum::<usize>();
+        let count = lines(&brief.out) + lines(&brief.err);
+        println!("{arguments:?}: {count} lines, {} with --verbose", lines(&whole.out) + lines(&whole.err));
+        assert!(count <= 50, "{count} lines:\n{}{}", brief.out, brief.err);
+        assert!(brief.out.starts_with("can be cut: "), "{}", brief.out);
+        assert!(brief.out.contains("some ") && brief.out.contains("for all of it"), "no time: {}", brief.out);
+        // What is left out is printed when it is asked for.
+        assert!(lines(&whole.out) > lines(&brief.out), "{}", whole.out);
+        assert!(!brief.out.contains("not given") && whole.out.contains("not given"), "{}", whole.out);
+    }
+    let limited = gearcut_briefly(&["check", PAPER, "--set", "fields.blank.spacing_mm=0"]);
+    assert!(limited.out.is_empty() && limited.code != 0, "{}", limited.out);
 }
 
 #[test]

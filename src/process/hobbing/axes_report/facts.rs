@@ -2,7 +2,7 @@
 
 use super::HobbingAxesReport;
 use crate::output::progress::duration_text;
-use crate::output::text::{Sheet, plain, significant};
+use crate::output::text::{Sheet, from_full_depth, significant};
 use crate::process::hobbing::job::PreparedHobbing;
 use crate::process::hobbing::scene::model::HobbingKind;
 use crate::steps::axes::AxesOfOperation;
@@ -12,7 +12,11 @@ use gearcut_core::units::{TURN_RAD, UM_PER_MM};
 pub(super) fn print(axes: &HobbingAxesReport, sheet: &mut Sheet) {
     let (job, operation) = (axes.job, axes.operation());
     let PreparedHobbing { spec, plan, linkage, .. } = operation;
-    sheet.heading(&format!("Operation {}: {}, offset {} mm", spec.name, axes.linkage_words(), plain(spec.offset_mm)));
+    sheet.heading(&format!("Operation {}: {}, {}", spec.name, axes.linkage_words(), from_full_depth(spec.offset_mm)));
+    if let Some(program) = &operation.program {
+        let knots = program.knots.len();
+        sheet.line("program", format!("{knots} positions are cut; tables, charts and peaks are the scene's own"));
+    }
     let hob_speed = spec.hob_speed_rad_per_s / TURN_RAD * 60.0;
     sheet.line("hob speed", format!("{} 1/min, mean of a cycle", significant(hob_speed, 5)));
     let tilt_rad = linkage.geometry().head_angle_rad;

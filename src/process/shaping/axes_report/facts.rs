@@ -2,7 +2,7 @@
 
 use super::OperationAxes;
 use crate::output::progress::duration_text;
-use crate::output::text::{Sheet, plain, significant};
+use crate::output::text::{Sheet, from_full_depth, plain, significant};
 use crate::process::shaping::linkage::relief::ReliefFlank;
 use crate::steps::axes::AxesOfOperation;
 use gearcut_core::units::UM_PER_MM;
@@ -13,8 +13,8 @@ const ROUND_BETA_RAD: f64 = 1e-9;
 /// Strokes, time, relief.
 pub(super) fn print(axes: &OperationAxes, sheet: &mut Sheet) {
     let (operation, back_off_mm) = (axes.operation(), axes.job.machine.back_off_mm);
-    let (name, offset, schedule) = (axes.name(), plain(operation.spec.offset_mm), &operation.schedule);
-    sheet.heading(&format!("Operation {name}: {}, offset {offset} mm", axes.linkage_words()));
+    let (name, offset, schedule) = (axes.name(), from_full_depth(operation.spec.offset_mm), &operation.schedule);
+    sheet.heading(&format!("Operation {name}: {}, {offset}", axes.linkage_words()));
     let plunging = match schedule.plunge_count() {
         0 => String::new(),
         count => format!(", {count} of them plunging"),
@@ -29,7 +29,9 @@ pub(super) fn print(axes: &OperationAxes, sheet: &mut Sheet) {
         );
     }
     let feed = significant(schedule.circular_feed_mm_per_stroke(), 3);
-    sheet.line("circular feed", format!("{feed} mm per double stroke, mean over the pitch curve"));
+    sheet.details(|sheet| {
+        sheet.line("circular feed", format!("{feed} mm per double stroke, mean over the pitch curve"));
+    });
     sheet.line("time", duration_text(schedule.time_s(schedule.count() as f64)));
     let round = axes.largest_beta_rad < ROUND_BETA_RAD;
     let beta_place = if round {
@@ -37,10 +39,10 @@ pub(super) fn print(axes: &OperationAxes, sheet: &mut Sheet) {
     } else {
         format!("at polar angle {:.2} deg", axes.largest_beta_phi_rad.to_degrees())
     };
-    sheet.line(
-        "largest beta",
-        format!("{:.2} deg {beta_place} (line of centres against the normal)", axes.largest_beta_rad.to_degrees()),
-    );
+    let beta_deg = axes.largest_beta_rad.to_degrees();
+    sheet.details(|sheet| {
+        sheet.line("largest beta", format!("{beta_deg:.2} deg {beta_place} (line of centres against the normal)"));
+    });
     let flank = match axes.relief.flank {
         ReliefFlank::Left => "left",
         ReliefFlank::Right => "right",

@@ -18,13 +18,14 @@ pub fn print(sheet: &mut Sheet, job: &ShapingJob, motion: &[OperationAxes]) -> R
         let other = program::not_of_the_operation(job, motion);
         let Some(section) = returns::section(job, index, other.as_deref())? else { return Ok(()) };
         let name = &operation.spec.name;
-        sheet.heading(&format!("{} of {name}: {}", section.title, section.words("direction")));
-        if let Some(why) = &other {
-            summary::line(sheet, "not known", why);
-            continue;
-        }
-        answers::print(sheet, &section);
-        along(sheet, &section);
+        sheet.details(|sheet| {
+            sheet.heading(&format!("{} of {name}: {}", section.title, section.words("direction")));
+            if let Some(why) = &other {
+                return summary::line(sheet, "not known", why);
+            }
+            answers::print(sheet, &section);
+            along(sheet, &section);
+        });
     }
     Ok(())
 }

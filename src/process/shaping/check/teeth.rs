@@ -11,19 +11,23 @@ const SAME_MM: f64 = 5e-4;
 /// Adds the lines; `other_gear`: a program cuts another gear than the one that they are of.
 pub fn print(sheet: &mut Sheet, job: &ShapingJob, facts: &[ToothFacts], other_gear: bool) {
     let cutter = &job.cutter;
-    sheet.heading("Cutter");
-    sheet.line("teeth", cutter.teeth.to_string());
-    sheet.line(
-        "radii",
-        format!(
-            "pitch {:.3} mm, base {:.3} mm, tip {:.3} mm",
-            cutter.pitch_radius_mm, cutter.base_radius_mm, cutter.tip_radius_mm
-        ),
-    );
+    sheet.details(|sheet| {
+        sheet.heading("Cutter");
+        sheet.line("teeth", cutter.teeth.to_string());
+        sheet.line(
+            "radii",
+            format!(
+                "pitch {:.3} mm, base {:.3} mm, tip {:.3} mm",
+                cutter.pitch_radius_mm, cutter.base_radius_mm, cutter.tip_radius_mm
+            ),
+        );
+    });
     sheet.heading(if other_gear { "Teeth by the scene's own strokes, not by the program" } else { "Teeth" });
     sheet.line("start of involute", range(facts, " over the pitch curve", |flank| flank.start_height_mm));
-    sheet.line("end of flank", range(facts, " over the pitch curve", |flank| flank.tip_height_mm));
-    sheet.line("length of profile", range(facts, "", |flank| flank.length_mm));
+    sheet.details(|sheet| {
+        sheet.line("end of flank", range(facts, " over the pitch curve", |flank| flank.tip_height_mm));
+        sheet.line("length of profile", range(facts, "", |flank| flank.length_mm));
+    });
     let land = |tooth: &ToothFacts| tooth.tip_land_mm;
     if let (Some(low), Some(high)) = (
         facts.iter().min_by(|a, b| land(a).total_cmp(&land(b))),
