@@ -101,8 +101,8 @@ fn probe_words(job: &HobbingJob) -> String {
     let feed_um = UM_PER_MM * job.feed_mark_mm(job.finishing());
     format!(
         "Runout of a perfect machine is feed marks: the probe meets a flank on a crest or in a valley, up to {} µm \
-        apart, and goes in by that over sin αn, up to {} µm. A ball of 2 mm on a measuring machine does the same: the valleys \
-        of a feed are far wider than it. A finer feed lowers both with its square.",
+        apart, and goes in by that over sin αn, up to {} µm. A ball of 2 mm on a measuring machine does the same: the \
+        valleys of a feed are far wider than it. A finer feed lowers both with its square.",
         significant(feed_um, 3),
         significant(feed_um / job.scene.gear.pressure_angle_rad.sin(), 3)
     )

@@ -5,7 +5,7 @@
 
 use super::model::Protuberance;
 
-/// HobTip diameter and length with full teeth of single-start hobs for spur gears (DIN 8002, form A) by module, each up to
+/// Tip diameter and length with full teeth of single-start hobs for spur gears (DIN 8002, form A) by module, each up to
 /// the first number, mm. The standard's intermediate modules take the row they lie in.
 const SIZES: [[f64; 3]; 10] = [
     [1.4, 50.0, 25.0],
@@ -32,7 +32,7 @@ const OF_FULL_ROUND: f64 = 0.9;
 /// Modules that have a usual hob, mm.
 pub(super) const MODULES_MM: [f64; 2] = [SMALLEST_MODULE_MM, SIZES[SIZES.len() - 1][0]];
 
-/// HobTip diameter and length with full teeth, mm; `None` where the standard has no hob of this module.
+/// Tip diameter and length with full teeth, mm; `None` where the standard has no hob of this module.
 pub(super) fn size_mm(module_mm: f64) -> Option<[f64; 2]> {
     let row = SIZES.iter().find(|[up_to_mm, ..]| module_mm <= *up_to_mm)?;
     (module_mm >= SMALLEST_MODULE_MM).then_some([row[1], row[2]])
@@ -49,7 +49,7 @@ pub(super) struct HobTip {
 }
 
 impl HobTip {
-    /// HobTip round, mm: 0.38 modules, less where the clearance, the tip's width or a protuberance has no room for it; 0
+    /// Tip round, mm: 0.38 modules, less where the clearance, the tip's width or a protuberance has no room for it; 0
     /// where the hob is no deeper than the gear's addendum.
     pub fn round_mm(&self) -> f64 {
         let (m, flank_rad) = (self.module_mm, self.pressure_angle_rad);
