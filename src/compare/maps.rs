@@ -61,7 +61,11 @@ impl Comparison {
             let all_um = maps.iter().flat_map(|map| &map.values_um).filter(|um| um.is_finite());
             let largest_um = all_um.fold(0.0, |most: f32, um| most.max(um.abs()));
             if largest_um <= EQUAL_UM {
-                let equal = format!("{title}: nothing above {} um", significant(largest_um.into(), 2));
+                let equal = if largest_um > 0.0 {
+                    format!("{title}: nothing above {} um", significant(largest_um.into(), 2))
+                } else {
+                    format!("{title}: none")
+                };
                 sheets.push(MapSheet { title: sentence_with_signs(&equal), png: None });
                 continue;
             }
