@@ -37,7 +37,7 @@ def gearcut(program, *arguments):
 
 def write_csv(path, z):
     with open(path, "w") as out:
-        out.write(f"# dx_um = {DX_UM}\n# dy_um = {DY_UM}\n")
+        out.write(f"# gearcut surface: heights in um\n# dx_um = {DX_UM}\n# dy_um = {DY_UM}\n")
         # Notes go into comments and trailers of the formats that have some: readers must not stumble over them.
         notes = {"scene": "[gear]\nmodule_mm = 3.0 # * < & >", "frame": "x \u00b5m"}
         out.write(f"# notes = {json.dumps(notes)}\n")
@@ -216,7 +216,7 @@ def main(program, keep):
         write_csv(csv, z)
         names = ["ours.x3p", "ours.sdf", "ours_ascii.sdf", "ours.sur"]
         paths = [os.path.join(folder, name) for name in names]
-        gearcut(program, csv, *(part for path in paths for part in ("--save", path)))
+        gearcut(program, csv, "--force", *(part for path in paths for part in ("--save", path)))
         what = "with a hole" if hole else "whole"
         for path, name in zip(paths, names):
             # SUR steps are a billionth of the range, its spacing and step are 32-bit floats.
@@ -228,7 +228,7 @@ def main(program, keep):
         for path in (path for writer in writers for path in writer(z, folder)):
             name = os.path.basename(path)
             back = os.path.join(folder, "back.csv")
-            gearcut(program, path, "--save", back)
+            gearcut(program, path, "--force", "--save", back)
             tolerance = 2e-6 if name.endswith(".sur") else 1e-9
             check(f"{name} {what}, opened by gearcut", read_csv(back), z, tolerance)
             if keep:
