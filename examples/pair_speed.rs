@@ -2,6 +2,7 @@
 //!
 //! `cargo run --release --example pair_speed [scene] [teeth of the mate]`
 
+use gearcut::cut::cpu::Cpu;
 use gearcut::gear::GearKind;
 use gearcut::interrupt::Interrupt;
 use gearcut::output::progress::{Progress, ProgressMode};
@@ -26,9 +27,10 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let started = Instant::now();
     let fit = Fit::new(scenes[0], scenes[1], 0)?;
     let (progress, interrupt) = (Progress::new(ProgressMode::Quiet), Interrupt::default());
-    let flanks = PairFlanks::new(&fit, scenes, options.source, 1, &Watch::new(&progress, &interrupt))?;
+    let watch = Watch::new(&progress, &interrupt);
+    let flanks = PairFlanks::new(&fit, scenes, options.source, 1, &Cpu::default(), &watch)?;
     println!("flanks cut in {:.2} s", started.elapsed().as_secs_f64());
-    let meshing = flanks.meshing(&fit, gears[0], &options.mounting(&fit, gears)?)?;
+    let meshing = flanks.meshing(&fit, gears[0], &options.mounting(&fit, gears)?);
     for positions in [500, 1000, 2000, 4000] {
         let started = Instant::now();
         let period = roll(&meshing, positions, || Ok(()))?;

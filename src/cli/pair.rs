@@ -2,12 +2,14 @@
 
 use std::path::PathBuf;
 
+use gearcut::backend::{BackendWish, OnFailure, choose};
 use gearcut::gear::GearKind;
 use gearcut::output::progress::{Progress, ProgressMode};
 use gearcut::output::summary;
 use gearcut::output::text::{Sheet, plain};
 use gearcut::pair_job::flanks::FlankSource;
 use gearcut::pair_job::options::PairOptions;
+use gearcut::pair_job::page::PairRecord;
 use gearcut::pair_job::watch::Watch;
 use gearcut::pair_job::{findings, member, rolled, write};
 use gearcut::scene::{LoadedScene, Mate};
@@ -27,13 +29,15 @@ pub fn run(arguments: &PairArguments) -> Result<(), Failure> {
     let out = arguments.out.clone().unwrap_or_else(|| PathBuf::from("out").join(&name));
     let words = std::env::args().skip(1).collect::<Vec<_>>();
     let progress = Progress::new(ProgressMode::choose(false, arguments.json));
+    let choice = choose(BackendWish::Cpu, OnFailure::default())?;
     let (path, (found, interference)) = folder::fill(&out, "pair", |folder, interrupt| {
         let watch = Watch::new(&progress, interrupt);
-        let rolled = rolled::roll_pair(scenes, &options, &watch)?;
+        let rolled = rolled::roll_pair(scenes, &options, choice.backend.as_ref(), &watch)?;
         let found = findings::findings(&name, scenes, &options, &rolled);
-        write::write(scenes, &options, &rolled, &found, folder, &watch)?;
-        let record =
-            [("arguments", json!(words)), ("scene_A", json!(a.resolved_toml())), ("scene_B", json!(b.resolved_toml()))];
+        let [scene_a, scene_b] = [&a, &b].map(LoadedScene::resolved_toml);
+        let run = PairRecord { backend: choice.backend.name_in_files(), scenes: [scene_a.clone(), scene_b.clone()] };
+        write::write(scenes, &options, &rolled, &found, folder, &run, &watch)?;
+        let record = [("arguments", json!(words)), ("scene_A", json!(scene_a)), ("scene_B", json!(scene_b))];
         Ok((record.to_vec(), (found, findings::interference(&rolled))))
     })
     .map_err(|error| in_place(&a, error))?;
@@ -87,6 +91,7 @@ fn in_place(a: &LoadedScene, error: Error) -> Failure {
 
 fn options(arguments: &PairArguments) -> Result<PairOptions, Failure> {
     let finite = [
+        ("--center-distance-mm", arguments.center_distance_mm.unwrap_or(1.0), f64::MIN_POSITIVE),
         ("--center-distance-error-um", arguments.center_distance_error_um, f64::NEG_INFINITY),
         ("--eccentricity-a-um", arguments.eccentricity_a_um, 0.0),
         ("--eccentricity-a-at-deg", arguments.eccentricity_a_at_deg, f64::NEG_INFINITY),
@@ -115,6 +120,7 @@ fn options(arguments: &PairArguments) -> Result<PairOptions, Failure> {
         },
         positions: arguments.positions.map(|count| count as usize),
         sections: arguments.sections.map(|count| count as usize),
+        center_distance_mm: arguments.center_distance_mm,
         center_distance_error_um: arguments.center_distance_error_um,
         eccentricity_um_deg: [
             [arguments.eccentricity_a_um, arguments.eccentricity_a_at_deg],

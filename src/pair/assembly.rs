@@ -125,41 +125,31 @@ pub struct Meshing {
 
 impl Meshing {
     /// Puts two gears together that are looked at in one section.
-    ///
-    /// # Errors
-    /// Flanks of the driven gear that cannot be rolled.
     pub fn new(
         pitch: PitchPair,
         driver: &GearFlanks<FlankChain>,
         driven: &GearFlanks<FlankChain>,
         mounting: &AssemblyErrors,
-    ) -> Result<Self, Refusal> {
+    ) -> Self {
         Self::of_sections(pitch, &[SectionFlanks { z_mm: 0.0, shift_mm: 0.0, driver, driven }], mounting)
     }
 
     /// Puts two gears together.
-    ///
-    /// # Errors
-    /// Flanks of the driven gear that cannot be rolled.
-    pub fn of_sections(
-        pitch: PitchPair,
-        sections: &[SectionFlanks],
-        mounting: &AssemblyErrors,
-    ) -> Result<Self, Refusal> {
+    pub fn of_sections(pitch: PitchPair, sections: &[SectionFlanks], mounting: &AssemblyErrors) -> Self {
         let [off_1, off_2] = mounting.eccentricity_mm;
         let section = |of: &SectionFlanks| {
             let [apart, across] = (mounting.inclination * of.z_mm).to_array();
-            Ok(GearsInSection {
+            GearsInSection {
                 z_mm: of.z_mm,
                 shift_mm: of.shift_mm,
-                driver: of.driver.map(|chain| Ok::<_, Refusal>(chain.moved(off_1)))?,
-                driven: of.driven.map(|chain| PolarFlank::new(&chain.moved(off_2)))?,
+                driver: of.driver.each(|chain| chain.moved(off_1)),
+                driven: of.driven.each(|chain| PolarFlank::new(&chain.moved(off_2))),
                 axis_offset_mm: DVec2::new(pitch.sign() * apart, across),
-            })
+            }
         };
-        let sections = sections.iter().map(section).collect::<Result<_, Refusal>>()?;
+        let sections = sections.iter().map(section).collect();
         let AssemblyErrors { center_distance_error_mm, eccentricity_mm, .. } = *mounting;
-        Ok(Self { pitch, sections, eccentricity_mm, center_distance_error_mm })
+        Self { pitch, sections, eccentricity_mm, center_distance_error_mm }
     }
 
     /// What is added to the closing centre distance, mm.

@@ -18,7 +18,7 @@ use std::f64::consts::TAU;
 
 use glam::DVec2;
 
-use super::flank_chain::{FlankChain, PolarFlank};
+use super::flank_chain::{FlankChain, PolarFlank, PolarRun};
 use gearcut_core::math::extremum::maximum;
 use gearcut_core::math::roots::halve;
 use gearcut_core::terms::Side;
@@ -103,7 +103,7 @@ fn wrapped(angle_rad: f64) -> f64 {
 /// One flank of each gear, and how they stand.
 struct Facing<'a> {
     driver: &'a FlankChain,
-    driven: &'a PolarFlank,
+    driven: &'a PolarRun,
     stand: &'a PairPose,
     /// The driven axis as the driver sees it: its points need not be turned one by one.
     axis_mm: DVec2,
@@ -112,7 +112,7 @@ struct Facing<'a> {
 
 impl<'a> Facing<'a> {
     /// None where the distances of both flanks from the driven axis have nothing in common.
-    fn new(driver: &'a FlankChain, driven: &'a PolarFlank, stand: &'a PairPose, side: Side) -> Option<Self> {
+    fn new(driver: &'a FlankChain, driven: &'a PolarRun, stand: &'a PairPose, side: Side) -> Option<Self> {
         let axis_mm = DVec2::from_angle(stand.phi_1_rad).rotate(stand.axis_2_mm);
         let [low, high] = driven.range_mm();
         let [nearest, farthest] = driver.distances_mm(axis_mm);
@@ -162,48 +162,46 @@ impl<'a> Facing<'a> {
 }
 
 /// Shows every point of either flank that has the other one opposite.
-pub fn probes(driver: &FlankChain, driven: &PolarFlank, stand: &PairPose, side: Side, visit: impl FnMut(Probe)) {
-    if let Some(facing) = Facing::new(driver, driven, stand, side) {
-        facing.visit(visit);
+pub fn probes(driver: &FlankChain, driven: &PolarFlank, stand: &PairPose, side: Side, mut visit: impl FnMut(Probe)) {
+    for run in &driven.runs {
+        if let Some(facing) = Facing::new(driver, run, stand, side) {
+            facing.visit(&mut visit);
+        }
     }
 }
 
 /// The rotation at which a flank of the driver touches one of the driven gear; none where their distances from the
 /// driven axis have nothing in common.
 pub fn touch(driver: &FlankChain, driven: &PolarFlank, stand: &PairPose, side: Side) -> Option<Touch> {
-    let facing = Facing::new(driver, driven, stand, side)?;
+    let on_run = |run: &PolarRun| first_on(&Facing::new(driver, run, stand, side)?);
+    let touches = driven.runs.iter().filter_map(on_run);
+    let [value, place, driven_place] = touches.max_by(|a, b| a[0].total_cmp(&b[0]))?;
+    let ends_at = |place: f64, last: f64| [place <= END_INTERVALS, place >= last - END_INTERVALS];
+    let kind = match (ends_at(place, driver.last()), ends_at(driven_place, (driven.points - 1) as f64)) {
+        ([_, true], _) => TouchKind::DriverTip,
+        ([true, _], _) => TouchKind::DriverRoot,
+        (_, [_, true]) => TouchKind::DrivenTip,
+        (_, [true, _]) => TouchKind::DrivenRoot,
+        _ => TouchKind::Inner,
+    };
+    let point_mm = DVec2::from_angle(-stand.phi_1_rad).rotate(driver.at(place));
+    Some(Touch { error_rad: -side.sign() * value, kind, point_mm, driver_place: place, driven_place })
+}
+
+/// What a run of the driven flank asks for, and the places of the touch along the driver's chain and its own.
+fn first_on(facing: &Facing) -> Option<[f64; 3]> {
+    let Facing { driver, driven, .. } = facing;
     let mut best: Option<(f64, f64)> = None;
     facing.visit(|probe| {
         if best.is_none_or(|(value, _)| probe.push_rad > value) {
             best = Some((probe.push_rad, probe.place));
         }
     });
-    let Facing { axis_mm, pushing, .. } = facing;
-    let [low, high] = driven.range_mm();
-    let push = |point_mm: DVec2| facing.push_rad(point_mm);
     let (mut value, mut place) = best?;
     if driver.is_smooth() {
-        (value, place) = climbed(&|place| push(driver.at(place)), value, place, driver.last());
+        (value, place) = climbed(&|place| facing.push_rad(driver.at(place)), value, place, driver.last());
     }
-    let point_mm = driver.at(place);
-    let radius = point_mm.distance(axis_mm);
-    let tolerance_mm = END_INTERVALS * (high - low) / driven.radii_mm.len() as f64;
-    let driven_end =
-        |at_high: bool| if at_high == driven.tip_is_last { TouchKind::DrivenTip } else { TouchKind::DrivenRoot };
-    let kind = if place >= driver.last() - END_INTERVALS {
-        TouchKind::DriverTip
-    } else if place <= END_INTERVALS {
-        TouchKind::DriverRoot
-    } else if radius >= high - tolerance_mm {
-        driven_end(true)
-    } else if radius <= low + tolerance_mm {
-        driven_end(false)
-    } else {
-        TouchKind::Inner
-    };
-    let point_mm = DVec2::from_angle(-stand.phi_1_rad).rotate(point_mm);
-    let driven_place = driven.chain_place(radius);
-    Some(Touch { error_rad: pushing * value, kind, point_mm, driver_place: place, driven_place })
+    Some([value, place, driven.chain_place(driver.at(place).distance(facing.axis_mm))])
 }
 
 /// Goes on from an attained value to the largest one within an interval of the chain on either side.

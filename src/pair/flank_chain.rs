@@ -1,8 +1,8 @@
 //! Flanks as chains of points in the frame of their gear.
 //!
 //! In: points from root to tip, with directions where the flank is smooth. Out: [`FlankChain`] for the driver, points
-//! at any place; [`PolarFlank`] for the driven gear, the polar angle about its axis as a function of the radius; and
-//! [`GearFlanks`], all flanks of a gear by tooth and side.
+//! at any place; [`PolarFlank`] for the driven gear, the polar angle about its axis as a function of the radius, in as
+//! many runs as it turns back; and [`GearFlanks`], all flanks of a gear by tooth and side.
 //!
 //! Smooth flanks are cubic between points (errors of some 1e-11 mm at 130 points); cut flanks, which have a kink at
 //! every scallop, are straight, so that no crest is rounded off and none is invented.
@@ -19,7 +19,7 @@ use gearcut_core::terms::Side;
 const INTERVALS: usize = 128;
 /// How far nominal flanks go on beyond the deepest contact with the mate's tip, modules along the line of action: tips
 /// of flanks with errors reach deeper.
-const BEYOND_MODULES: f64 = 0.2;
+pub const BEYOND_MODULES: f64 = 0.2;
 /// Share of the radius of curvature that must be left where a flank ends: at zero it turns back.
 const LEAST_CURVATURE_MARGIN: f64 = 0.02;
 
@@ -101,47 +101,67 @@ impl FlankChain {
 }
 
 /// A flank of the driven gear as polar angle over radius about its axis.
+///
+/// Most flanks are one run. A gear that sits off its axis, or a fillet that has cut into a flank, makes a flank turn
+/// back in its distance from the axis; it then has several runs, and whatever stands farthest out touches.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PolarFlank {
+    /// Stretches along which the distance from the axis changes steadily, from root to tip.
+    pub runs: Vec<PolarRun>,
+    /// Points of the chain that it was made from.
+    pub points: usize,
+}
+
+/// A stretch of a flank along which the distance from the axis changes steadily.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PolarRun {
     /// Radii, increasing, mm.
     pub radii_mm: Vec<f64>,
     angles_rad: Vec<f64>,
     /// dpsi/drho, rad per mm; none on a flank with kinks.
     slopes: Option<Vec<f64>>,
-    /// Whether the last radius is the tip's; on an internal gear it is the first one's.
-    pub tip_is_last: bool,
+    /// Number, along the chain, of the point with the smallest radius.
+    first: usize,
+    /// Whether the numbers of the chain grow with the radius; on a ring they fall.
+    outward: bool,
 }
 
 impl PolarFlank {
     /// From a chain about the origin.
-    ///
-    /// # Errors
-    /// The radius does not change steadily from root to tip.
-    pub fn new(chain: &FlankChain) -> Result<Self, Refusal> {
-        let mut points = chain.points_mm.clone();
-        let mut tangents = chain.tangents.clone();
-        let tip_is_last = points[points.len() - 1].length() > points[0].length();
-        if !tip_is_last {
-            points.reverse();
-            if let Some(tangents) = tangents.as_mut() {
-                tangents.reverse();
+    pub fn new(chain: &FlankChain) -> Self {
+        let points = chain.points_mm.len();
+        let radius = |i: usize| chain.points_mm[i].length();
+        let grows = |i: usize| radius(i + 1).total_cmp(&radius(i));
+        let mut runs = Vec::new();
+        let mut from = 0;
+        for i in 1..points {
+            if i + 1 < points && grows(i) == grows(from) {
+                continue;
             }
+            if grows(from).is_ne() {
+                runs.push([from, i]);
+            }
+            from = i;
         }
-        let radii_mm: Vec<f64> = points.iter().map(|p| p.length()).collect();
-        if radii_mm.windows(2).any(|pair| pair[1] <= pair[0]) {
-            return Err(Refusal::new(
-                "gear.pitch_curve",
-                "a flank of the driven gear turns back in its distance from the axis, and cannot be rolled",
-                "roll the pair the other way round, or use a pitch curve closer to a circle",
-            ));
-        }
-        let mut angles_rad: Vec<f64> = points.iter().map(|p| p.to_angle()).collect();
+        // At the place where a flank turns back its angle has no slope: such a flank is straight between its points.
+        let tangents = chain.tangents.as_deref().filter(|_| runs.len() == 1);
+        let runs = runs.into_iter().map(|ends| PolarRun::new(&chain.points_mm, tangents, ends)).collect();
+        Self { runs, points }
+    }
+}
+
+impl PolarRun {
+    fn new(points_mm: &[DVec2], tangents: Option<&[DVec2]>, [from, to]: [usize; 2]) -> Self {
+        let outward = points_mm[to].length() > points_mm[from].length();
+        let order: Vec<usize> = if outward { (from..=to).collect() } else { (from..=to).rev().collect() };
+        let radii_mm: Vec<f64> = order.iter().map(|&i| points_mm[i].length()).collect();
+        let mut angles_rad: Vec<f64> = order.iter().map(|&i| points_mm[i].to_angle()).collect();
         for i in 1..angles_rad.len() {
             angles_rad[i] -= TAU * ((angles_rad[i] - angles_rad[i - 1]) / TAU).round();
         }
-        let slope = |(p, t): (&DVec2, &DVec2)| p.perp_dot(*t) / (p.length() * p.dot(*t));
-        let slopes = tangents.map(|tangents| points.iter().zip(&tangents).map(slope).collect());
-        Ok(Self { radii_mm, angles_rad, slopes, tip_is_last })
+        let slope = |p: DVec2, t: DVec2| p.perp_dot(t) / (p.length() * p.dot(t));
+        let slopes = tangents.map(|tangents| order.iter().map(|&i| slope(points_mm[i], tangents[i])).collect());
+        Self { radii_mm, angles_rad, slopes, first: order[0], outward }
     }
 
     /// Number of the first radius beyond a given one, walking there from `near`.
@@ -172,7 +192,7 @@ impl PolarFlank {
 
     /// Number, along the chain that it was made from, of the point with the radius number `index`.
     pub fn chain_point(&self, index: usize) -> usize {
-        if self.tip_is_last { index } else { self.radii_mm.len() - 1 - index }
+        if self.outward { self.first + index } else { self.first - index }
     }
 
     /// Place along that chain at a radius, held within its ends.
@@ -180,8 +200,8 @@ impl PolarFlank {
         let last = self.radii_mm.len() - 1;
         let i = self.radii_mm.partition_point(|r| *r <= radius_mm).clamp(1, last) - 1;
         let share = (radius_mm - self.radii_mm[i]) / (self.radii_mm[i + 1] - self.radii_mm[i]);
-        let place = i as f64 + share.clamp(0.0, 1.0);
-        if self.tip_is_last { place } else { last as f64 - place }
+        let along = i as f64 + share.clamp(0.0, 1.0);
+        if self.outward { self.first as f64 + along } else { self.first as f64 - along }
     }
 
     /// Smallest and largest radius, mm.

@@ -40,7 +40,7 @@ pub fn smallest_gaps(
     let nothing = || -> Vec<SectionGaps> {
         let gaps = meshing.sections.iter().map(|section| SectionGaps {
             driver_um: section.driver.each(|chain| never(chain.points_mm.len())),
-            driven_um: section.driven.each(|flank| never(flank.radii_mm.len())),
+            driven_um: section.driven.each(|flank| never(flank.points)),
         });
         gaps.collect()
     };

@@ -24,13 +24,14 @@ pub type NamedLines = (&'static str, LineChart);
 
 /// All charts of curves.
 pub fn lines(rolled: &RolledPair) -> Vec<NamedLines> {
-    vec![
+    let mut lines = vec![
         ("ratio", ratio(rolled)),
         ("transmission_error", transmission_error(rolled)),
         ("backlash", backlash(rolled)),
         ("contact_ratio", contact_ratio(rolled)),
-        ("double_flank", double_flank(rolled)),
-    ]
+    ];
+    lines.extend(double_flank(rolled).map(|chart| ("double_flank", chart)));
+    lines
 }
 
 /// Angle of gear A over the period, deg, at every moment.
@@ -120,7 +121,12 @@ fn contact_ratio(rolled: &RolledPair) -> LineChart {
     let at = angles_deg(rolled);
     let path = |side: usize| LineSeries {
         name: format!("{} flanks", SIDES[side].name()),
-        points: rolled.contact_ratio[side].iter().map(|&(moment, ratio)| (at[moment], ratio)).collect(),
+        points: rolled
+            .contact_ratio
+            .iter()
+            .flat_map(|sides| &sides[side])
+            .map(|&(moment, ratio)| (at[moment], ratio))
+            .collect(),
     };
     let pairs = |side: usize| {
         let counts = rolled.pairs[side].iter().map(|&count| f64::from(count));
@@ -135,25 +141,30 @@ fn contact_ratio(rolled: &RolledPair) -> LineChart {
     )
 }
 
-fn double_flank(rolled: &RolledPair) -> LineChart {
+fn double_flank(rolled: &RolledPair) -> Option<LineChart> {
     let curve = |name: String, found: &DoubleFlank| {
         let mut points: Vec<(f64, f64)> =
             found.variation_rad_um.iter().map(|[rad, um]| (rad.rem_euclid(TAU).to_degrees(), *um)).collect();
         points.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
         LineSeries { name, points }
     };
-    let mut panels =
-        vec![panel("A with B, tight less nominal", "µm", LEAST_UM, vec![curve("A with B".to_owned(), &rolled.tight)])];
-    let masters: Vec<LineSeries> = ["A", "B"]
-        .iter()
-        .zip(&rolled.masters)
-        .filter_map(|(gear, found)| Some(curve(format!("gear {gear}"), found.as_ref()?)))
-        .collect();
-    if !masters.is_empty() {
-        let name = format!("with a master of {MASTER_TEETH} teeth, tight less nominal");
-        panels.push(panel(&name, "µm", LEAST_UM, masters));
+    let mate = rolled.tight.iter().map(|found| curve("A with B".to_owned(), found)).collect();
+    let masters = ["A", "B"].iter().zip(&rolled.masters);
+    let masters =
+        masters.filter_map(|(gear, found)| Some(curve(format!("gear {gear}"), found.as_ref().ok()?))).collect();
+    let panels: Vec<Panel> = [
+        ("A with B, tight less nominal".to_owned(), mate),
+        (format!("with a master of {MASTER_TEETH} teeth, tight less nominal"), masters),
+    ]
+    .into_iter()
+    .filter(|(_, curves): &(String, Vec<LineSeries>)| !curves.is_empty())
+    .map(|(name, curves)| panel(&name, "µm", LEAST_UM, curves))
+    .collect();
+    if panels.is_empty() {
+        return None;
     }
-    LineChart { x_name: "angle of the gear".to_owned(), ..over_angle("Double-flank rolling: centre distance", panels) }
+    let chart = over_angle("Double-flank rolling: centre distance", panels);
+    Some(LineChart { x_name: "angle of the gear".to_owned(), ..chart })
 }
 
 /// Waves of the transmission error that have a name.

@@ -26,6 +26,9 @@ const MOST_PLACES: u32 = 1200;
 /// Teeth of a master: no undercut, and of a size that testers have.
 pub const MASTER_TEETH: u32 = 30;
 
+/// What rolling in tight mesh has found; else why there is none.
+pub type Tight = std::result::Result<DoubleFlank, String>;
+
 /// Variation of the centre distance.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DoubleFlank {
@@ -74,8 +77,8 @@ pub fn pitches(pitch: &PitchPair) -> u32 {
 /// Both gears in tight mesh over their period, or over its first 1,200 places where it has more.
 ///
 /// # Errors
-/// No tight distance near the nominal one; Ctrl-C.
-pub fn with_mate(meshing: &Meshing, watch: &Watch) -> Result<DoubleFlank> {
+/// Ctrl-C.
+pub fn with_mate(meshing: &Meshing, watch: &Watch) -> Result<Tight> {
     let pitch = &meshing.pitch;
     let pitches = pitches(pitch);
     let curve = pitch.curve();
@@ -87,10 +90,10 @@ pub fn with_mate(meshing: &Meshing, watch: &Watch) -> Result<DoubleFlank> {
 }
 
 /// A gear against a round master of 30 teeth, work angles even along its pitch curve; flanks by tooth, in the gear's
-/// own frame. None on a ring, into which a master of this size may not go.
+/// own frame, moved by its eccentricity. A ring is not rolled: a master of this size may not go into it.
 ///
 /// # Errors
-/// No tight distance near the nominal one; Ctrl-C.
+/// No master for these teeth; Ctrl-C.
 pub fn with_master(
     curve: &PitchCurve,
     flanks: &GearFlanks<FlankChain>,
@@ -99,34 +102,36 @@ pub fn with_master(
     addendum_mm: f64,
     stage: &str,
     watch: &Watch,
-) -> Result<Option<DoubleFlank>> {
+) -> Result<Tight> {
     if kind == GearKind::Internal {
-        return Ok(None);
+        return Ok(Err("a ring is not rolled with a master".to_owned()));
     }
     let round = Arc::new(PitchCurve::new(&PitchCurveShape::Circle, teeth.module_mm, MASTER_TEETH)?);
     let masters = PairTeeth { count: [MASTER_TEETH; 2], driven: GearKind::External, ..*teeth };
     let master = Master::new(&PitchPair::closing(round, masters)?, addendum_mm)?;
     let count = flanks.right.len() as u32;
     let stage = watch.stage(stage, (count * PLACES_PER_PITCH) as usize, "places")?;
-    let found = around(count, stage, |share| {
+    around(count, stage, |share| {
         let phi_rad = curve.phi_at_arc(share * curve.perimeter_mm());
         Ok((phi_rad, master.against(curve, flanks, teeth.module_mm, phi_rad)?))
-    });
-    found.map(Some)
+    })
 }
 
+/// All places; a place without a tight mesh leaves the others without a range.
 fn around(
     pitches: u32,
     stage: WatchedUnits,
     at: impl Fn(f64) -> Result<(f64, TightMesh), Refusal> + Sync,
-) -> Result<DoubleFlank> {
+) -> Result<Tight> {
     let places = pitches * PLACES_PER_PITCH;
-    let one = |i: u32| {
-        let (phi_rad, tight) = at(f64::from(i) / f64::from(places))?;
+    let one = |i: u32| -> Result<_> {
+        let found = at(f64::from(i) / f64::from(places));
         stage.count()?;
-        Ok([phi_rad.rem_euclid(TAU), UM_PER_MM * tight.distance_error_mm])
+        Ok(found.map(|(phi_rad, tight)| [phi_rad.rem_euclid(TAU), UM_PER_MM * tight.distance_error_mm]))
     };
-    let variation = (0..places).into_par_iter().map(one).collect::<Result<_>>()?;
+    let found: Vec<_> = (0..places).into_par_iter().map(one).collect::<Result<_>>()?;
     stage.finish();
-    Ok(DoubleFlank::new(variation, pitches))
+    // Of several places without a tight mesh the first one is named, whichever thread found it.
+    let variation: std::result::Result<_, Refusal> = found.into_iter().collect();
+    Ok(variation.map(|variation| DoubleFlank::new(variation, pitches)).map_err(|nowhere| nowhere.problem))
 }

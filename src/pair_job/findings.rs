@@ -55,7 +55,7 @@ pub fn findings(name: &str, scenes: [&Scene; 2], options: &PairOptions, rolled: 
 }
 
 /// Numbers of the sections that are told first.
-const HEADLINE: [(&str, &str, &str); 9] = [
+const HEADLINE: [(&str, &str, &str); 10] = [
     ("transmission_error.right", "peak_to_peak", "transmission error, range"),
     ("transmission_error.right", "mesh_peak_to_peak", "its tooth-mesh part, range"),
     ("transmission_error.right", "peak_to_peak_at_pitch_point", "at the pitch point"),
@@ -63,6 +63,7 @@ const HEADLINE: [(&str, &str, &str); 9] = [
     ("backlash", "smallest", "smallest backlash"),
     ("contact.right", "smallest_contact_ratio", "smallest contact ratio"),
     ("interference", "deepest", "deepest tip in the mate"),
+    ("interference", "clearance", "tips clear the mate by"),
     ("double_flank.mate", "total", "tight centre distance, range"),
     ("center_distance", "transmission_error", "10 um of centre distance do"),
 ];
@@ -70,6 +71,11 @@ const HEADLINE: [(&str, &str, &str); 9] = [
 fn headline(found: &Findings) -> Vec<Entry> {
     let entry = |(path, key, title): (&str, &str, &str)| {
         let quantity = found.find(path)?.quantity(key)?.clone();
+        // Depth and clearance exclude each other; nominal flanks have neither, and say so once.
+        let silent = path == "interference" && quantity.value().is_none();
+        if silent && (key == "clearance" || found.find(path)?.number("clearance").is_some()) {
+            return None;
+        }
         Some(Entry::headline(&format!("{}_{key}", path.replace('.', "_")), title, quantity))
     };
     HEADLINE.into_iter().filter_map(entry).collect()
@@ -91,6 +97,7 @@ fn largest_at(values: impl Iterator<Item = f64>) -> usize {
 
 fn pair(scenes: [&Scene; 2], options: &PairOptions, rolled: &RolledPair) -> Section {
     let teeth = rolled.fit.pitch.teeth();
+    let own = &rolled.fit.own;
     let closing_mm = rolled.fit.pitch.center_distance_mm();
     let error_um = UM_PER_MM * rolled.meshing.center_distance_error_mm();
     let length = |mm: f64, definition: &'static str| Quantity::number(mm, "mm", definition);
@@ -103,8 +110,12 @@ fn pair(scenes: [&Scene; 2], options: &PairOptions, rolled: &RolledPair) -> Sect
         .with("kind", Quantity::text(teeth.driven.name(), "whether gear B is external or a ring"))
         .with("teeth_A", Quantity::count(teeth.count[0].into(), "teeth", "teeth of gear A"))
         .with("teeth_B", Quantity::count(teeth.count[1].into(), "teeth", "teeth of gear B"))
-        .with("module", length(teeth.module_mm, "transverse module"))
-        .with("pressure_angle", angle(teeth.pressure_angle_rad, "transverse pressure angle"))
+        .with("module", length(own.module_mm, "transverse module"))
+        .with("pressure_angle", angle(own.pressure_angle_rad, "transverse pressure angle"))
+        .with(
+            "working_pressure_angle",
+            angle(teeth.pressure_angle_rad, "transverse pressure angle on the pitch curves that roll on each other"),
+        )
         .with(
             "flanks",
             Quantity::text(
@@ -120,8 +131,8 @@ fn pair(scenes: [&Scene; 2], options: &PairOptions, rolled: &RolledPair) -> Sect
             "centre distance",
             length(closing_mm + error_um / UM_PER_MM, "distance of the axes at which the gears are rolled"),
         )
-        .with("closing_center_distance", length(closing_mm, "distance of the axes at which the pitch curves close"))
-        .with("center_distance_error", um(error_um, "added to the closing centre distance"))
+        .with("closing_center_distance", length(closing_mm, "distance of the axes at which the pitch curves roll on each other: of round gears that of their profile shifts, or the one that is named"))
+        .with("center_distance_error", um(error_um, "added to that distance"))
         .with("eccentricity_A", um(a[0], "from gear A's axis of rotation to the origin of its pitch curve"))
         .with("eccentricity_angle_A", Quantity::number(a[1], "deg", "polar angle of that vector in gear A"))
         .with("eccentricity_B", um(b[0], "from gear B's axis of rotation to the origin of its pitch curve"))

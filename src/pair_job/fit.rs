@@ -1,7 +1,11 @@
 //! Whether two gears belong together, and which of their teeth meet.
 //!
-//! In: the scenes of both gears. Out: [`Fit`]: the pitch curves in mesh, how the driven gear is turned on its axis so
-//! that its pitch curve follows the driver's, and which of its flanks meets which.
+//! In: the scenes of both gears, and the centre distance where one is named. Out: [`Fit`]: the pitch curves in mesh, how
+//! the driven gear is turned on its axis so that its pitch curve follows the driver's, and which of its flanks meets
+//! which.
+//!
+//! Round gears roll at any distance of their axes: their pitch curves in the pair are the circles of that distance
+//! ([`super::working`]). Pitch curves that are not round close at one distance, and another one is an error of mounting.
 //!
 //! Law: equal transverse modules and pressure angles; helices of one angle, of opposite hands outside and of one hand
 //! in a ring; r2 = a - s r1 all round, at the distance a at which a mate with this number of teeth closes. A scene has
@@ -17,6 +21,8 @@ use std::sync::Arc;
 
 use glam::DVec2;
 
+use super::working::RollingCircles;
+use crate::measure::round_gear::is_round;
 use crate::pair::pitch_pair::{Member, PairTeeth, PitchPair};
 use crate::pair::rolling::turns_of_period;
 use crate::scene::Scene;
@@ -53,19 +59,46 @@ pub struct Fit {
     pub misfit_at_rad: f64,
     /// From the driven gear's scene to its own frame in the pair: turned by this, rad.
     pub turn_rad: f64,
+    /// Heights of both gears' tips over the pitch curves of the pair, mm.
+    pub addendum_mm: [f64; 2],
+    /// How much thicker than half a pitch the teeth of both gears are there, mm.
+    pub extra_thickness_mm: [f64; 2],
+    /// Transverse module and pressure angle on the gears' own pitch curves, with numbers of teeth and kind.
+    pub own: PairTeeth,
+    /// A named centre distance less the one at which the pitch curves close, mm; 0 on round gears, whose pitch curves
+    /// follow it.
+    pub named_off_mm: f64,
     /// Sum (external) or difference (ring) of the numbers of a space and the tooth that stands in it.
     phase: i64,
 }
 
 impl Fit {
-    /// Puts the gears of two scenes together; the driven one is turned on by `phase_teeth`.
+    /// Puts the gears of two scenes together at the distance of their shifts, or at the one that their scenes name; the
+    /// driven one is turned on by `phase_teeth`.
     ///
     /// # Errors
     /// Gears that do not belong together, with what differs and by how much.
     pub fn new(driver: &Scene, driven: &Scene, phase_teeth: i64) -> Result<Self, Refusal> {
+        Self::at_distance(driver, driven, phase_teeth, None)
+    }
+
+    /// The same at a centre distance that is named, whatever the scenes say.
+    ///
+    /// # Errors
+    /// As of [`Self::new`]; a distance at which teeth do not reach each other.
+    pub fn at_distance(
+        driver: &Scene,
+        driven: &Scene,
+        phase_teeth: i64,
+        center_distance_mm: Option<f64>,
+    ) -> Result<Self, Refusal> {
         let (a, b) = (&driver.gear, &driven.gear);
         kinds(a, b)?;
         teeth_alike(a, b)?;
+        let named_mm = match center_distance_mm {
+            Some(named_mm) => Some(named_mm),
+            None => named(a, b)?,
+        };
         let curves = [a, b]
             .map(|gear| PitchCurve::new(&gear.pitch_curve, gear.transverse_module_mm(), gear.teeth).map(Arc::new));
         let [curve, own] = curves;
@@ -76,9 +109,31 @@ impl Fit {
             count: [a.teeth, b.teeth],
             driven: b.kind,
         };
-        let pitch = PitchPair::closing(curve, teeth)?;
-        let mut fit = Self { pitch, misfit_mm: 0.0, misfit_at_rad: 0.0, turn_rad: 0.0, phase: 0 };
+        let closing = PitchPair::closing(curve.clone(), teeth)?;
+        let round = is_round(&curve) && is_round(&own);
+        let mut fit = Self {
+            named_off_mm: named_mm.map_or(0.0, |named_mm| named_mm - closing.center_distance_mm()),
+            pitch: closing,
+            misfit_mm: 0.0,
+            misfit_at_rad: 0.0,
+            turn_rad: 0.0,
+            addendum_mm: [a, b].map(Gear::addendum_mm),
+            extra_thickness_mm: [a, b].map(Gear::extra_thickness_mm),
+            own: teeth,
+            phase: 0,
+        };
+        if round && let Some(circles) = RollingCircles::of(&teeth, [a, b], named_mm)? {
+            fit.pitch = circles.pair()?;
+            fit.addendum_mm = circles.addendum_mm([a, b]);
+            fit.extra_thickness_mm = circles.extra_thickness_mm([a, b]);
+            fit.named_off_mm = 0.0;
+        }
         fit.turn_to(if b.kind == GearKind::External { 1 } else { -1 });
+        let turned_on = phase_teeth.rem_euclid(i64::from(b.teeth));
+        if round {
+            fit.turn_to(fit.phase + turned_on);
+            return Ok(fit);
+        }
         let first = fit.phase;
         let once = f64::from(b.teeth) / f64::from(a.teeth);
         let mut best = (f64::INFINITY, first);
@@ -89,7 +144,7 @@ impl Fit {
                 best = (misfit_mm, phase);
             }
         }
-        fit.turn_to(best.1 + phase_teeth);
+        fit.turn_to(best.1 + turned_on);
         let turns = f64::from(turns_of_period(teeth.count));
         (fit.misfit_mm, fit.misfit_at_rad) = fit.misfit(&own, turns, FINE_PLACES);
         let most_mm = LARGEST_MISFIT_MODULES * teeth.module_mm;
@@ -97,6 +152,11 @@ impl Fit {
             return Err(fit.refused(b, &own, most_mm, phase_teeth));
         }
         Ok(fit)
+    }
+
+    /// How many times longer the pair's pitch curves are than the gears' own: 1 but on shifted round gears.
+    pub fn stretch(&self) -> f64 {
+        self.pitch.teeth().module_mm / self.own.module_mm
     }
 
     fn turn_to(&mut self, phase: i64) {
@@ -178,6 +238,22 @@ impl Fit {
     pub fn in_pair(&self, own: DVec2) -> DVec2 {
         DVec2::from_angle(self.turn_rad).rotate(own)
     }
+}
+
+/// The centre distance that scenes name; both the same, or one of them.
+fn named(a: &Gear, b: &Gear) -> Result<Option<f64>, Refusal> {
+    let both = [a.center_distance_mm, b.center_distance_mm];
+    if let [Some(of_a), Some(of_b)] = both
+        && (of_a - of_b).abs() > EQUAL_SHARE * of_a
+    {
+        let problem = format!("gear A is to run at a centre distance of {of_a} mm and gear B at {of_b} mm");
+        return Err(Refusal::new(
+            "gear.center_distance_mm",
+            problem,
+            "name one distance, or give --center-distance-mm",
+        ));
+    }
+    Ok(both.into_iter().flatten().next())
 }
 
 fn kinds(a: &Gear, b: &Gear) -> Result<(), Refusal> {

@@ -7,7 +7,6 @@
 //! distance from the axis no longer tells places apart, and what comes so deep is found as a corner in the outline.
 //! Nominal flanks are the conjugate ones of the straight-sided rack; they have no root.
 
-use crate::backend::{BackendWish, OnFailure, choose};
 use crate::job::rows_z_mm;
 use crate::pair::assembly::{AssemblyErrors, Meshing, SectionFlanks};
 use crate::pair::flank_chain::{FlankChain, GearFlanks, nominal_section};
@@ -16,7 +15,8 @@ use crate::pair::pitch_pair::Member;
 use crate::scene::Scene;
 use crate::scene::model::Gear;
 use crate::steps::view_mesh::ViewMesh;
-use gearcut_core::error::{Refusal, Result};
+use gearcut_core::cut::Backend;
+use gearcut_core::error::Result;
 use gearcut_core::terms::{Hand, Side};
 
 use super::fit::Fit;
@@ -90,17 +90,23 @@ impl PairFlanks {
     ///
     /// # Errors
     /// Gears that cannot be cut; flanks that the teeth do not reach; Ctrl-C.
-    pub fn new(fit: &Fit, scenes: [&Scene; 2], source: FlankSource, count: usize, watch: &Watch) -> Result<Self> {
+    pub fn new(
+        fit: &Fit,
+        scenes: [&Scene; 2],
+        source: FlankSource,
+        count: usize,
+        backend: &dyn Backend,
+        watch: &Watch,
+    ) -> Result<Self> {
         let face_mm = scenes[0].gear.face_width_mm.min(scenes[1].gear.face_width_mm);
         let rows_mm = if count == 1 { vec![0.0] } else { rows_z_mm(face_mm, face_mm / (count as f64 - 1.0)) };
         let (mut ends, mut views) = (None, None);
         let sections = match source {
             FlankSource::Cut => {
-                let backend = choose(BackendWish::Cpu, OnFailure::default())?.backend;
                 let cut = |at: usize| -> Result<GearInSections> {
                     // A root and two flanks for each tooth.
                     let stage = watch.stage(CUT[at], 3 * scenes[at].gear.teeth as usize, "flanks and roots")?;
-                    let gear = outline::cut(scenes[at], backend.as_ref(), &rows_mm, &stage)?;
+                    let gear = outline::cut(scenes[at], backend, &rows_mm, &stage)?;
                     stage.finish();
                     Ok(gear)
                 };
@@ -112,8 +118,8 @@ impl PairFlanks {
             FlankSource::Nominal => {
                 let section = |z_mm: &f64| -> Result<_> {
                     watch.check()?;
-                    let shift_mm = shift_mm(&scenes[0].gear, *z_mm);
-                    let gear = |member| nominal(fit, scenes, member, shift_mm);
+                    let shift_mm = shift_mm(fit, &scenes[0].gear, *z_mm);
+                    let gear = |member| nominal(fit, member, shift_mm);
                     Ok([gear(Member::Driver)?, gear(Member::Driven)?])
                 };
                 rows_mm.iter().map(section).collect::<Result<_>>()?
@@ -123,12 +129,9 @@ impl PairFlanks {
     }
 
     /// The gears in the machine.
-    ///
-    /// # Errors
-    /// Flanks of the driven gear that cannot be rolled.
-    pub fn meshing(&self, fit: &Fit, driver: &Gear, mounting: &AssemblyErrors) -> Result<Meshing, Refusal> {
+    pub fn meshing(&self, fit: &Fit, driver: &Gear, mounting: &AssemblyErrors) -> Meshing {
         let section = |(z_mm, [a, b]): (&f64, &[SectionOfGear; 2])| {
-            (*z_mm, shift_mm(driver, *z_mm), a.chains.clone(), b.chains.clone())
+            (*z_mm, shift_mm(fit, driver, *z_mm), a.chains.clone(), b.chains.clone())
         };
         let owned: Vec<_> = self.rows_mm.iter().zip(&self.sections).map(section).collect();
         let sections: Vec<SectionFlanks> = owned
@@ -140,9 +143,9 @@ impl PairFlanks {
 }
 
 /// How far the teeth of a helical driver stand along its pitch curve in a section, mm.
-fn shift_mm(gear: &Gear, z_mm: f64) -> f64 {
+fn shift_mm(fit: &Fit, gear: &Gear, z_mm: f64) -> f64 {
     let hand = if gear.hand == Hand::Left { -1.0 } else { 1.0 };
-    hand * gear.helix_angle_rad.tan() * z_mm
+    hand * fit.stretch() * gear.helix_angle_rad.tan() * z_mm
 }
 
 fn driver(flanks: &GearFlanks<ToothOutline>) -> SectionOfGear {
@@ -203,18 +206,15 @@ fn climbing_from(profile: &ToothOutline) -> usize {
         let arc_mm = points[i + 1].distance(points[i]);
         outwards * (points[i + 1].length() - points[i].length()) > LEAST_CLIMB * arc_mm
     };
-    // Down to the form point the flank stands as it was cut; what turns back there is refused where it is rolled.
+    // Down to the form point the flank is as it was cut, whether it turns back or not.
     let form = profile.u_mm.iter().position(|u| *u >= 0.0).unwrap_or(0);
     (0..form).rev().find(|&i| !climbs(i)).map_or(0, |i| i + 1)
 }
 
-fn nominal(fit: &Fit, scenes: [&Scene; 2], member: Member, shift_mm: f64) -> Result<SectionOfGear> {
-    let gear = match member {
-        Member::Driver => &scenes[0].gear,
-        Member::Driven => &scenes[1].gear,
-    };
-    let extra_mm = 0.5 * gear.extra_thickness_mm() * fit.pitch.teeth().pressure_angle_rad.cos();
-    let chains = nominal_section(&fit.pitch, member, addendum_mm(scenes), shift_mm, |_, _| extra_mm)?;
+fn nominal(fit: &Fit, member: Member, shift_mm: f64) -> Result<SectionOfGear> {
+    let thicker_mm = fit.extra_thickness_mm[usize::from(member == Member::Driven)];
+    let extra_mm = 0.5 * thicker_mm * fit.pitch.teeth().pressure_angle_rad.cos();
+    let chains = nominal_section(&fit.pitch, member, fit.addendum_mm, shift_mm, |_, _| extra_mm)?;
     Ok(SectionOfGear {
         u_mm: chains.each(|_| Vec::new()),
         left_out: chains.each(|_| 0),
@@ -222,9 +222,4 @@ fn nominal(fit: &Fit, scenes: [&Scene; 2], member: Member, shift_mm: f64) -> Res
         spaces: Vec::new(),
         right_is_first: false,
     })
-}
-
-/// Heights of both gears' tips over their pitch curves, mm.
-pub fn addendum_mm(scenes: [&Scene; 2]) -> [f64; 2] {
-    scenes.map(|scene| scene.gear.addendum_mm())
 }

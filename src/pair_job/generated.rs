@@ -18,11 +18,11 @@ pub type FlankEnds = [Vec<[ConjugatePoint; 2]>; 2];
 /// Limits of the right and the left flanks, of A and of B.
 pub type PairLimits = [[FlankLimits; 2]; 2];
 
-/// Limits of the flanks of two gears with tips so high over their pitch curves, mm.
+/// Limits of the flanks of two gears.
 ///
 /// # Errors
 /// Flanks that are not those of the pair.
-pub fn limits(fit: &Fit, addendum_mm: [f64; 2], ends: &[FlankEnds; 2]) -> Result<PairLimits> {
+pub fn limits(fit: &Fit, ends: &[FlankEnds; 2]) -> Result<PairLimits> {
     let of = |side: Side, member: Member| -> Result<FlankLimits, Refusal> {
         let ends_of = |label: i64| {
             let count = fit.pitch.teeth().count[0];
@@ -39,7 +39,7 @@ pub fn limits(fit: &Fit, addendum_mm: [f64; 2], ends: &[FlankEnds; 2]) -> Result
             })
         };
         let at = usize::from(member == Member::Driven);
-        FlankLimits::new(&fit.pitch, member, side, addendum_mm[at], ends_of)
+        FlankLimits::new(&fit.pitch, member, side, fit.addendum_mm[at], ends_of)
     };
     let [right, left] = SIDES.map(|side| {
         let [a, b] = MEMBERS.map(|member| of(side, member));

@@ -7,6 +7,7 @@
 //! | --- | --- |
 //! | [`member`] | a gear as it is named: a scene, a folder of results, the mate of the other |
 //! | [`fit`] | whether two gears belong together, and which of their teeth meet |
+//! | [`working`] | round gears at any distance of their axes |
 //! | [`outline`] | flanks and roots as cut, in transverse sections |
 //! | [`flanks`] | the flanks of both gears as they are rolled |
 //! | [`generated`] | how far the flanks that the tools generate reach |
@@ -41,4 +42,5 @@ pub mod teeth;
 mod tests;
 pub mod view;
 pub mod watch;
+pub mod working;
 pub mod write;

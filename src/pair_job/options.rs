@@ -7,14 +7,15 @@ use glam::DVec2;
 use super::fit::Fit;
 use super::flanks::FlankSource;
 use crate::pair::assembly::AssemblyErrors;
+use crate::pair::flank_chain::BEYOND_MODULES;
 use crate::pair::rolling::turns_of_period;
 use crate::scene::model::Gear;
 use gearcut_core::error::Refusal;
 use gearcut_core::units::UM_PER_MM;
 
-/// Farthest that the centre distance may be from the closing one, modules: the flanks of a round pair of standard teeth
-/// still reach each other, and contact of one pair ends before that of the next begins soon after.
-const LARGEST_DISTANCE_ERROR_MODULES: f64 = 0.2;
+/// Largest inclination of the axes, mm per mm: sections are taken across either axis alike, which leaves out half the
+/// square of it, 5e-5 of a radius.
+const LARGEST_INCLINATION: f64 = 0.01;
 /// Positions where none are asked for: as many as the harmonics of the mesh need, and a smooth chart.
 const USUAL_POSITIONS: usize = 2000;
 /// Fewest positions for each tooth of the period.
@@ -31,7 +32,10 @@ pub struct PairOptions {
     pub positions: Option<usize>,
     /// Transverse sections; `None`: 1 where all are alike, else 11.
     pub sections: Option<usize>,
-    /// Added to the closing centre distance.
+    /// Distance of the axes; `None`: what the scenes name, else that of the shifts of round gears and the closing one of
+    /// others.
+    pub center_distance_mm: Option<f64>,
+    /// Added to that distance.
     pub center_distance_error_um: f64,
     /// How far each gear sits off its axis of rotation, and at which polar angle of its scene, deg.
     pub eccentricity_um_deg: [[f64; 2]; 2],
@@ -49,6 +53,7 @@ impl Default for PairOptions {
             source: FlankSource::Cut,
             positions: None,
             sections: None,
+            center_distance_mm: None,
             center_distance_error_um: 0.0,
             eccentricity_um_deg: [[0.0; 2]; 2],
             phase_teeth: 0,
@@ -85,25 +90,22 @@ impl PairOptions {
     /// Errors of mounting in the frames of the pair.
     ///
     /// # Errors
-    /// A centre distance at which the teeth would not meet.
+    /// A centre distance at which the teeth would not meet; axes too far out of parallel.
     pub fn mounting(&self, fit: &Fit, gears: [&Gear; 2]) -> Result<AssemblyErrors, Refusal> {
-        let error_mm = self.center_distance_error_um / UM_PER_MM;
-        let most_mm = LARGEST_DISTANCE_ERROR_MODULES * fit.pitch.teeth().module_mm;
-        if error_mm.abs() > most_mm {
-            let closing_mm = fit.pitch.center_distance_mm();
-            let play_mm = 2.0 * fit.pitch.sign() * error_mm * fit.pitch.teeth().pressure_angle_rad.tan();
+        let error_mm = fit.named_off_mm + self.center_distance_error_um / UM_PER_MM;
+        self.teeth_reach(fit, error_mm)?;
+        let face_mm = gears[0].face_width_mm.min(gears[1].face_width_mm);
+        let most_um = UM_PER_MM * LARGEST_INCLINATION * face_mm;
+        if let Some(um) = self.parallelism_um.into_iter().find(|um| um.abs() > most_um) {
             return Err(Refusal::new(
-                "center_distance_error_um",
+                "parallelism",
                 format!(
-                    "the axes would stand {:.6} mm apart, {error_mm:.3} mm from the {closing_mm:.6} mm at which the \
-                    pair closes: a play of about {play_mm:.3} mm on the pitch curves; up to {most_mm:.3} mm (a fifth \
-                    of a module) can be rolled",
-                    closing_mm + error_mm
+                    "axes {um} um out of parallel over a face of {face_mm} mm are inclined by more than \
+                     {LARGEST_INCLINATION}: sections across one axis are no longer sections across the other"
                 ),
-                format!("give -{0:.0} to {0:.0} um", UM_PER_MM * most_mm),
+                format!("give -{most_um:.0} to {most_um:.0} um"),
             ));
         }
-        let face_mm = gears[0].face_width_mm.min(gears[1].face_width_mm);
         let off = |[um, deg]: [f64; 2]| um / UM_PER_MM * DVec2::from_angle(deg.to_radians());
         let [a, b] = self.eccentricity_um_deg.map(off);
         Ok(AssemblyErrors {
@@ -111,5 +113,43 @@ impl PairOptions {
             eccentricity_mm: [a, fit.in_pair(b)],
             inclination: DVec2::from(self.parallelism_um) / (UM_PER_MM * face_mm),
         })
+    }
+
+    /// Whether the teeth reach each other, and no deeper than there are flanks, so far off the distance at which the
+    /// pitch curves roll on each other.
+    fn teeth_reach(&self, fit: &Fit, error_mm: f64) -> Result<(), Refusal> {
+        let deep_mm: f64 = fit.addendum_mm.iter().sum();
+        let swing_mm = self.eccentricity_um_deg.iter().map(|[um, _]| um / UM_PER_MM).sum::<f64>();
+        // Below the deepest contact nominal flanks end after a while; cut ones go on into the root.
+        let deeper_mm = match self.source {
+            FlankSource::Nominal => deep_mm.min(BEYOND_MODULES * fit.own.module_mm),
+            FlankSource::Cut => deep_mm,
+        };
+        let apart_mm = fit.pitch.sign() * error_mm;
+        let range_mm = [-deeper_mm, deep_mm - swing_mm];
+        if apart_mm >= range_mm[0] && apart_mm < range_mm[1] {
+            return Ok(());
+        }
+        let why = if apart_mm < range_mm[0] {
+            "the tips come deeper than the flanks that are rolled".to_owned()
+        } else {
+            format!("the teeth overlap by {deep_mm:.3} mm there, eccentricities take {swing_mm:.3} mm, and they part")
+        };
+        let closing_mm = fit.pitch.center_distance_mm();
+        let problem = format!(
+            "the axes would be {:.6} mm apart, {error_mm:.3} mm from the {closing_mm:.6} mm at which the pitch curves \
+             roll on each other: {why}",
+            closing_mm + error_mm
+        );
+        if range_mm[1] <= range_mm[0] {
+            return Err(Refusal::new("eccentricity_um", problem, "give smaller eccentricities"));
+        }
+        let [one, other] = range_mm.map(|mm| UM_PER_MM * (fit.pitch.sign() * mm - fit.named_off_mm));
+        let way_out = format!(
+            "give {:.0} to {:.0} um; round gears roll at any --center-distance-mm at which their teeth meet",
+            one.min(other),
+            one.max(other)
+        );
+        Err(Refusal::new("center_distance_error_um", problem, way_out))
     }
 }

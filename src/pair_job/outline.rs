@@ -56,7 +56,7 @@ pub struct GearInSections {
     pub view: ViewMesh,
 }
 
-/// Cuts the finished flanks and roots of a gear in the sections `rows_z_mm`, with the native backend.
+/// Cuts the finished flanks and roots of a gear in the sections `rows_z_mm`.
 ///
 /// # Errors
 /// Geometry that cannot be cut; flanks that no pass has reached; a gear without sections; Ctrl-C.

@@ -5,24 +5,36 @@
 //! distance.
 
 use super::charts::{self, NamedLines};
+use super::flanks::FlankSource;
 use super::options::PairOptions;
 use super::rolled::RolledPair;
 use super::teeth::ToothContact;
 use super::view;
 use crate::findings::{Findings, Warning};
 use crate::output::range_chart::{RangeChart, RangeSeries};
-use crate::output::report::{Block, Page, PageSection};
+use crate::output::report::{Block, Page, PageSection, PageTable};
 use crate::output::text::plain;
 use crate::scene::Scene;
 use crate::steps::report::facts::gear_words;
 use crate::steps::report::quantities;
 
-/// Pictures as they stand on the page: what is shown, and the PNG.
-pub struct PagePictures {
+/// What the page shows beside numbers and charts: pictures with their PNG, and the files beside it.
+pub struct PageParts {
     /// Contact patterns, one for each gear that has one.
     pub patterns: Vec<(String, Vec<u8>)>,
     /// The gears rolling.
     pub animation: Vec<u8>,
+    /// The section of the files.
+    pub files: PageSection,
+}
+
+/// What is needed to roll the pair again.
+#[derive(Debug, Clone)]
+pub struct PairRecord {
+    /// Name of the backend that cut the flanks.
+    pub backend: String,
+    /// Both scenes, every value written out.
+    pub scenes: [String; 2],
 }
 
 /// The page.
@@ -32,7 +44,8 @@ pub fn page(
     rolled: &RolledPair,
     found: &Findings,
     lines: &[NamedLines],
-    pictures: PagePictures,
+    parts: PageParts,
+    record: &PairRecord,
 ) -> Page {
     let viewer = view::viewer(rolled, options.marking_um);
     let chart = |name: &str| {
@@ -41,9 +54,8 @@ pub fn page(
     };
     let table = |path: &str| found.find(path).map(|section| Block::Table(quantities::table(section)));
     let part = |blocks: Vec<Option<Block>>| blocks.into_iter().flatten().collect::<Vec<_>>();
-    let rolling =
-        Block::Picture("The gears in mesh, first pitches; contacts are marked".to_owned(), pictures.animation);
-    let patterns = pictures.patterns.into_iter().map(|(words, png)| Some(Block::Picture(words, png)));
+    let rolling = Block::Picture("The gears in mesh, first pitches; contacts are marked".to_owned(), parts.animation);
+    let patterns = parts.patterns.into_iter().map(|(words, png)| Some(Block::Picture(words, png)));
     let mut contact = part(vec![chart("contact_ratio"), Some(Block::Ranges(by_tooth(rolled)))]);
     contact.extend(patterns.flatten());
     contact.extend(part(vec![table("contact.right"), table("contact.left")]));
@@ -84,7 +96,7 @@ pub fn page(
         PageSection::new(
             "interference",
             "Interference",
-            "How deep tip corners stand in the mate where the pitch curves want them; below zero they stay clear.",
+            "How deep tip corners are in the mate where the pitch curves want them, or how far they stay clear of it.",
             part(vec![table("interference")]),
         ),
         PageSection::new(
@@ -104,6 +116,8 @@ pub fn page(
             "What 10 µm more do. Round gears turn as evenly at any distance; non-circular ones do not.",
             part(vec![table("center_distance"), table("pair")]),
         ),
+        parts.files,
+        run_record(options, record),
     ];
     let gears = scenes.iter().zip(["A drives", "B is driven"]);
     Page {
@@ -124,6 +138,30 @@ pub fn page(
         viewer,
         sections: sections.into_iter().map(|section| with_marking(section, options)).collect(),
     }
+}
+
+/// What is needed to repeat the work.
+fn run_record(options: &PairOptions, record: &PairRecord) -> PageSection {
+    let cut_by = match options.source {
+        FlankSource::Cut => format!("cut by {}", record.backend),
+        FlankSource::Nominal => "nominal, not cut".to_owned(),
+    };
+    let row = |name: &str, value: String| vec![name.to_owned(), value];
+    let table = PageTable {
+        caption: "Run".to_owned(),
+        columns: Vec::new(),
+        rows: vec![row("Program", format!("gearcut {}", env!("CARGO_PKG_VERSION"))), row("Flanks", cut_by)],
+    };
+    let scenes = record.scenes.iter().zip(["A", "B"]).map(|(scene, gear)| {
+        let words = format!("The scene of gear {gear}, every value written out");
+        Block::Folded(words, vec![Block::Verbatim(scene.clone())])
+    });
+    PageSection::new(
+        "record",
+        "Run record",
+        "What is needed to roll the pair again: both scenes, and the options of the command in run.json beside this page.",
+        [Block::Table(table)].into_iter().chain(scenes).collect(),
+    )
 }
 
 /// The lead of the section on contact names the marking.

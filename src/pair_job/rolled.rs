@@ -8,14 +8,14 @@ use std::sync::Arc;
 use rayon::prelude::*;
 
 use super::corners::{self, DeepestCorner};
-use super::double_flank::{self, DoubleFlank};
+use super::double_flank::{self, Tight};
 use super::fit::{Fit, MEMBERS, SIDES};
-use super::flanks::{FlankSource, PairFlanks, addendum_mm};
+use super::flanks::{FlankSource, PairFlanks};
 use super::generated;
 use super::options::PairOptions;
 use super::teeth::{self, EdgeContact, ToothContact};
 use super::watch::{BY_TOOTH, CORNERS, DISTANCE, MASTERS, PATTERN, RATIO, ROLL, RollingWork, Watch, WatchedUnits};
-use crate::pair::assembly::{Meshing, Moment};
+use crate::pair::assembly::{AssemblyErrors, Meshing, Moment};
 use crate::pair::backlash::Backlash;
 use crate::pair::contact_ratio::path_of_contact;
 use crate::pair::flank_chain::GearFlanks;
@@ -24,7 +24,8 @@ use crate::pair::pattern::{SectionGaps, smallest_gaps};
 use crate::pair::pitch_pair::Member;
 use crate::pair::rolling::{RolledPeriod, TransmissionError, enough, roll};
 use crate::scene::Scene;
-use gearcut_core::error::{Refusal, Result};
+use gearcut_core::cut::Backend;
+use gearcut_core::error::{Error, Refusal, Result};
 use gearcut_core::gear::{GearKind, PitchCurve};
 use gearcut_core::terms::Side;
 use gearcut_core::units::UM_PER_MM;
@@ -68,8 +69,8 @@ pub struct RolledPair {
     /// Ratio asked for and achieved at every moment.
     pub ratios: Vec<[f64; 2]>,
     /// Contact ratio of both sides: number of the moment, and its ratio. Nominal flanks go on to the tip curve of the
-    /// mate; cut ones end at their form points.
-    pub contact_ratio: [Vec<(usize, f64)>; 2],
+    /// mate; cut ones end at their form points. Else why there is none.
+    pub contact_ratio: std::result::Result<[Vec<(usize, f64)>; 2], String>,
     /// Pairs within the marking thickness at every moment, of both sides.
     pub pairs: [Vec<u32>; 2],
     /// Contact by tooth, of both sides.
@@ -80,10 +81,10 @@ pub struct RolledPair {
     pub gaps: Vec<SectionGaps>,
     /// Deepest corner in A and in B.
     pub corners: [Option<DeepestCorner>; 2],
-    /// In tight mesh with each other.
-    pub tight: DoubleFlank,
-    /// A and B against a master; none for a ring.
-    pub masters: [Option<DoubleFlank>; 2],
+    /// In tight mesh with each other; else why not.
+    pub tight: Tight,
+    /// A and B against a master; else why not.
+    pub masters: [Tight; 2],
     /// What the centre distance does.
     pub sensitivity: Sensitivity,
 }
@@ -99,9 +100,14 @@ impl RolledPair {
 ///
 /// # Errors
 /// Gears that do not belong together, cannot be cut or do not reach each other; too few positions; Ctrl-C.
-pub fn roll_pair(scenes: [&Scene; 2], options: &PairOptions, watch: &Watch) -> Result<RolledPair> {
+pub fn roll_pair(
+    scenes: [&Scene; 2],
+    options: &PairOptions,
+    backend: &dyn Backend,
+    watch: &Watch,
+) -> Result<RolledPair> {
     let gears = [&scenes[0].gear, &scenes[1].gear];
-    let fit = Fit::new(scenes[0], scenes[1], options.phase_teeth)?;
+    let fit = Fit::at_distance(scenes[0], scenes[1], options.phase_teeth, options.center_distance_mm)?;
     let mounting = options.mounting(&fit, gears)?;
     let positions = options.positions(fit.pitch.teeth().count);
     enough(fit.pitch.teeth().count, positions)?;
@@ -115,8 +121,8 @@ pub fn roll_pair(scenes: [&Scene; 2], options: &PairOptions, watch: &Watch) -> R
         positions,
         pitches: double_flank::pitches(&fit.pitch),
     });
-    let flanks = PairFlanks::new(&fit, scenes, options.source, sections, watch)?;
-    let meshing = flanks.meshing(&fit, gears[0], &mounting)?;
+    let flanks = PairFlanks::new(&fit, scenes, options.source, sections, backend, watch)?;
+    let meshing = flanks.meshing(&fit, gears[0], &mounting);
     let period = in_stage(watch, ROLL, positions, |stage| roll(&meshing, positions, || stage.count()))?;
     let moments = &period.moments;
     let both = 2 * moments.len();
@@ -134,16 +140,24 @@ pub fn roll_pair(scenes: [&Scene; 2], options: &PairOptions, watch: &Watch) -> R
         Ok([in_a?, in_b?])
     })?;
     let probes = moments.len().div_ceil(stride(&period, PROBES_PER_PITCH));
-    let limits = flanks.ends.as_ref().map(|ends| generated::limits(&fit, addendum_mm(scenes), ends)).transpose()?;
     let contact_ratio = in_stage(watch, RATIO, 2 * probes, |stage| {
-        let [right, left] = [0, 1].map(|at| {
-            let limits = limits.as_ref().map(|limits| &limits[at]);
-            contact_ratios(&fit, scenes, limits, &period, SIDES[at], stage)
-        });
-        Ok([right?, left?])
+        let ratios = || -> Result<_> {
+            let limits = flanks.ends.as_ref().map(|ends| generated::limits(&fit, ends)).transpose()?;
+            let [right, left] = [0, 1].map(|at| {
+                let limits = limits.as_ref().map(|limits| &limits[at]);
+                contact_ratios(&fit, limits, &period, SIDES[at], stage)
+            });
+            Ok([right?, left?])
+        };
+        match ratios() {
+            Ok(ratios) => Ok(Ok(ratios)),
+            // A path that a tip curve does not end costs the contact ratio, and nothing else.
+            Err(Error::Refused(refusal)) => Ok(Err(refusal.problem)),
+            Err(other) => Err(other),
+        }
     })?;
     let tight = double_flank::with_mate(&meshing, watch)?;
-    let [master_a, master_b] = MEMBERS.map(|member| master(&fit, &flanks, scenes, member, watch));
+    let [master_a, master_b] = MEMBERS.map(|member| master(&fit, &flanks, &mounting, scenes, member, watch));
     let masters = [master_a?, master_b?];
     let sensitivity = in_stage(watch, DISTANCE, probes, |stage| sensitivity(&meshing, &period, stage))?;
     watch.check()?;
@@ -186,17 +200,15 @@ fn in_stage<T>(
 /// Contact ratio of a side at some moments of the period.
 fn contact_ratios(
     fit: &Fit,
-    scenes: [&Scene; 2],
     limits: Option<&[FlankLimits; 2]>,
     period: &RolledPeriod,
     side: Side,
     stage: &WatchedUnits,
 ) -> Result<Vec<(usize, f64)>> {
-    let addendum_mm = addendum_mm(scenes);
     let step = stride(period, PROBES_PER_PITCH);
     let at = |index: usize| {
         let pitch = &period.moments[index].pitch;
-        let between_tips = path_of_contact(&fit.pitch, pitch, side, addendum_mm)?;
+        let between_tips = path_of_contact(&fit.pitch, pitch, side, fit.addendum_mm)?;
         let path = limits.map_or(between_tips, |[a, b]| between_tips.generated(side, [a, b], pitch.phi_1_rad));
         stage.count()?;
         Ok((index, path.contact_ratio(&fit.pitch)))
@@ -210,19 +222,22 @@ fn stride(period: &RolledPeriod, per_pitch: usize) -> usize {
     (period.moments.len() / (per_pitch * pitches)).max(1)
 }
 
+/// A gear, mounted as in the pair, against a master with its own module and pressure angle.
 fn master(
     fit: &Fit,
     flanks: &PairFlanks,
+    mounting: &AssemblyErrors,
     scenes: [&Scene; 2],
     member: Member,
     watch: &Watch,
-) -> Result<Option<DoubleFlank>> {
+) -> Result<Tight> {
     let middle = &flanks.sections[flanks.sections.len() / 2];
     let at = usize::from(member == Member::Driven);
     let gear = &scenes[at].gear;
-    let chains = &middle[at].chains;
+    let off_mm = mounting.eccentricity_mm[at];
+    let chains = middle[at].chains.each(|chain| chain.moved(off_mm));
     let own = match member {
-        Member::Driver => chains.clone(),
+        Member::Driver => chains,
         Member::Driven => GearFlanks::build(gear.teeth, |side, tooth| {
             let (side, label) = fit.label_of(side, tooth);
             Ok::<_, Refusal>(chains.get(side, label).turned(-fit.turn_rad))
@@ -230,7 +245,7 @@ fn master(
     };
     let curve = Arc::new(PitchCurve::new(&gear.pitch_curve, gear.transverse_module_mm(), gear.teeth)?);
     let addendum_mm = scenes[1 - at].gear.addendum_mm();
-    double_flank::with_master(&curve, &own, gear.kind, fit.pitch.teeth(), addendum_mm, MASTERS[at], watch)
+    double_flank::with_master(&curve, &own, gear.kind, &fit.own, addendum_mm, MASTERS[at], watch)
 }
 
 /// What a larger centre distance changes at some moments of the period.

@@ -3,9 +3,11 @@
 mod cut_pairs;
 mod depths;
 mod generated;
+mod mounted;
 mod parallelism;
 mod refusals;
 mod scallops;
+mod working;
 
 use serde_json::Value;
 use std::path::Path;

@@ -2,7 +2,7 @@
 
 use super::charts;
 use super::options::PairOptions;
-use super::page::{PagePictures, page};
+use super::page::{PageParts, PairRecord, page};
 use super::pictures::{write_animation, write_pattern};
 use super::rolled::RolledPair;
 use super::watch::Watch;
@@ -12,6 +12,7 @@ use crate::output::report::REPORT_FILE;
 use crate::output::table::write_tables;
 use crate::pair::pitch_pair::Member;
 use crate::scene::Scene;
+use crate::steps::report::files;
 use gearcut_core::error::{Error, Result};
 
 /// Writes everything but the run record.
@@ -24,6 +25,7 @@ pub fn write(
     rolled: &RolledPair,
     found: &Findings,
     folder: &OutputFolder,
+    record: &PairRecord,
     watch: &Watch,
 ) -> Result<()> {
     write_tables(found, folder)?;
@@ -46,7 +48,8 @@ pub fn write(
         watch.check()?;
     }
     let animation = bytes(&write_animation(rolled, options.marking_um, folder, watch)?)?;
-    let page = page(scenes, options, rolled, found, &lines, PagePictures { patterns, animation });
+    let parts = PageParts { patterns, animation, files: files::section(folder)? };
+    let page = page(scenes, options, rolled, found, &lines, parts, record);
     page.write(&folder.path(REPORT_FILE)?)?;
     folder.write_json(RESULTS_FILE, &found.to_json())
 }

@@ -124,6 +124,7 @@ fn gear(values: &Values) -> Option<Gear> {
         bore_diameter_mm: gear.number("bore_diameter_mm")?,
         rim_mm: gear.number("rim_mm").unwrap_or(0.0),
         tooth_thickness_allowance_mm: gear.number("tooth_thickness_allowance_mm")?,
+        center_distance_mm: gear.number("center_distance_mm"),
         pitch_curve: pitch_curve(values, "gear.pitch_curve", kind)?,
     })
 }

@@ -104,6 +104,8 @@ pub struct Gear {
     pub rim_mm: f64,
     /// Change of tooth thickness on the pitch curve that every operation gets (negative: thinner teeth, backlash).
     pub tooth_thickness_allowance_mm: f64,
+    /// Distance of the axes at which a pair with it is rolled; `None`: that of the profile shifts.
+    pub center_distance_mm: Option<f64>,
     /// Shape of the pitch curve.
     pub pitch_curve: PitchCurveShape,
 }

@@ -68,7 +68,11 @@ pub struct PairArguments {
     /// Transverse sections that are rolled [default: 1 of spur gears; 11 of helical ones and of axes out of parallel].
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=201))]
     pub sections: Option<u32>,
-    /// Added to the centre distance at which the pitch curves close, at most a fifth of a module.
+    /// Distance of the axes [default: gear.center_distance_mm of the scenes, else that of the profile shifts of round
+    /// gears, and the one at which other pitch curves close].
+    #[arg(long, value_name = "MM")]
+    pub center_distance_mm: Option<f64>,
+    /// Added to that distance.
     #[arg(long, value_name = "UM", default_value_t = 0.0, allow_negative_numbers = true)]
     pub center_distance_error_um: f64,
     /// How far gear A's pitch curve sits off its axis of rotation.
@@ -83,10 +87,11 @@ pub struct PairArguments {
     /// Polar angle of gear B at which it sits out.
     #[arg(long, value_name = "DEG", default_value_t = 0.0, allow_negative_numbers = true)]
     pub eccentricity_b_at_deg: f64,
-    /// Teeth by which gear B is turned on: other teeth meet.
+    /// Teeth by which gear B is turned on, modulo its teeth: other teeth meet.
     #[arg(long, value_name = "TEETH", default_value_t = 0, allow_negative_numbers = true)]
     pub phase_teeth: i64,
-    /// How far the axes come apart from end to end of the common face, in their plane (ISO/TR 10064-3).
+    /// How far the axes come apart from end to end of the common face, in their plane (ISO/TR 10064-3); at most 10 um
+    /// for each mm of it.
     #[arg(long, value_name = "UM", default_value_t = 0.0, allow_negative_numbers = true)]
     pub parallelism_in_plane_um: f64,
     /// How far they come apart across their plane.

@@ -105,7 +105,7 @@ fn meshing(pair: &PitchPair, addendum_mm: [f64; 2], errors: &Value) -> Meshing {
     };
     let driver = thinned(pair, Member::Driver, addendum_mm, optional(errors, "thin1"));
     let driven = thinned(pair, Member::Driven, addendum_mm, optional(errors, "thin2"));
-    Meshing::new(pair.clone(), &driver, &driven, &mounting).expect("gears that roll")
+    Meshing::new(pair.clone(), &driver, &driven, &mounting)
 }
 
 fn arcsec(rad: f64) -> f64 {

@@ -7,6 +7,9 @@ use crate::pair_job::double_flank::{DoubleFlank, MASTER_TEETH};
 use crate::pair_job::rolled::RolledPair;
 use gearcut_core::units::UM_PER_MM;
 
+/// What F_i" is.
+const RANGE: &str = "largest less smallest tight centre distance, less the one asked for";
+
 pub(super) fn backlash(rolled: &RolledPair) -> Section {
     let play = &rolled.backlash;
     let extreme = |of: &dyn Fn(&Backlash) -> f64, sign: f64, definition: &'static str| {
@@ -51,23 +54,16 @@ pub(super) fn backlash(rolled: &RolledPair) -> Section {
 }
 
 pub(super) fn double_flank(rolled: &RolledPair) -> Section {
-    let mut section = Section::new("double_flank", "Double-flank rolling")
-        .part(part("mate", "A with B", &rolled.tight).table(tables::double_flank("mate", &rolled.tight)));
-    for (key, gear, found) in [("master_A", "A", &rolled.masters[0]), ("master_B", "B", &rolled.masters[1])] {
-        let title = format!("{gear} with a master of {MASTER_TEETH} teeth");
-        section = section.part(match found {
-            Some(found) => part(key, &title, found).table(tables::double_flank(key, found)),
-            None => Section::new(key, title).with(
-                "total",
-                Quantity::undefined(
-                    "um",
-                    "largest less smallest centre distance",
-                    "a ring is not rolled with a master",
-                ),
-            ),
-        });
-    }
-    section
+    let found = [
+        ("mate", "A with B".to_owned(), &rolled.tight),
+        ("master_A", format!("A with a master of {MASTER_TEETH} teeth"), &rolled.masters[0]),
+        ("master_B", format!("B with a master of {MASTER_TEETH} teeth"), &rolled.masters[1]),
+    ];
+    let parts = found.into_iter().map(|(key, title, found)| match found {
+        Ok(found) => part(key, &title, found).table(tables::double_flank(key, found)),
+        Err(why) => Section::new(key, title).shown("total", "F_i\"", Quantity::undefined("um", RANGE, why.clone())),
+    });
+    Section::new("double_flank", "Double-flank rolling").parts(parts)
 }
 
 fn part(key: &str, title: &str, found: &DoubleFlank) -> Section {
@@ -75,11 +71,7 @@ fn part(key: &str, title: &str, found: &DoubleFlank) -> Section {
     let at = largest_at(found.variation_rad_um.iter().map(|[_, um]| *um));
     let place = Place::default().and("angle_deg", found.variation_rad_um[at][0].to_degrees());
     Section::new(key, title)
-        .shown(
-            "total",
-            "F_i\"",
-            um(found.total_um(), "largest less smallest tight centre distance, less the one asked for"),
-        )
+        .shown("total", "F_i\"", um(found.total_um(), RANGE))
         .shown("in_a_pitch", "f_i\"", um(found.in_a_pitch_um(), "largest variation of it within one pitch"))
         .with("mean", um(found.mean_um(), "mean of the tight less the nominal centre distance"))
         .with("largest", um(found.variation_rad_um[at][1], "largest tight less nominal centre distance").at(place))

@@ -12,6 +12,7 @@ use crate::pair_job::member;
 use crate::pair_job::options::PairOptions;
 use crate::pair_job::rolled::roll_pair;
 use crate::scene::Mate;
+use gearcut_core::cut::cpu::Cpu;
 use gearcut_core::gear::GearKind;
 use gearcut_core::terms::Side;
 use gearcut_core::units::UM_PER_MM;
@@ -38,7 +39,8 @@ fn round_gears_turn_evenly_outside_and_in_a_ring() {
     for (kind, teeth) in [("", 27), ("kind = \"internal\"\nrim_mm = 10.0\n", 54)] {
         let (a, b) = (round("a", 18, "", THINNED), round("b", teeth, kind, THINNED));
         let options = PairOptions { positions: Some(18 * 3 * 12), ..PairOptions::default() };
-        let rolled = unwatched(|watch| roll_pair([&a.scene, &b.scene], &options, watch)).expect("a pair");
+        let rolled =
+            unwatched(|watch| roll_pair([&a.scene, &b.scene], &options, &Cpu::default(), watch)).expect("a pair");
         let radius_mm = 1.5 * f64::from(teeth);
         let tip_sign = rolled.fit.pitch.sign();
         let thinned_um = UM_PER_MM * (thinning_mm(18, 1.0) + thinning_mm(teeth, tip_sign));
@@ -51,11 +53,12 @@ fn round_gears_turn_evenly_outside_and_in_a_ring() {
             assert!((um - thinned_um).abs() < 0.1, "{teeth} teeth: {um} um, {thinned_um} expected");
         }
         // Double-flank: the play j closes when the axes move by j / (2 tan 20 deg), to first order.
-        let moved = tip_sign * rolled.tight.mean_um();
+        let tight = rolled.tight.as_ref().expect("a tight mesh");
+        let moved = tip_sign * tight.mean_um();
         let expected = -thinned_um / (2.0 * 20_f64.to_radians().tan());
         assert!((moved / expected - 1.0).abs() < 0.01, "{moved} um, {expected} expected");
-        println!("{teeth} teeth: {:.3} um tight", rolled.tight.total_um());
-        assert!(rolled.tight.total_um() < 0.3, "{} um", rolled.tight.total_um());
+        println!("{teeth} teeth: {:.3} um tight", tight.total_um());
+        assert!(tight.total_um() < 0.3, "{} um", tight.total_um());
     }
 }
 
@@ -66,7 +69,8 @@ fn the_third_order_pair_as_cut() {
     let b = member::mate(&a, Mate { teeth: 42, kind: GearKind::External }, &[]).expect("a mate");
     let fit = Fit::new(&a.scene, &b.scene, 0).expect("they belong together");
     let flanks =
-        unwatched(|watch| PairFlanks::new(&fit, [&a.scene, &b.scene], FlankSource::Cut, 1, watch)).expect("flanks");
+        unwatched(|watch| PairFlanks::new(&fit, [&a.scene, &b.scene], FlankSource::Cut, 1, &Cpu::default(), watch))
+            .expect("flanks");
     let mut play_was_mm = 0.0;
     for case in data("p04_s0_centre_distance")["cases"].as_array().expect("cases") {
         // Teeth that are thinned as well stand in the file of thinned teeth.
@@ -75,7 +79,7 @@ fn the_third_order_pair_as_cut() {
         }
         let center_distance_error_mm = number(&case["errors"], "delta_a");
         let mounting = AssemblyErrors { center_distance_error_mm, ..AssemblyErrors::default() };
-        let meshing = flanks.meshing(&fit, &a.scene.gear, &mounting).expect("gears that roll");
+        let meshing = flanks.meshing(&fit, &a.scene.gear, &mounting);
         let mut largest = [0.0_f64; 2];
         for (i, phi) in numbers(&case["phi1"]).into_iter().enumerate() {
             let moment = meshing.at(phi).expect("flanks that touch");
@@ -105,7 +109,7 @@ fn brute_force(meshing: &Meshing) {
         let pitch = meshing.pitch.at(phi);
         let stand = meshing.stand(&pitch, section, 0.0);
         let window = 0.25 * meshing.pitch.pitch_mm() / pitch.radius_mm[1];
-        let tip_mm = section.driven.right.iter().map(|flank| flank.range_mm()[1]).fold(0.0, f64::max);
+        let tip_mm = section.driven.right.iter().map(|flank| flank.runs[0].range_mm()[1]).fold(0.0, f64::max);
         let mut most = f64::NEG_INFINITY;
         let mut offer = |d: DVec2, angle: f64| {
             let error = d.to_angle() - angle - pitch.phi_2_rad;
@@ -125,6 +129,7 @@ fn brute_force(meshing: &Meshing) {
                     continue;
                 }
                 for flank in &section.driven.right {
+                    let [flank] = flank.runs.as_slice() else { panic!("these flanks do not turn back") };
                     for (d, radius) in [(side[0], a), (side[1], b)] {
                         if let Some(angle) = flank.angle_rad(radius) {
                             offer(d, angle);

@@ -27,7 +27,7 @@ fn ends(scene: &Scene) -> FlankEnds {
 /// `longer_mm`.
 fn farthest(scenes: [&Scene; 2], addendum_mm: f64, expected: &Value, longer_mm: f64) -> f64 {
     let fit = Fit::new(scenes[0], scenes[1], 0).expect("they belong together");
-    let limits = limits(&fit, [addendum_mm; 2], &scenes.map(ends)).expect("flanks of a pair");
+    let limits = limits(&fit, &scenes.map(ends)).expect("flanks of a pair");
     let mut farthest = 0.0_f64;
     for (side, [a, b]) in SIDES.into_iter().zip(&limits) {
         let given = &expected[if side == Side::Right { "path_right" } else { "path_left" }];

@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::pair_job::fit::Fit;
+use crate::pair_job::flanks::FlankSource;
 use crate::pair_job::member;
 use crate::pair_job::options::PairOptions;
 use crate::scene::Mate;
@@ -56,14 +57,25 @@ fn gear_b_may_be_turned_on_by_whole_repeats_only() {
 }
 
 #[test]
-fn a_centre_distance_a_millimetre_off_is_refused() {
+fn what_parts_the_teeth_is_refused_before_they_are_cut() {
     let (a, b) = (round("a", 24, "", ""), round("b", 36, "", ""));
     let fit = Fit::new(&a.scene, &b.scene, 0).expect("they belong together");
     let gears = [&a.scene.gear, &b.scene.gear];
     let options = |um| PairOptions { center_distance_error_um: um, ..PairOptions::default() };
-    let text = options(1000.0).mounting(&fit, gears).expect_err("too far").to_string();
-    assert!(text.contains("91.000000 mm") && text.contains("90.000000 mm") && text.contains("0.728 mm"), "{text}");
-    options(500.0).mounting(&fit, gears).expect("a sixth of a module can be rolled");
+    let says = |options: &PairOptions, words: &[&str]| {
+        let text = options.mounting(&fit, gears).expect_err("too far").to_string();
+        assert!(words.iter().all(|words| text.contains(words)), "{text} does not say {words:?}");
+    };
+    // Both tips are 3 mm high: 6 mm further apart they pass each other.
+    says(&options(6000.0), &["96.000000 mm", "90.000000 mm", "overlap by 6.000 mm", "-6000 to 6000 um"]);
+    options(5990.0).mounting(&fit, gears).expect("teeth that reach each other");
+    options(-1000.0).mounting(&fit, gears).expect("tips in roots: what jams is rolled");
+    let nominal = PairOptions { source: FlankSource::Nominal, ..options(-601.0) };
+    says(&nominal, &["89.399000 mm", "deeper than the flanks", "-600 to 6000 um"]);
+    let swing = PairOptions { eccentricity_um_deg: [[3000.0, 0.0], [4000.0, 0.0]], ..options(0.0) };
+    says(&swing, &["eccentricities take 7.000 mm", "-6000 to -1000 um"]);
+    let inclined = PairOptions { parallelism_um: [0.0, -201.0], ..options(0.0) };
+    says(&inclined, &["-201 um", "face of 20 mm", "-200 to 200 um"]);
     let one = PairOptions { sections: Some(1), parallelism_um: [10.0, 0.0], ..PairOptions::default() };
     assert!(one.sections(gears).expect_err("one section").to_string().contains("11"));
 }

@@ -33,7 +33,7 @@ fn crests_and_bottoms_of_the_transmission_error() {
         process::prepare(&a.scene).expect("a job").with_gear(show).expect("a flank");
         let driver = FlankChain::straight(profile.expect("one section").points_mm);
         let driven = nominal(&fit.pitch, Member::Driven, [3.0; 2], |_, _| 0.0).expect("flanks");
-        let driven = PolarFlank::new(driven.get(side, tooth as i64)).expect("a flank");
+        let driven = PolarFlank::new(driven.get(side, tooth as i64));
         let error_um = |phi: f64| {
             let at = fit.pitch.at(phi);
             let axis_2_mm = fit.pitch.axis_mm(Member::Driven);

@@ -333,6 +333,7 @@ pub(crate) mod tests {
             bore_diameter_mm: 20.0,
             rim_mm: 0.0,
             tooth_thickness_allowance_mm: 0.0,
+            center_distance_mm: None,
             pitch_curve: gearcut_core::gear::PitchCurveShape::Circle,
         }
     }

@@ -111,6 +111,14 @@ pub(super) static SECTIONS: &[KeySection] = &[KeySection {
             teach: "Change of the tooth thickness on the pitch curve; negative makes thinner teeth and so \
                     backlash.",
         },
+        Key {
+            name: "center_distance_mm",
+            kind: Kind::Number(Range::above(0.0, 20000.0)),
+            unit: "mm",
+            default: Default::LeftOut("that of the profile shifts of both gears; not for cutting"),
+            example: "56.5",
+            teach: "Distance of the axes at which `gearcut pair` rolls the gear with another one.",
+        },
     ],
     groups: &[],
     teach: "The gear to cut and its blank.",

@@ -51,7 +51,13 @@ fn roll(folder: &Path, more: &[&str]) -> String {
 fn a_pair_writes_numbers_tables_charts_patterns_and_a_page() {
     let folder = folder();
     let said = roll(folder.path(), &[]);
-    for words in ["12 and 18 teeth", "transmission error", "smallest backlash", "10 um of centre distance do"] {
+    for words in [
+        "12 and 18 teeth",
+        "transmission error",
+        "smallest backlash",
+        "tips clear the mate by",
+        "10 um of centre distance",
+    ] {
         assert!(said.contains(words), "{words}: {said}");
     }
     let out = folder.path().join("out/a_with_a_mate_18");
@@ -67,7 +73,15 @@ fn a_pair_writes_numbers_tables_charts_patterns_and_a_page() {
     let rows = std::fs::read_to_string(out.join("tables/rolling.csv")).expect("a table").lines().count();
     assert_eq!(rows, 289, "a head and a row for every position");
     let page = std::fs::read_to_string(out.join("report.html")).expect("a page");
-    for words in ["rolling report", "rolled over a whole period", "Transmission error", "data:image/png;base64,"] {
+    for words in [
+        "rolling report",
+        "rolled over a whole period",
+        "Transmission error",
+        "data:image/png;base64,",
+        "href=\"tables/rolling.csv\"",
+        "id=\"record\"",
+        "tooth_thickness_allowance_mm = -0.05",
+    ] {
         assert!(page.contains(words), "the page does not say {words}");
     }
     // The same again has the same bytes; another one compares with it.
@@ -128,8 +142,9 @@ fn what_cannot_be_rolled_is_refused_with_numbers() {
     let round = "scenes/shaping/circular_m3_z24.toml";
     gearcut(&["pair", ring, driver]).failed(1, &["ring of 102", "external gear first"]);
     gearcut(&["pair", driver, round]).failed(1, &["2 mm", "3 mm", "differ by 3.1416 mm"]);
-    gearcut(&["pair", round, "--mate", "24", "--center-distance-error-um", "1000"])
-        .failed(1, &["73.000000 mm", "72.000000 mm", "600 um"]);
+    gearcut(&["pair", round, "--mate", "24", "--center-distance-error-um", "7000"])
+        .failed(1, &["79.000000 mm", "72.000000 mm", "6000 um"]);
+    gearcut(&["pair", round, "--mate", "24", "--center-distance-mm", "60"]).failed(1, &["60 mm", "67.6579 mm"]);
     let third = "scenes/shaping/elliptical_normal.toml";
     let apart = ["27.331 to 43.806 mm", "8.669 mm away", "0.300 mm are allowed", "--mate"];
     gearcut(&["pair", third, round]).failed(1, &apart);

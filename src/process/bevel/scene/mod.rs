@@ -72,6 +72,7 @@ pub static SCENE: SceneProcess = SceneProcess {
         without("gear.bore_diameter_mm", "the body is the toothed ring", "remove it"),
         without("gear.rim_mm", "no gear is internal", "remove it"),
         without("gear.tooth_thickness_allowance_mm", "the head makes the slot", "set tool.face_mill.point_width_mm"),
+        without("gear.center_distance_mm", "the axes cross", "remove it"),
         without("gear.pitch_curve", "gears roll on cones", "remove it"),
         without("measure", "flanks are measured on a grid", "remove it"),
         without("material.normal_force_n_per_mm2", NO_NORMAL_FORCE, CUTTING_FORCE),

@@ -1,0 +1,147 @@
+//! Round gears with profile shifts: at the distance of their shifts they run without play, outside and in a ring; at any
+//! other one with the play of ISO 21771. All against closed forms of involutes.
+
+use super::*;
+use crate::pair_job::fit::Fit;
+use crate::pair_job::flanks::FlankSource;
+use crate::pair_job::options::PairOptions;
+use crate::pair_job::rolled::{RolledPair, roll_pair};
+use gearcut_core::cut::cpu::Cpu;
+use gearcut_core::error::Result;
+use gearcut_core::units::UM_PER_MM;
+
+const RING: &str = "kind = \"internal\"\nrim_mm = 20.0\n";
+
+fn shifted(name: &str, teeth: u32, shift: f64, more: &str) -> LoadedScene {
+    let kind = if more.contains("internal") { RING } else { "" };
+    let rest = more.replace(RING, "");
+    round(name, teeth, kind, &format!("profile_shift_coefficient = {shift}\n{rest}"))
+}
+
+fn rolled(a: &LoadedScene, b: &LoadedScene, options: &PairOptions) -> Result<RolledPair> {
+    let options = PairOptions { source: FlankSource::Nominal, ..options.clone() };
+    unwatched(|watch| roll_pair([&a.scene, &b.scene], &options, &Cpu::default(), watch))
+}
+
+fn involute(angle: f64) -> f64 {
+    angle.tan() - angle
+}
+
+/// Working distance of module 3 and 20 deg by Newton's method on inv(alpha_w) = inv(alpha) + s 2 (x1 + x2) tan(alpha) /
+/// (z2 + s z1).
+fn distance_mm(teeth: [u32; 2], shifts: f64, sign: f64) -> f64 {
+    let alpha = 20_f64.to_radians();
+    let apart = f64::from(teeth[1]) + sign * f64::from(teeth[0]);
+    let wanted = involute(alpha) + sign * 2.0 * shifts * alpha.tan() / apart;
+    let mut working = alpha;
+    for _ in 0..60 {
+        working -= (involute(working) - wanted) / working.tan().powi(2);
+    }
+    1.5 * apart * alpha.cos() / working.cos()
+}
+
+/// Contact ratio of round gears (ISO 21771, 5.4.1), tip radii (z / 2 + s (1 + x)) m.
+fn contact_ratio(teeth: [u32; 2], shifts: [f64; 2], sign: f64, distance_mm: f64) -> f64 {
+    let alpha = 20_f64.to_radians();
+    let reach = |i: usize, own: f64| {
+        let radius = 1.5 * f64::from(teeth[i]);
+        ((radius + own * 3.0 * (1.0 + shifts[i])).powi(2) - (radius * alpha.cos()).powi(2)).sqrt()
+    };
+    let apart = f64::from(teeth[1]) + sign * f64::from(teeth[0]);
+    let sin = (1.0 - (1.5 * apart * alpha.cos() / distance_mm).powi(2)).sqrt();
+    (reach(0, 1.0) + sign * reach(1, sign) - sign * distance_mm * sin) / (3.0 * std::f64::consts::PI * alpha.cos())
+}
+
+#[test]
+fn shifted_gears_run_without_play_at_the_distance_of_their_shifts() {
+    // The first is the pair of the handbooks: a = 56.499870 mm.
+    for (teeth, shifts, more) in [
+        ([12, 24], [0.6, 0.36], ""),
+        ([17, 43], [0.3, 0.5], ""),
+        ([25, 30], [-0.2, 0.6], ""),
+        ([30, 40], [-0.1, -0.3], ""),
+        ([18, 45], [0.4, -0.1], RING),
+        ([18, 48], [0.1, -0.5], RING),
+    ] {
+        let sign = if more.is_empty() { 1.0 } else { -1.0 };
+        let (a, b) = (shifted("a", teeth[0], shifts[0], ""), shifted("b", teeth[1], shifts[1], more));
+        let pair = rolled(&a, &b, &PairOptions::default()).expect("a pair");
+        let expected_mm = distance_mm(teeth, shifts[0] + shifts[1], sign);
+        let found_mm = pair.fit.pitch.center_distance_mm();
+        assert!((found_mm - expected_mm).abs() < 1e-9, "{teeth:?}: {found_mm} mm, {expected_mm} expected");
+        if teeth == [12, 24] {
+            assert!((found_mm - 56.499_870).abs() < 5e-7, "{found_mm} mm");
+        }
+        for play in &pair.backlash {
+            let um = UM_PER_MM * play.circumferential_mm;
+            assert!(um.abs() < 1e-4, "{teeth:?}: {um} um of play");
+        }
+        for error in &pair.errors {
+            let most = error.total_rad.iter().fold(0.0_f64, |most, rad| most.max(rad.abs()));
+            assert!(most.to_degrees() * 3600.0 < 1e-3, "{teeth:?}: {most} rad");
+        }
+        let tight = pair.tight.as_ref().expect("a tight mesh");
+        assert!(tight.total_um() < 1e-4 && tight.mean_um().abs() < 1e-4, "{teeth:?}: {} um", tight.mean_um());
+        let ratio = pair.contact_ratio.as_ref().expect("contact ratios")[0][0].1;
+        let expected = contact_ratio(teeth, shifts, sign, expected_mm);
+        assert!((ratio - expected).abs() < 1e-6, "{teeth:?}: {ratio}, {expected} expected");
+    }
+}
+
+/// At a named distance the play on the rolling circles is 2 a (inv(alpha_w) - inv(alpha)), less what shifts fill, with
+/// the allowance of both gears on top: e1 and e2 without their shifts, and with 2 um of them.
+#[test]
+fn a_named_distance_is_rolled_with_its_play() {
+    let alpha = 20_f64.to_radians();
+    for (teeth, shift, named_mm, more) in
+        [([20, 30], 0.0, 76.5, ""), ([20, 30], 0.25, 77.5, ""), ([20, 50], -0.2, 44.2, RING)]
+    {
+        let sign = if more.is_empty() { 1.0 } else { -1.0 };
+        let apart = f64::from(teeth[1]) + sign * f64::from(teeth[0]);
+        let working = (1.5 * apart * alpha.cos() / named_mm).acos();
+        let thinned_mm = 0.03;
+        let stretch = named_mm / (1.5 * apart);
+        let expected_mm = sign * 2.0 * named_mm * (involute(working) - involute(alpha))
+            - stretch * (2.0 * shift * 3.0 * alpha.tan() - thinned_mm);
+        let a = shifted("a", teeth[0], shift, &format!("center_distance_mm = {named_mm}\n"));
+        let b = shifted("b", teeth[1], 0.0, &format!("{more}tooth_thickness_allowance_mm = -{thinned_mm}\n"));
+        let by_key = rolled(&a, &b, &PairOptions::default()).expect("a pair");
+        let a_silent = shifted("a", teeth[0], shift, "");
+        let named = PairOptions { center_distance_mm: Some(named_mm), ..PairOptions::default() };
+        let by_option = rolled(&a_silent, &b, &named).expect("a pair");
+        for pair in [by_key, by_option] {
+            assert!((pair.fit.pitch.center_distance_mm() - named_mm).abs() < 1e-9);
+            let mm = pair.backlash[0].circumferential_mm;
+            assert!((mm - expected_mm).abs() < 1e-7, "{teeth:?} at {named_mm}: {mm} mm, {expected_mm} expected");
+            let tight = pair.tight.expect("a tight mesh");
+            let tight_mm = distance_mm_of_thickness(teeth, shift, thinned_mm, sign);
+            let found_mm = named_mm + tight.mean_um() / UM_PER_MM;
+            assert!((found_mm - tight_mm).abs() < 1e-6, "{teeth:?}: tight at {found_mm} mm, {tight_mm} expected");
+        }
+    }
+}
+
+/// Distance without play of one shifted gear with another that is thinned: a shift of -T / (2 m tan(alpha)).
+fn distance_mm_of_thickness(teeth: [u32; 2], shift: f64, thinned_mm: f64, sign: f64) -> f64 {
+    distance_mm(teeth, shift - thinned_mm / (6.0 * 20_f64.to_radians().tan()), sign)
+}
+
+#[track_caller]
+fn refused(a: &LoadedScene, b: &LoadedScene, says: &[&str]) {
+    let Err(refusal) = Fit::new(&a.scene, &b.scene, 0) else { panic!("they do not run") };
+    let text = refusal.to_string();
+    assert!(says.iter().all(|words| text.contains(words)), "{text} does not say {says:?}");
+}
+
+#[test]
+fn distances_without_teeth_in_mesh_are_refused() {
+    let named =
+        |teeth, mm: f64, more: &str| shifted("named", teeth, 0.0, &format!("{more}center_distance_mm = {mm}\n"));
+    let plain = |teeth| shifted("plain", teeth, 0.0, "");
+    refused(&named(20, 81.5, ""), &plain(30), &["81.5 mm", "70.4769", "81.0000 mm"]);
+    refused(&named(20, 70.0, ""), &plain(30), &["70 mm", "70.4769"]);
+    refused(&plain(20), &named(50, 38.9, RING), &["38.9 mm", "39.0000 mm"]);
+    refused(&named(20, 76.0, ""), &named(30, 76.1, ""), &["76 mm", "76.1 mm", "--center-distance-mm"]);
+    // inv(20 deg) = 0.014904 is used up by 0.014904 * 36 / (2 tan(20 deg)) = 0.7371 modules.
+    refused(&shifted("a", 12, -0.4, ""), &shifted("b", 24, -0.4, ""), &["-0.4 and -0.4", "above -0.7371"]);
+}
