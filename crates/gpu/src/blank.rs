@@ -30,8 +30,9 @@ use std::ops::Range;
 
 /// Tiles of one submission at most: they fill the largest GPU, and Ctrl-C is heard between submissions.
 const MOST_TILES: usize = 2048;
-/// Spans that a ray has room for at first, beside those it has.
-const FIRST_ROOM: usize = 8;
+/// Spans that a ray has room for at first, beside those it has: as many as a ray meets teeth of a gear of a hundred. Room
+/// costs memory of the device alone; a list without it costs all tiles of the submission a second time.
+const FIRST_ROOM: usize = 24;
 /// Material that a return stroke may meet on a ray unnoticed, mm: half the depth at which reports speak of rubbing, a
 /// dozen times what f32 may be off.
 const UNNOTICED_MM: f32 = 5e-4;
