@@ -31,8 +31,16 @@ pub fn chosen(wish: BackendChoice, on_failure: GpuFailureChoice) -> Result<Choic
 /// # Errors
 /// As for [`chosen`].
 pub fn of_few_places(arguments: &FewPlacesArguments) -> Result<(Choice, Progress), Error> {
+    of_few_places_with_events(arguments, false)
+}
+
+/// The same; progress is shown as events where `json` says so.
+///
+/// # Errors
+/// As for [`chosen`].
+pub fn of_few_places_with_events(arguments: &FewPlacesArguments, json: bool) -> Result<(Choice, Progress), Error> {
     let choice = chosen(arguments.backend, GpuFailureChoice::Redo)?;
-    let progress = Progress::new(ProgressMode::choose(arguments.quiet, false));
+    let progress = Progress::new(ProgressMode::choose(arguments.quiet, json));
     if arguments.backend != BackendChoice::Cpu {
         progress.note(&note(&choice));
     }

@@ -2,9 +2,7 @@
 
 use std::path::PathBuf;
 
-use gearcut::backend::{BackendWish, OnFailure, choose};
 use gearcut::gear::GearKind;
-use gearcut::output::progress::{Progress, ProgressMode};
 use gearcut::output::summary;
 use gearcut::output::text::{Sheet, plain};
 use gearcut::pair_job::flanks::FlankSource;
@@ -18,7 +16,7 @@ use serde_json::json;
 
 use super::args::{FlankChoice, PairArguments};
 use super::failure::Failure;
-use super::{folder, print};
+use super::{backend, folder, print};
 
 /// Runs the command.
 pub fn run(arguments: &PairArguments) -> Result<(), Failure> {
@@ -28,8 +26,7 @@ pub fn run(arguments: &PairArguments) -> Result<(), Failure> {
     let name = format!("{}_with_{}", a.scene.name, b.scene.name);
     let out = arguments.out.clone().unwrap_or_else(|| PathBuf::from("out").join(&name));
     let words = std::env::args().skip(1).collect::<Vec<_>>();
-    let progress = Progress::new(ProgressMode::choose(false, arguments.json));
-    let choice = choose(BackendWish::Cpu, OnFailure::default())?;
+    let (choice, progress) = backend::of_few_places_with_events(&arguments.few_places, arguments.json)?;
     let (path, (found, interference)) = folder::fill(&out, "pair", |folder, interrupt| {
         let watch = Watch::new(&progress, interrupt);
         let rolled = rolled::roll_pair(scenes, &options, choice.backend.as_ref(), &watch)?;

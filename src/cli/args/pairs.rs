@@ -3,6 +3,8 @@
 use clap::{ArgGroup, Args, ValueEnum};
 use std::path::PathBuf;
 
+use super::FewPlacesArguments;
+
 /// Arguments of `contact`.
 #[derive(Debug, Args)]
 pub struct ContactArguments {
@@ -100,6 +102,9 @@ pub struct PairArguments {
     /// Thickness of the marking compound of contact patterns.
     #[arg(long, value_name = "UM", default_value_t = 6.0)]
     pub marking_um: f64,
+    /// Backend and progress.
+    #[command(flatten)]
+    pub few_places: FewPlacesArguments,
     /// Folder to write [default: out/<A>_with_<B>].
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
