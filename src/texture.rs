@@ -24,13 +24,13 @@ mod traces;
 mod window;
 
 pub use files::{NamedWindow, SURFACE_NOTE, named_windows, write};
-pub use findings::{findings, foreseen, quantities, warnings};
+pub use findings::{findings, foreseen, quantities};
 pub use roughness::{ROUGHNESS, roughness, roughness_path};
 pub use sampling::{SampledWindow, sampled};
 pub use traces::{Direction, Traced, of_surface};
 pub use window::{Window, windows};
 
-use crate::findings::Severity;
+use crate::findings::{Severity, Warning};
 use crate::interrupt::Interrupt;
 use crate::job::{GearJob, RAY_DEPTH_MODULES};
 use crate::measure::topography::{Arguments, Evaluation, Surface};
@@ -174,6 +174,11 @@ impl LineMarks {
         }
         notes
     }
+}
+
+/// What a reader must know before trusting the numbers of windows, and what the drawing's limits say of them.
+pub fn warnings(job: &dyn GearJob, textures: &[WindowTexture]) -> Vec<Warning> {
+    findings::noted(job, textures).into_iter().chain(roughness::judged(job, textures)).collect()
 }
 
 /// Cuts and evaluates windows of a job, as from [`sampled()`].

@@ -8,7 +8,7 @@ use std::path::Path;
 use gearcut::Refusal;
 use gearcut::interrupt::Interrupt;
 use gearcut::measure::topography::height_steps::coarse_step_um;
-use gearcut::measure::topography::{Arguments, Chain, Evaluation, Parameter, Surface, Trace};
+use gearcut::measure::topography::{Arguments, Chain, Evaluation, Parameter, ProfileTrace, Surface};
 use gearcut::output::surface_files::{SurfaceFile, write_surface};
 use gearcut::output::text::{Sheet, plain, significant};
 use gearcut::texture::quantities;
@@ -68,7 +68,7 @@ pub fn run(arguments: &TextureArguments) -> Result<(), Failure> {
 }
 
 /// A file that is a profile: its parameters through the chain of profiles.
-fn profile(arguments: &TextureArguments, file: Reading<Trace>) -> Result<(), Failure> {
+fn profile(arguments: &TextureArguments, file: Reading<ProfileTrace>) -> Result<(), Failure> {
     let (count, spacing_um) = (file.surface.heights_um().len(), file.surface.spacing_um());
     let holes = file.surface.heights_um().iter().filter(|z| z.is_nan()).count();
     let lines = lines::of_traces(arguments, "profile".to_owned(), vec![0.0], Ok(vec![file.surface]));

@@ -36,13 +36,13 @@ pub fn findings(job: &dyn GearJob, textures: &[WindowTexture]) -> Section {
 
 /// What a reader must know before trusting the numbers of windows and their cut tells: a sentence for all windows of an
 /// operation that it is true of, about the window's section where it is one.
-pub fn warnings(job: &dyn GearJob, textures: &[WindowTexture]) -> Vec<Warning> {
+pub(super) fn noted(job: &dyn GearJob, textures: &[WindowTexture]) -> Vec<Warning> {
     let stems = stems(job, textures);
     let noted = textures.iter().zip(&stems).flat_map(|(texture, stem)| {
         let of = StemmedWindow { window: &texture.window, stem };
         texture.notes().into_iter().map(move |note| (of, note))
     });
-    told(job, noted).into_iter().chain(super::roughness::judged(job, textures)).collect()
+    told(job, noted)
 }
 
 /// The same as far as marks tell it, which are known before anything is cut.

@@ -8,7 +8,7 @@ use super::{Window, WindowTexture};
 use crate::findings::{Quantity, Section, Warning};
 use crate::job::GearJob;
 use crate::measure::topography::Parameter;
-use crate::measure::topography::parameters::{Spread, of_profiles};
+use crate::measure::topography::parameters::{ParameterRange, of_profiles};
 use crate::scene::model::DrawnLimits;
 
 /// Key of the section.
@@ -63,7 +63,7 @@ fn section(window: &Window, stem: &str, traced: &Traced, limits: &DrawnLimits) -
                 .with("chain", none(chain, "1"));
         }
     };
-    let mean = |of: Spread| {
+    let mean = |of: ParameterRange| {
         let definition = format!("{}; mean of the lines", of.mean.definition);
         Parameter { definition, ..of.mean }
     };

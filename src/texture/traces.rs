@@ -10,7 +10,7 @@
 use super::{Window, heights_um};
 use crate::job::GearJob;
 use crate::measure::topography::profile_chain::{CutOff, ProfileChain, Profiles};
-use crate::measure::topography::{Parameter, Surface, Trace, parameters::of_profiles};
+use crate::measure::topography::{Parameter, ProfileTrace, Surface, parameters::of_profiles};
 use gearcut_core::cut::Backend;
 use gearcut_core::error::Result;
 use gearcut_core::units::UM_PER_MM;
@@ -112,8 +112,9 @@ fn along(job: &dyn GearJob, backend: &dyn Backend, window: &Window, direction: D
             Direction::Profile => heights_um.iter().skip(i).step_by(LINES).copied().collect(),
         }
     };
-    let traces =
-        (0..LINES).map(|i| Trace::new(line(i), step_mm * UM_PER_MM)).collect::<std::result::Result<Vec<_>, String>>();
+    let traces = (0..LINES)
+        .map(|i| ProfileTrace::new(line(i), step_mm * UM_PER_MM))
+        .collect::<std::result::Result<Vec<_>, String>>();
     let profiles = traces.and_then(|traces| chain(job, window).evaluate(&traces));
     Ok(Traced { direction, places_mm, profiles })
 }
@@ -130,8 +131,8 @@ pub fn of_surface(
 ) -> std::result::Result<Vec<Parameter>, String> {
     let all = if direction == Direction::Tooth { surface.ny() } else { surface.nx() };
     let traces = (0..LINES).map(|i| (2 * i + 1) * all / (2 * LINES)).map(|place| match direction {
-        Direction::Tooth => Trace::row(surface, place),
-        Direction::Profile => Trace::column(surface, place),
+        Direction::Tooth => ProfileTrace::row(surface, place),
+        Direction::Profile => ProfileTrace::column(surface, place),
     });
     let profiles = chain(job, window).evaluate(&traces.collect::<std::result::Result<Vec<_>, _>>()?)?;
     Ok(of_profiles(&profiles, &[]).into_iter().map(|of| of.mean).collect())

@@ -15,7 +15,7 @@ const HEIGHT_SHARE: f64 = 0.1;
 const WIDTH_SHARE: f64 = 0.01;
 
 /// A hill or dale between two crossings; places in points.
-struct Run {
+struct Lobe {
     hill: bool,
     start: f64,
     end: f64,
@@ -29,7 +29,7 @@ struct Run {
 pub(crate) fn spacing(z: &[f64], spacing_um: f64, section_points: f64, rz: f64) -> Result<f64, String> {
     let (least_height, least_width) = (HEIGHT_SHARE * rz, WIDTH_SHARE * section_points);
     let runs = runs(z);
-    let counting: Vec<&Run> =
+    let counting: Vec<&Lobe> =
         runs.iter().filter(|run| run.extreme > least_height && run.end - run.start >= least_width).collect();
     let mut up = Vec::new();
     let mut down = Vec::new();
@@ -46,7 +46,7 @@ pub(crate) fn spacing(z: &[f64], spacing_um: f64, section_points: f64, rz: f64) 
 }
 
 /// What lies between the crossings of the mean line, which are found between points.
-fn runs(z: &[f64]) -> Vec<Run> {
+fn runs(z: &[f64]) -> Vec<Lobe> {
     let mut runs = Vec::new();
     let (mut start, mut extreme) = (0.0, 0.0_f64);
     for i in 0..z.len() {
@@ -54,7 +54,7 @@ fn runs(z: &[f64]) -> Vec<Run> {
         let ends = i + 1 == z.len();
         if ends || (z[i] > 0.0) != (z[i + 1] > 0.0) {
             let end = if ends { i as f64 } else { i as f64 + z[i] / (z[i] - z[i + 1]) };
-            runs.push(Run { hill: z[i] > 0.0, start, end, extreme });
+            runs.push(Lobe { hill: z[i] > 0.0, start, end, extreme });
             (start, extreme) = (end, 0.0);
         }
     }

@@ -73,12 +73,12 @@
 //!
 //! ```
 //! use gearcut_texture::profile_chain::{CutOff, ProfileChain};
-//! use gearcut_texture::{Trace, parameters::of_profiles};
+//! use gearcut_texture::{ProfileTrace, parameters::of_profiles};
 //! use std::f64::consts::{PI, TAU};
 //!
 //! let wave_um = |x: f64, length: f64| (TAU * x / length).sin();
 //! let heights_um = (0..1201).map(|i| f64::from(i) * 5.0).map(|x| 0.5 * wave_um(x, 100.0) + wave_um(x, 4000.0));
-//! let trace = Trace::new(heights_um.collect(), 5.0)?;
+//! let trace = ProfileTrace::new(heights_um.collect(), 5.0)?;
 //! let profiles = ProfileChain { cutoff: CutOff::Um(800.0), ..ProfileChain::default() }.evaluate(&[trace])?;
 //! let ra = &of_profiles(&profiles, &[])[0].mean;
 //! println!("{}\n{} {:.3} um", profiles.words.join("\n"), ra.symbol, ra.value.clone()?);
@@ -137,4 +137,4 @@ pub use parameters::{Arguments, Evaluation, Parameter};
 pub use profile::Profile;
 pub use profile_chain::{ProfileChain, Profiles};
 pub use surface::Surface;
-pub use trace::Trace;
+pub use trace::ProfileTrace;

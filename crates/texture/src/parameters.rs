@@ -7,7 +7,7 @@ use super::features::Features;
 use super::height::Heights;
 use super::hybrid::Hybrid;
 use super::profile::Profile;
-use super::profile_chain::{Kind, Profiles};
+use super::profile_chain::{ProfileKind, Profiles};
 use super::ratio::MaterialRatio;
 use super::spatial::Spatial;
 use super::surface::Surface;
@@ -81,7 +81,7 @@ impl Evaluation {
 }
 
 /// The profile set of one line as parameters, with Rmr at the mean line and at further heights over it (um).
-pub fn of_profile(kind: Kind, profile: &Profile, heights_um: &[f64]) -> Vec<Parameter> {
+pub fn of_profile(kind: ProfileKind, profile: &Profile, heights_um: &[f64]) -> Vec<Parameter> {
     let mut list = List::default();
     let (family, letter) = ("profile", kind.letter());
     let mut add = |symbol: &str, value: Result<f64, String>, unit: &'static str, definition: &str| {
@@ -90,12 +90,12 @@ pub fn of_profile(kind: Kind, profile: &Profile, heights_um: &[f64]) -> Vec<Para
     let moment = |value: f64| if value.is_nan() { Err("the line is flat".to_owned()) } else { Ok(value) };
     add("a", Ok(profile.a), "um", "arithmetical mean height of the profile");
     add("q", Ok(profile.q), "um", "root mean square height of the profile");
-    if kind != Kind::Primary {
+    if kind != ProfileKind::Primary {
         add("z", Ok(profile.z), "um", "mean of the heights of the sections");
     }
     add("t", Ok(profile.t), "um", "height of the whole profile");
     let of_sections =
-        |whole: &'static str, sections: &'static str| if kind == Kind::Primary { whole } else { sections };
+        |whole: &'static str, sections: &'static str| if kind == ProfileKind::Primary { whole } else { sections };
     add(
         "p",
         Ok(profile.p),
@@ -103,7 +103,7 @@ pub fn of_profile(kind: Kind, profile: &Profile, heights_um: &[f64]) -> Vec<Para
         of_sections("height of the highest peak", "mean of the highest peaks of the sections"),
     );
     add("v", Ok(profile.v), "um", of_sections("depth of the deepest pit", "mean of the deepest pits of the sections"));
-    if kind != Kind::Primary {
+    if kind != ProfileKind::Primary {
         add("zx", Ok(profile.zx), "um", "largest height within one section's length anywhere on the profile");
     }
     add("sk", moment(profile.sk), "1", "skewness of the profile");
@@ -130,7 +130,7 @@ pub fn of_profile(kind: Kind, profile: &Profile, heights_um: &[f64]) -> Vec<Para
 
 /// One parameter over several lines.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Spread {
+pub struct ParameterRange {
     /// The parameter; its value is the mean over the lines that have one.
     pub mean: Parameter,
     /// Least and largest value; none where no line has one.
@@ -140,7 +140,7 @@ pub struct Spread {
 }
 
 /// The profile set of several lines: mean, least and largest of every parameter.
-pub fn of_profiles(profiles: &Profiles, heights_um: &[f64]) -> Vec<Spread> {
+pub fn of_profiles(profiles: &Profiles, heights_um: &[f64]) -> Vec<ParameterRange> {
     let of_lines: Vec<Vec<Parameter>> =
         profiles.lines.iter().flatten().map(|line| of_profile(profiles.kind, line, heights_um)).collect();
     let Some(first) = of_lines.first() else { return Vec::new() };
@@ -152,7 +152,7 @@ pub fn of_profiles(profiles: &Profiles, heights_um: &[f64]) -> Vec<Spread> {
         }
         let least = values.iter().copied().reduce(f64::min);
         let range = least.zip(values.iter().copied().reduce(f64::max)).map(<[f64; 2]>::from);
-        Spread { mean, range, lines: values.len() }
+        ParameterRange { mean, range, lines: values.len() }
     };
     (0..first.len()).map(spread).collect()
 }

@@ -1,6 +1,6 @@
 //! The chain of profiles (ISO 21920): from traced lines to P-, W- and R-parameters.
 //!
-//! In: one or more [`Trace`]s of equal spacing, as they were measured or cut, and a [`ProfileChain`]. Out:
+//! In: one or more [`ProfileTrace`]s of equal spacing, as they were measured or cut, and a [`ProfileChain`]. Out:
 //! [`Profiles`], a [`Profile`] for each line, and in words what was done to them. A line never comes from a surface
 //! that was filtered: an areal L-filter keeps the long waves of a trace wherever short ones cross it (feed marks that
 //! lean), and is no cut-off.
@@ -25,7 +25,7 @@ use super::line_filter::low_pass;
 use super::line_form::LineForm;
 use super::profile::Profile;
 use super::setting_class::{CLASSES, SettingClass};
-use super::trace::{Bridged, Trace};
+use super::trace::{Bridged, ProfileTrace};
 
 /// Sections of ISO 21920-3.
 const SECTIONS: usize = 5;
@@ -41,7 +41,7 @@ const BRIDGE: f64 = 0.01;
 /// Which profile the parameters belong to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Kind {
+pub enum ProfileKind {
     /// Primary profile: no L-filter.
     Primary,
     /// What the L-filter takes off.
@@ -50,7 +50,7 @@ pub enum Kind {
     Roughness,
 }
 
-impl Kind {
+impl ProfileKind {
     /// First letter of its parameters.
     pub fn letter(self) -> char {
         match self {
@@ -89,7 +89,7 @@ pub enum ShortFilter {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct ProfileChain {
     /// Profile whose parameters are wanted.
-    pub kind: Kind,
+    pub kind: ProfileKind,
     /// F-operator.
     pub form: LineForm,
     /// S-filter (lambda_s).
@@ -111,7 +111,7 @@ pub struct ProfileChain {
 impl Default for ProfileChain {
     fn default() -> Self {
         Self {
-            kind: Kind::Roughness,
+            kind: ProfileKind::Roughness,
             form: LineForm::Line,
             s_filter: ShortFilter::OfClass,
             cutoff: CutOff::Estimated,
@@ -128,7 +128,7 @@ impl Default for ProfileChain {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Profiles {
     /// Which profile.
-    pub kind: Kind,
+    pub kind: ProfileKind,
     /// What was done, step by step.
     pub words: Vec<String>,
     /// The cut-off, um; none of a primary profile.
@@ -151,7 +151,7 @@ struct Layout {
 }
 
 /// A chosen cut-off, and why it is that.
-struct Chosen {
+struct ChosenCutOff {
     um: f64,
     words: String,
 }
@@ -162,7 +162,7 @@ impl ProfileChain {
     /// # Errors
     /// No line at all, lines of which none can be used, a cut-off or sections that do not suit them, or a filter that
     /// does not settle.
-    pub fn evaluate(&self, traces: &[Trace]) -> Result<Profiles, String> {
+    pub fn evaluate(&self, traces: &[ProfileTrace]) -> Result<Profiles, String> {
         let spacing_um = traces.first().ok_or("there is no line to evaluate")?.spacing_um();
         if traces.iter().any(|trace| (trace.spacing_um() / spacing_um - 1.0).abs() > 1e-9) {
             return Err("lines of one evaluation must have equal spacing".to_owned());
@@ -179,8 +179,8 @@ impl ProfileChain {
             .map(|line| self.form.removed(&line.as_ref().map_err(Clone::clone)?.heights_um, spacing_um))
             .collect();
         let chosen = match self.kind {
-            Kind::Primary => None,
-            Kind::Waviness | Kind::Roughness => Some(self.chosen(&leveled, spacing_um, length_um)?),
+            ProfileKind::Primary => None,
+            ProfileKind::Waviness | ProfileKind::Roughness => Some(self.chosen(&leveled, spacing_um, length_um)?),
         };
         let cutoff_um = chosen.as_ref().map(|chosen| chosen.um);
         let (s_um, s_words) = self.short(cutoff_um, spacing_um)?;
@@ -201,10 +201,10 @@ impl ProfileChain {
         let evaluation_um = steps as f64 * spacing_um;
         let l_words = match chosen {
             None => "none: primary profile".to_owned(),
-            Some(Chosen { words, .. }) if self.robust => {
+            Some(ChosenCutOff { words, .. }) if self.robust => {
                 format!("robust Gaussian, ISO 16610-31, {words}, {rounds} rounds")
             }
-            Some(Chosen { words, .. }) => format!("Gaussian, ISO 16610-21, {words}"),
+            Some(ChosenCutOff { words, .. }) => format!("Gaussian, ISO 16610-21, {words}"),
         };
         let words = vec![
             format!("holes: {}", holes(&good)),
@@ -229,7 +229,7 @@ impl ProfileChain {
         }
         let Some(cutoff_um) = cutoff_um else { return Ok((line, None)) };
         let (waves, rounds) = low_pass(&line, spacing_um, cutoff_um, self.robust)?;
-        if self.kind == Kind::Waviness {
+        if self.kind == ProfileKind::Waviness {
             return Ok((waves, rounds));
         }
         Ok((line.iter().zip(&waves).map(|(z, w)| z - w).collect(), rounds))
@@ -242,7 +242,12 @@ impl ProfileChain {
     }
 
     /// Cut-off for lines after their form.
-    fn chosen(&self, leveled: &[Result<Vec<f64>, String>], spacing_um: f64, length_um: f64) -> Result<Chosen, String> {
+    fn chosen(
+        &self,
+        leveled: &[Result<Vec<f64>, String>],
+        spacing_um: f64,
+        length_um: f64,
+    ) -> Result<ChosenCutOff, String> {
         let (wanted, of) = match self.cutoff {
             CutOff::Um(um) if um < POINTS * spacing_um => {
                 return Err(format!(
@@ -250,7 +255,7 @@ impl ProfileChain {
                     short(spacing_um)
                 ));
             }
-            CutOff::Um(um) => return Ok(Chosen { um, words: format!("cut-off {um} um") }),
+            CutOff::Um(um) => return Ok(ChosenCutOff { um, words: format!("cut-off {um} um") }),
             CutOff::OfRaLimit(ra) => (SettingClass::of_ra(ra), format!("for a limit of Ra {ra} um")),
             CutOff::OfRzLimit(rz) => (SettingClass::of_rz(rz), format!("for a limit of Rz {rz} um")),
             CutOff::Estimated => {
@@ -284,7 +289,7 @@ impl ProfileChain {
                 short(1e-3 * length_um)
             )
         };
-        Ok(Chosen { um: taken.cutoff_um, words })
+        Ok(ChosenCutOff { um: taken.cutoff_um, words })
     }
 
     /// Nesting index of the S-filter, and words on it.
@@ -423,15 +428,15 @@ mod tests {
     use super::*;
     use std::f64::consts::{PI, TAU};
 
-    fn trace(count: usize, spacing_um: f64, at: impl Fn(f64) -> f64) -> Trace {
-        Trace::new((0..count).map(|i| at(i as f64 * spacing_um)).collect(), spacing_um).expect("a line")
+    fn trace(count: usize, spacing_um: f64, at: impl Fn(f64) -> f64) -> ProfileTrace {
+        ProfileTrace::new((0..count).map(|i| at(i as f64 * spacing_um)).collect(), spacing_um).expect("a line")
     }
 
     fn wave(x: f64, length: f64) -> f64 {
         (TAU * x / length).sin()
     }
 
-    fn one(chain: &ProfileChain, trace: &Trace) -> (Profile, Vec<String>) {
+    fn one(chain: &ProfileChain, trace: &ProfileTrace) -> (Profile, Vec<String>) {
         let found = chain.evaluate(std::slice::from_ref(trace)).expect("a line that suits");
         (found.lines[0].clone().expect("a profile"), found.words)
     }
@@ -454,14 +459,14 @@ mod tests {
         assert!(words.iter().any(|w| w.contains("5 of 800 um in the middle")), "{words:?}");
         // What is called primary is all of it, what is called waviness the rest of the wave.
         let of_kind = |kind| one(&ProfileChain { kind, ..chain }, &line).0;
-        near(of_kind(Kind::Primary).q, (0.5 * 1.01_f64).sqrt(), 1e-3);
-        near(of_kind(Kind::Waviness).q, 2_f64.powf(-0.04) / 2_f64.sqrt(), 1e-3);
+        near(of_kind(ProfileKind::Primary).q, (0.5 * 1.01_f64).sqrt(), 1e-3);
+        near(of_kind(ProfileKind::Waviness).q, 2_f64.powf(-0.04) / 2_f64.sqrt(), 1e-3);
     }
 
     #[test]
     fn the_class_gives_the_cutoff_and_a_short_line_the_next_that_fits() {
         let rough = |x: f64| 0.5 * wave(x, 50.0);
-        let cutoff = |line: &Trace, cutoff| {
+        let cutoff = |line: &ProfileTrace, cutoff| {
             let chain = ProfileChain { cutoff, ..ProfileChain::default() };
             let found = chain.evaluate(std::slice::from_ref(line)).expect("a line that suits");
             (found.cutoff_um.expect("a cut-off"), found.words[3].clone())
@@ -472,8 +477,8 @@ mod tests {
         assert_eq!(cutoff(&long, CutOff::OfRaLimit(0.1)).0, 250.0);
         assert_eq!(cutoff(&long, CutOff::OfRzLimit(0.1)).0, 80.0);
         let (um, words) = cutoff(&trace(3201, 1.0, rough), CutOff::OfRaLimit(0.8));
-        let because = "250 um, because 800 um (Sc3 of ISO 21920-3 for a limit of Ra 0.8 um) with its sections and run-in \
-                       needs 4.8 mm, and the line is 3.2 mm long";
+        let because = "250 um, because 800 um (Sc3 of ISO 21920-3 for a limit of Ra 0.8 um) with its sections and \
+                       run-in needs 4.8 mm, and the line is 3.2 mm long";
         assert!(um == 250.0 && words.contains(because), "{words}");
         // Smooth waves far longer than any cut-off do not make the cut-off shrink to nothing.
         let (um, _) = cutoff(&trace(6001, 1.0, |x| 0.3 * wave(x, 500.0)), CutOff::Estimated);
@@ -509,12 +514,12 @@ mod tests {
         let at = |x: f64| 0.5 * wave(x, 25.0);
         let mut heights: Vec<f64> = (0..400).map(|i| at(f64::from(i) * 0.5)).collect();
         heights[137] = f64::NAN;
-        let (profile, words) = one(&ProfileChain::default(), &Trace::new(heights.clone(), 0.5).expect("a line"));
+        let (profile, words) = one(&ProfileChain::default(), &ProfileTrace::new(heights.clone(), 0.5).expect("a line"));
         // 119.5 um hold 4.78 waves, and as many half waves too few.
         near(profile.a, 1.0 / PI, 0.03);
         assert_eq!(words[0], "holes: 1 of 1 points in all, bridged by straight lines, the longest over 1 um");
         heights[140..160].fill(f64::NAN);
-        let holed = Trace::new(heights, 0.5).expect("a line");
+        let holed = ProfileTrace::new(heights, 0.5).expect("a line");
         let refused = ProfileChain::default().evaluate(std::slice::from_ref(&holed)).expect_err("a long hole");
         assert!(refused.contains("bridged up to 1.9950 um"), "{refused}");
         // Beside a good line the holed one is the only one without parameters.

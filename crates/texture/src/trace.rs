@@ -14,7 +14,7 @@ const FEWEST: usize = 10;
 
 /// Heights along a line.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Trace {
+pub struct ProfileTrace {
     heights_um: Vec<f64>,
     spacing_um: f64,
 }
@@ -34,7 +34,7 @@ pub struct Bridged {
     pub cut_off: usize,
 }
 
-impl Trace {
+impl ProfileTrace {
     /// Heights (um, NaN or infinite in holes) at equal distances.
     ///
     /// # Errors
@@ -141,22 +141,23 @@ mod tests {
         for i in [0, 1, 5, 9, 10, 11, 19] {
             heights[i] = f64::NAN;
         }
-        let trace = Trace::new(heights, 2.0).expect("a line");
+        let trace = ProfileTrace::new(heights, 2.0).expect("a line");
         let line = trace.bridged(8.0).expect("bridged");
         assert_eq!(line.heights_um, (2..19).map(f64::from).collect::<Vec<_>>());
         assert_eq!((line.points, line.holes, line.longest_um, line.cut_off), (4, 2, 8.0, 3));
         let refused = trace.bridged(7.9).expect_err("too long");
         assert!(refused.contains("3 points, 8.0000 um long, 16.0000 um from its start"), "{refused}");
-        let single = Trace::new((0..12).map(|i| if i == 4 { f64::NAN } else { 1.0 }).collect(), 2.0).expect("a line");
+        let single =
+            ProfileTrace::new((0..12).map(|i| if i == 4 { f64::NAN } else { 1.0 }).collect(), 2.0).expect("a line");
         assert_eq!(single.bridged(0.0).expect("one missing point is bridged always").points, 1);
     }
 
     #[test]
     fn lines_are_checked() {
-        assert!(Trace::new(vec![0.0; 9], 1.0).expect_err("short").contains("9 points"));
-        assert!(Trace::new(vec![0.0; 20], 0.0).expect_err("spacing").contains("spacing"));
-        assert!(Trace::new(vec![2e6; 20], 1.0).expect_err("too high").contains("point 1"));
-        let empty = Trace::new(vec![f64::NAN; 20], 1.0).expect("holes alone");
+        assert!(ProfileTrace::new(vec![0.0; 9], 1.0).expect_err("short").contains("9 points"));
+        assert!(ProfileTrace::new(vec![0.0; 20], 0.0).expect_err("spacing").contains("spacing"));
+        assert!(ProfileTrace::new(vec![2e6; 20], 1.0).expect_err("too high").contains("point 1"));
+        let empty = ProfileTrace::new(vec![f64::NAN; 20], 1.0).expect("holes alone");
         assert!(empty.bridged(100.0).expect_err("nothing measured").contains("only 0 points"));
     }
 }

@@ -6,9 +6,9 @@
 
 use gearcut::Refusal;
 use gearcut::measure::topography::line_form::LineForm;
-use gearcut::measure::topography::parameters::{Spread, of_profiles};
-use gearcut::measure::topography::profile_chain::{CutOff, Kind, ProfileChain, Profiles, ShortFilter};
-use gearcut::measure::topography::{Surface, Trace};
+use gearcut::measure::topography::parameters::{ParameterRange, of_profiles};
+use gearcut::measure::topography::profile_chain::{CutOff, ProfileChain, ProfileKind, Profiles, ShortFilter};
+use gearcut::measure::topography::{ProfileTrace, Surface};
 use gearcut::output::text::{Sheet, plain};
 use serde_json::{Value, json};
 
@@ -19,7 +19,7 @@ use super::{by_symbol, number, row, table};
 pub(super) struct Lines {
     title: String,
     places_um: Vec<f64>,
-    found: Result<(Profiles, Vec<Spread>), String>,
+    found: Result<(Profiles, Vec<ParameterRange>), String>,
     limits: Vec<(&'static str, f64)>,
 }
 
@@ -69,8 +69,9 @@ pub(super) fn check(arguments: &TextureArguments) -> Result<(), Refusal> {
 pub(super) fn evaluated(arguments: &TextureArguments, surface: &Surface) -> Result<Vec<Lines>, Refusal> {
     let wished = &arguments.lines;
     let lines_at = |title: String, across: char, indices: &[usize]| {
-        let trace = |&i: &usize| if across == 'y' { Trace::row(surface, i) } else { Trace::column(surface, i) };
-        let traces = indices.iter().map(trace).collect::<Result<Vec<Trace>, String>>();
+        let trace =
+            |&i: &usize| if across == 'y' { ProfileTrace::row(surface, i) } else { ProfileTrace::column(surface, i) };
+        let traces = indices.iter().map(trace).collect::<Result<Vec<ProfileTrace>, String>>();
         let step_um = if across == 'y' { surface.dy_um() } else { surface.dx_um() };
         let places_um = indices.iter().map(|&i| i as f64 * step_um).collect();
         of_traces(arguments, title, places_um, traces)
@@ -97,7 +98,7 @@ pub(super) fn of_traces(
     arguments: &TextureArguments,
     title: String,
     places_um: Vec<f64>,
-    traces: Result<Vec<Trace>, String>,
+    traces: Result<Vec<ProfileTrace>, String>,
 ) -> Lines {
     let found = traces.and_then(|traces| chain(arguments).evaluate(&traces)).map(|profiles| {
         let spread = of_profiles(&profiles, &arguments.at_height_um);
@@ -118,9 +119,9 @@ fn chain(arguments: &TextureArguments) -> ProfileChain {
     };
     ProfileChain {
         kind: match wished.profile {
-            ProfileChoice::R => Kind::Roughness,
-            ProfileChoice::W => Kind::Waviness,
-            ProfileChoice::P => Kind::Primary,
+            ProfileChoice::R => ProfileKind::Roughness,
+            ProfileChoice::W => ProfileKind::Waviness,
+            ProfileChoice::P => ProfileKind::Primary,
         },
         form: match wished.line_form {
             LineFormChoice::None => LineForm::None,

@@ -2,7 +2,7 @@
 
 use gearcut::Refusal;
 use gearcut::measure::topography::prepare::{Axis, Preparation, RectangleUm, Turn};
-use gearcut::measure::topography::{Surface, Trace};
+use gearcut::measure::topography::{ProfileTrace, Surface};
 use gearcut::output::surface_files::{Content, Format, Given, read};
 use std::path::{Path, PathBuf};
 
@@ -12,7 +12,7 @@ use crate::cli::failure::Failure;
 /// A file that was read and made ready.
 pub enum Found {
     Surface(Reading<Surface>),
-    Profile(Reading<Trace>),
+    Profile(Reading<ProfileTrace>),
 }
 
 /// A surface or a profile.

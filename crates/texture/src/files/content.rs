@@ -6,7 +6,7 @@
 use super::units::LengthUnit;
 use super::{SpacingUm, SurfaceFile};
 use crate::surface::Surface;
-use crate::trace::Trace;
+use crate::trace::ProfileTrace;
 
 /// What is known of a file beside it: needed where the file does not say it, refused where the file says otherwise.
 #[derive(Debug, Clone, Copy, Default)]
@@ -34,7 +34,7 @@ pub enum Content {
     /// Heights on a grid.
     Surface(Surface),
     /// Heights along one line.
-    Trace(Trace),
+    Trace(ProfileTrace),
 }
 
 impl Content {
@@ -44,8 +44,8 @@ impl Content {
             return Err(format!("{} heights do not fill a grid of {nx} x {ny}", heights_um.len()));
         }
         match (nx, ny) {
-            (_, 1) => Trace::new(heights_um, dx_um).map(Self::Trace),
-            (1, _) => Trace::new(heights_um, dy_um).map(Self::Trace),
+            (_, 1) => ProfileTrace::new(heights_um, dx_um).map(Self::Trace),
+            (1, _) => ProfileTrace::new(heights_um, dy_um).map(Self::Trace),
             _ => Surface::new(nx, ny, dx_um, dy_um, heights_um).map(Self::Surface),
         }
     }
