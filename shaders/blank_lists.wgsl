@@ -1,7 +1,7 @@
 // Lists of spans on their way: one after the other as the host has them, slot by slot as the kernel does.
 //
-// One thread per ray. To the device: spreads the spans of its ray over the slots. Back: takes a place among those of all
-// rays and puts them there; which ray comes first does not matter, because every ray says where its own begin.
+// One thread per ray. To the device: spreads the spans of its ray over the slots. Back: takes a place among those of
+// all rays and puts them there; which ray comes first does not matter, because every ray says where its own begin.
 
 @group(0) @binding(0) var<uniform> launch: StrokeLaunch;
 @group(0) @binding(1) var<storage, read_write> spans: array<BlankSpan>;

@@ -4,7 +4,8 @@
 // what every pass removed, in fixed point, so that the sum does not depend on the order of threads; lists the pieces
 // that were taken, in any order, if the host asks for them. A list that has no room says how much it needs, and the
 // host comes back with more. A pass is a closed curve and nothing else: the section of a hob tooth's sweep. Twin:
-// crates/core/src/cut/cpu/blank_sweeps.rs. Adds at most four ulps to an end that its ray meets at 45 degrees or steeper.
+// crates/core/src/cut/cpu/blank_sweeps.rs. Adds at most four ulps to an end that its ray meets at 45 degrees or
+// steeper.
 
 @group(0) @binding(0) var<uniform> launch: BlankLaunch;
 @group(0) @binding(1) var<storage, read> tiles: array<BlankTile>;

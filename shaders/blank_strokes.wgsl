@@ -1,14 +1,14 @@
 // Takes strokes of a shaper cutter from rays through the blank, in order of time.
 //
-// One thread per ray, one workgroup per tile. Reads launch, tiles, visits, passes, outlines of the teeth; rewrites spans
-// and rays; adds what every pass removed, in fixed point, so that the sum does not depend on the order of threads; keeps
-// the longest material that a return stroke met on a ray of the tile. A list that has no room says how much it needs,
-// and the host comes back with more. Twin: crates/core/src/cut/cpu/blank.rs (derivation there). Adds at most 30 nm to an
-// end that its ray meets at 45 degrees or steeper.
+// One thread per ray, one workgroup per tile. Reads launch, tiles, visits, passes, outlines of the teeth; rewrites
+// spans and rays; adds what every pass removed, in fixed point, so that the sum does not depend on the order of
+// threads; keeps the longest material that a return stroke met on a ray of the tile. A list that has no room says how
+// much it needs, and the host comes back with more. Twin: crates/core/src/cut/cpu/blank.rs (derivation there). Adds at
+// most 30 nm to an end that its ray meets at 45 degrees or steeper.
 //
-// A tooth's outline is a closed chain of cubics. Each thread goes round it once, with places across its own ray: a piece
-// that turns back there is split at its turning point. Neighbours share the bits of their node, so that crossings come
-// in pairs, whatever rounding does.
+// A tooth's outline is a closed chain of cubics. Each thread goes round it once, with places across its own ray: a
+// piece that turns back there is split at its turning point. Neighbours share the bits of their node, so that crossings
+// come in pairs, whatever rounding does.
 
 @group(0) @binding(0) var<uniform> launch: StrokeLaunch;
 @group(0) @binding(1) var<storage, read> tiles: array<StrokeTile>;

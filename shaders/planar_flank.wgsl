@@ -24,8 +24,8 @@ const WORKGROUP_THREADS: u32 = 64u;
 override FROZEN: bool = false;
 // Some of the records are arcs: software adapters pay for both ways of entering whichever is taken.
 override ARCS: bool = true;
-// Quads of four rows that a thread cuts, one or two. On a software adapter a record is read once for both, and while one
-// waits for a division the other goes on; on a GPU other waves do that, as long as registers leave room for them.
+// Quads of four rows that a thread cuts, one or two. On a software adapter a record is read once for both, and while
+// one waits for a division the other goes on; on a GPU other waves do that, as long as registers leave room for them.
 override QUADS_PER_THREAD: u32 = 2u;
 
 // A column's ray in a record's segment: coefficients of tau^0 to tau^3.

@@ -1,7 +1,8 @@
 // Lowers dexels whose rays stand anywhere in space by every sweep that their tile visits.
 //
-// One thread per group of rows of a column, its lanes (one row on GPUs, four on software adapters: `shared/lanes_*.wgsl`); one workgroup row (y) per tile, so that records are read in step. Reads tiles,
-// records, cells, rays; lowers heights and passes in place; counts iterations that stopped short. Twin:
+// One thread per group of rows of a column, its lanes (one row on GPUs, four on software adapters:
+// `shared/lanes_*.wgsl`); one workgroup row (y) per tile, so that records are read in step. Reads tiles, records,
+// cells, rays; lowers heights and passes in place; counts iterations that stopped short. Twin:
 // crates/core/src/cut/cpu/spatial.rs; derivation: crates/core/src/passes/spatial/sweep.rs. Adds at most 2 nm to a
 // height.
 
@@ -148,7 +149,11 @@ fn spatial_flank(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocat
             var g_x = Lanes(1.0);
             var g_y: Lanes;
             if record.cells_per_mm > 0.0 {
-                let cell = clamp(floor(y.value * record.cells_per_mm), Lanes(record.first_cell), Lanes(record.last_cell));
+                let cell = clamp(
+                    floor(y.value * record.cells_per_mm),
+                    Lanes(record.first_cell),
+                    Lanes(record.last_cell),
+                );
                 let c = lane_cells(i32(record.base_cell), cell);
                 let from_cell = y.value - cell * record.cell_width_mm;
                 let inside = clamp(from_cell, Lanes(0.0), Lanes(record.cell_width_mm));

@@ -12,8 +12,8 @@ pub const WORKGROUP_THREADS: u32 = 64;
 /// Storage buffers that a stage binds at most: what WebGPU promises on every device.
 pub const STORAGE_BUFFERS: u32 = 8;
 
-/// How many rows of a flank a thread cuts. On a software adapter many rows hide the latency of divisions; on a GPU other
-/// waves do, as long as a thread takes few registers.
+/// How many rows of a flank a thread cuts. On a software adapter many rows hide the latency of divisions; on a GPU
+/// other waves do, as long as a thread takes few registers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Rows {
     /// Few: a GPU.

@@ -1,15 +1,16 @@
 //! The blank field of shaping on the GPU: strokes taken from rays in f32.
 //!
 //! In: a [`BlankField`], an operation, as [`gearcut_core::cut::cpu::blank`]. Out: the field after it and what every
-//! pass removed. The host places every tooth in f64 and hands over its pose alone; outlines go to the device once. Tiles
-//! of all slices and both families are cut in one submission ([`super::blank_strokes`]), a few thousand at a time.
+//! pass removed. The host places every tooth in f64 and hands over its pose alone; outlines go to the device once.
+//! Tiles of all slices and both families are cut in one submission ([`super::blank_strokes`]), a few thousand at a
+//! time.
 //!
 //! **Places.** A tooth's centre and the rays lie tens of millimetres from the axis, where an f32 resolves nanometres.
 //! Both go over as whole units, so that their difference is exact; the outline counts from the tooth's centre and is
 //! millimetres in size. Along the rays coordinates reach the blank's radius: 8 nm at 70 mm.
 //!
-//! Return strokes go through the shader in their turn: they take nothing and tell the longest material that they meet on
-//! a ray of each tile. Where and how deep a stroke rubs is worked out natively, on the tiles that met any.
+//! Return strokes go through the shader in their turn: they take nothing and tell the longest material that they meet
+//! on a ray of each tile. Where and how deep a stroke rubs is worked out natively, on the tiles that met any.
 
 use super::blank_strokes::StrokeWork;
 use super::context::Gpu;
@@ -30,8 +31,8 @@ use std::ops::Range;
 
 /// Tiles of one submission at most: they fill the largest GPU, and Ctrl-C is heard between submissions.
 const MOST_TILES: usize = 2048;
-/// Spans that a ray has room for at first, beside those it has: as many as a ray meets teeth of a gear of a hundred. Room
-/// costs memory of the device alone; a list without it costs all tiles of the submission a second time.
+/// Spans that a ray has room for at first, beside those it has: as many as a ray meets teeth of a gear of a hundred.
+/// Room costs memory of the device alone; a list without it costs all tiles of the submission a second time.
 const FIRST_ROOM: usize = 24;
 /// Material that a return stroke may meet on a ray unnoticed, mm: half the depth at which reports speak of rubbing, a
 /// dozen times what f32 may be off.

@@ -1,9 +1,9 @@
 //! Launches of the kernel `blank_strokes`: tiles of rays and the strokes that visit them, in one submission.
 //!
-//! In: tiles, poses and outlines, what is left on the rays. Out: what is left then, what every pass removed, the longest
-//! material that a return stroke met on each tile. Lists of spans go over one after the other, lie slot by slot while
-//! they are cut, and come back one after the other (`blank_lists`). The host waits twice: for how many spans there are,
-//! and for the spans.
+//! In: tiles, poses and outlines, what is left on the rays. Out: what is left then, what every pass removed, the
+//! longest material that a return stroke met on each tile. Lists of spans go over one after the other, lie slot by slot
+//! while they are cut, and come back one after the other (`blank_lists`). The host waits twice: for how many spans
+//! there are, and for the spans.
 //!
 //! No list has a fixed capacity: a ray without room stops, and the tiles are begun again with room for what it needed.
 //! Tiles that do not fit the device together go one half after the other.

@@ -1,4 +1,5 @@
-//! Pipelines of the stages that the crate `gearcut-shaders` holds: one for each variant, bindings from the shader itself.
+//! Pipelines of the stages that the crate `gearcut-shaders` holds: one for each variant, bindings from the shader
+//! itself.
 
 use super::device::Device;
 use super::problem::GpuProblem;

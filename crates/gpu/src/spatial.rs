@@ -1,9 +1,9 @@
 //! Rays in space on the device: composed tile by tile, sent in batches, brought back.
 //!
-//! In: field, plan of sweeps, layer. Out: the layer lowered. Some rows of a column make a **group**, the lanes of
-//! one thread: four on software adapters, one on GPUs; the groups of a tile follow each other, so that a batch is a run of tiles. As in [`super::compose`],
-//! everything large is subtracted here in f64: a record counts from the tile's middle ray at its start height on one
-//! side, from a base point of the segment near it on the other.
+//! In: field, plan of sweeps, layer. Out: the layer lowered. Some rows of a column make a **group**, the lanes of one
+//! thread: four on software adapters, one on GPUs; the groups of a tile follow each other, so that a batch is a run of
+//! tiles. As in [`super::compose`], everything large is subtracted here in f64: a record counts from the tile's middle
+//! ray at its start height on one side, from a base point of the segment near it on the other.
 //!
 //! A tile's dexels stay on the device while its records come in **rounds**, in their order: what is left does not
 //! depend on how they are split.
