@@ -44,7 +44,7 @@ fn masters_feel_a_gear_that_is_off_its_axis() {
 /// Such a flank turns back in its distance from the axis where the fillet begins; it rolls all the same.
 #[test]
 fn a_mate_cut_off_its_axis_rolls() {
-    let a = third_order(20, 420, 0.0);
+    let a = third_order(20, 4200, 0.0);
     let settings = ["mounting.eccentricity_um=10".to_owned()];
     let b = member::mate(&a, Mate { teeth: 42, kind: GearKind::External }, &settings).expect("a mate");
     let fit = Fit::new(&a.scene, &b.scene, 0).expect("they belong together");
@@ -75,7 +75,7 @@ fn wide_play_is_rolled() {
     for (a, b, play_um) in [
         (module_1(30, -0.08), module_1(40, -0.08), 160.0),
         (spur(20, "", 0.0), spur(50, RING, -0.5), 500.0),
-        (spur(17, "", -0.9), spur(31, "", -0.9), 1800.0),
+        (spur(25, "", -0.15), spur(40, "", -0.15), 300.0),
     ] {
         let options = PairOptions { source: FlankSource::Nominal, ..PairOptions::default() };
         let pair = rolled(&a, &b, &options);
@@ -84,6 +84,12 @@ fn wide_play_is_rolled() {
             assert!((um - play_um).abs() < 1e-3, "{um} um of {play_um}");
         }
         let sign = pair.fit.pitch.sign();
+        let found = pair.tight.as_ref().is_ok_and(|tight| tight.mean_um() * sign < 0.0);
+        assert!(found, "{play_um} um of play: {:?}", pair.tight.as_ref().err());
+        if sign < 0.0 {
+            // The ring's tips come below the driver's base circle before the flanks have closed.
+            continue;
+        }
         let moved_mm = pair.tight.as_ref().expect("a tight mesh").mean_um() / UM_PER_MM;
         // Closed form: 2 a (inv(alpha) - inv(alpha_w)) a / a_w of play left; to first order j / (2 tan(alpha)).
         let (distance_mm, alpha) = (pair.fit.pitch.center_distance_mm(), 20_f64.to_radians());

@@ -94,7 +94,7 @@ fn shifted_gears_run_without_play_at_the_distance_of_their_shifts() {
 fn a_named_distance_is_rolled_with_its_play() {
     let alpha = 20_f64.to_radians();
     for (teeth, shift, named_mm, more) in
-        [([20, 30], 0.0, 76.5, ""), ([20, 30], 0.25, 77.5, ""), ([20, 50], -0.2, 44.2, RING)]
+        [([20, 30], 0.0, 75.4, ""), ([20, 30], 0.25, 76.1, ""), ([20, 50], -0.2, 45.2, RING)]
     {
         let sign = if more.is_empty() { 1.0 } else { -1.0 };
         let apart = f64::from(teeth[1]) + sign * f64::from(teeth[0]);
@@ -114,6 +114,10 @@ fn a_named_distance_is_rolled_with_its_play() {
             let mm = pair.backlash[0].circumferential_mm;
             assert!((mm - expected_mm).abs() < 1e-7, "{teeth:?} at {named_mm}: {mm} mm, {expected_mm} expected");
             let tight = pair.tight.expect("a tight mesh");
+            if !more.is_empty() {
+                // The ring's tips come below the driver's base circle before the flanks have closed.
+                continue;
+            }
             let tight_mm = distance_mm_of_thickness(teeth, shift, thinned_mm, sign);
             let found_mm = named_mm + tight.mean_um() / UM_PER_MM;
             assert!((found_mm - tight_mm).abs() < 1e-6, "{teeth:?}: tight at {found_mm} mm, {tight_mm} expected");
