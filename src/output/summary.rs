@@ -248,7 +248,7 @@ mod tests {
         let text = sheet.into_text();
         assert!(text.contains("smallest normal stock         0.6772 mm\n"), "{text}");
         assert!(!text.contains("witness mark") && !text.contains("more 0 "), "none and nothing are left out: {text}");
-        assert!(text.contains("many words ...") && text.contains("and 26 more"), "{text}");
+        assert!(text.contains(" ...\n") && text.contains("and 26 more"), "{text}");
         found.headline.truncate(1);
         let mut sheet = Sheet::brief();
         print_brief(&found, &mut sheet, 33);
