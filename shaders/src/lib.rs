@@ -88,6 +88,14 @@ pub const fn planar_flank(rows: Rows) -> Stage {
     }
 }
 
+/// Dexels of a field that is uncut.
+pub const PLANAR_UNCUT: Stage = Stage {
+    name: "planar_uncut",
+    text: concat!(include_str!("../shared/records.wgsl"), include_str!("../planar_uncut.wgsl")),
+    bindings: &["launch", "blank_mm", "heights_mm", "passes"],
+    variants: &[&[]],
+};
+
 /// Place in the variants of [`planar_flank`].
 pub fn planar_variant(frozen: bool, arcs: bool) -> usize {
     2 * usize::from(frozen) + usize::from(arcs)
@@ -156,6 +164,7 @@ pub const fn spatial_flank(rows: Rows) -> Stage {
 pub const STAGES: &[Stage] = &[
     planar_flank(Rows::Many),
     planar_flank(Rows::Few),
+    PLANAR_UNCUT,
     spatial_flank(Rows::Many),
     spatial_flank(Rows::Few),
     BLANK_RAYS,

@@ -15,7 +15,7 @@ mod rows_between;
 
 use crate::job::{RAY_DEPTH_MODULES, RAY_HEIGHT_MODULES, ROOT_SPACING_MM, TIP_SPACING_MM, rows_z_mm};
 use crate::scene::Scene;
-use gearcut_core::cut::{Backend, CutStats};
+use gearcut_core::cut::{Backend, CutJob, CutLayers, CutStats};
 use gearcut_core::dexel::{Column, Field, Layer};
 use gearcut_core::error::Result;
 use gearcut_core::gear::blank::Blank;
@@ -23,6 +23,7 @@ use gearcut_core::passes::planar::strokes::StrokeLaw;
 use gearcut_core::passes::{CutPlan, StrokeSet};
 use gearcut_core::tool::PlanarTool;
 use glam::DVec2;
+use rayon::prelude::*;
 
 /// Rays of a fillet stay within this share of its radius: further out they would cross each other.
 const FILLET_SHARE: f64 = 0.8;
@@ -218,14 +219,59 @@ impl PlanarGear<'_> {
 
     /// Runs all operations over a field, each as its plan says.
     fn cut_planned(&self, backend: &dyn Backend, field: &Field, plans: &[CutPlan]) -> Result<(Vec<Layer>, CutStats)> {
+        let cut = backend.cut_jobs(&[CutJob { field, start: None, plans }])?;
+        self.covered(backend, field, plans, cut.into_iter().next().unwrap_or_default())
+    }
+
+    /// Layers as the kernels leave them, with the rays that strokes cover as a whole at their lowest. Such rays are
+    /// rare; where there are any, what follows is cut again from there.
+    fn covered(
+        &self,
+        backend: &dyn Backend,
+        field: &Field,
+        plans: &[CutPlan],
+        cut: CutLayers,
+    ) -> Result<(Vec<Layer>, CutStats)> {
         let mut layers: Vec<Layer> = Vec::with_capacity(self.operations.len());
         let mut stats = CutStats::default();
-        for (operation, plan) in self.operations.iter().zip(plans) {
-            let mut layer = layers.last().cloned().unwrap_or_else(|| field.blank_layer());
-            stats += backend.cut(field, plan, &mut layer)?;
-            covered::lower(field, operation.strokes, self.tool, &mut layer);
+        let mut cut = cut.into_iter();
+        while let Some((mut layer, met)) = cut.next() {
+            stats += met;
+            let is_lowered = covered::lower(field, self.operations[layers.len()].strokes, self.tool, &mut layer);
             layers.push(layer);
+            let rest = &plans[layers.len()..];
+            if is_lowered && !rest.is_empty() {
+                let again = backend.cut_jobs(&[CutJob { field, start: layers.last(), plans: rest }])?;
+                cut = again.into_iter().next().unwrap_or_default().into_iter();
+            }
         }
         Ok((layers, stats))
+    }
+
+    /// Runs all operations over those rows of some fields that differ, as [`Self::cut_distinct_rows`], all fields as
+    /// one job of the backend.
+    ///
+    /// # Errors
+    /// The backend's.
+    pub fn cut_fields(&self, backend: &dyn Backend, mut fields: Vec<Field>) -> Result<Vec<CutField>> {
+        if self.rests() && !self.rows_are_alike() {
+            // Most rows follow from a few, field by field.
+            return fields.into_par_iter().map(|field| self.cut_distinct_rows(backend, field)).collect();
+        }
+        if self.rows_are_alike() {
+            for field in &mut fields {
+                field.rows_z_mm.truncate(1);
+            }
+        }
+        let plans: Vec<Vec<CutPlan>> = fields.par_iter().map(|field| self.plans(field)).collect();
+        let jobs: Vec<CutJob> =
+            fields.iter().zip(&plans).map(|(field, plans)| CutJob { field, start: None, plans }).collect();
+        let cut = backend.cut_jobs(&jobs)?;
+        let cut: Vec<(Vec<Layer>, CutStats)> = (&fields, &plans, cut)
+            .into_par_iter()
+            .map(|(field, plans, cut)| self.covered(backend, field, plans, cut))
+            .collect::<Result<_>>()?;
+        let with = |(field, (layers, stats))| CutField { field, layers, stats };
+        Ok(fields.into_iter().zip(cut).map(with).collect())
     }
 }

@@ -11,7 +11,7 @@ use gearcut_core::cut::cpu::Cpu;
 use gearcut_core::cut::{Backend, CutStats, StageTime};
 use gearcut_core::dexel::Layer;
 use gearcut_core::error::Error;
-use gearcut_shaders::{BLANK_LISTS, BLANK_RAYS, BLANK_STROKES, Rows, planar_flank, spatial_flank};
+use gearcut_shaders::{BLANK_LISTS, BLANK_RAYS, BLANK_STROKES, PLANAR_UNCUT, Rows, planar_flank, spatial_flank};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// Batches on the device at once: one in work, one on its way.
@@ -44,6 +44,7 @@ pub struct GpuOptions {
 pub struct Gpu {
     pub(crate) device: Device,
     pub(crate) planar_flank: Vec<wgpu::ComputePipeline>,
+    pub(crate) planar_uncut: Vec<wgpu::ComputePipeline>,
     pub(crate) blank_rays: Vec<wgpu::ComputePipeline>,
     pub(crate) blank_strokes: Vec<wgpu::ComputePipeline>,
     pub(crate) blank_lists: Vec<wgpu::ComputePipeline>,
@@ -92,6 +93,7 @@ impl Gpu {
         let by_kind = if adapter.facts.kind == AdapterKind::Software { Rows::Many } else { Rows::Few };
         let rows = options.rows.unwrap_or(by_kind);
         let planar_flank = pipeline::pipelines(&device, &planar_flank(rows))?;
+        let planar_uncut = pipeline::pipelines(&device, &PLANAR_UNCUT)?;
         let blank_rays = pipeline::pipelines(&device, &BLANK_RAYS)?;
         let blank_strokes = pipeline::pipelines(&device, &BLANK_STROKES)?;
         let blank_lists = pipeline::pipelines(&device, &BLANK_LISTS)?;
@@ -100,6 +102,7 @@ impl Gpu {
         Ok(Self {
             device,
             planar_flank,
+            planar_uncut,
             blank_rays,
             blank_strokes,
             blank_lists,

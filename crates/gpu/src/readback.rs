@@ -1,7 +1,8 @@
-//! A batch on its way: sent to the device, cut there, brought back.
+//! Jobs on their way: sent to the device, cut there, brought back.
 //!
-//! In: a batch with its composed rounds and the layer's part. Out: heights, passes, the number of iterations that
-//! stopped short, the device's own time. Sending returns at once; the next batch is composed and sent while the device
+//! In: dexels, uncut or with a layer's part, and the steps over them with composed rounds. Out: after every step
+//! heights, passes, the number of iterations that stopped short; the device's own time. All jobs of a submission go
+//! together and come back together. Sending returns at once; the next submission is composed and sent while the device
 //! works on this one.
 
 use super::device::Device;
@@ -45,34 +46,71 @@ pub struct StageLaunch<'a> {
     pub workgroups: [u32; 2],
 }
 
-/// What goes to the device.
+/// Launches of a stage over the dexels of a job, in order; what they leave comes back.
+pub struct Step<'a> {
+    /// Bindings in order; heights, passes and the count of iterations that stopped short follow them.
+    pub inputs: Vec<Input<'a>>,
+    /// Launches in order.
+    pub launches: Vec<StageLaunch<'a>>,
+}
+
+/// Dexels before the first step.
+pub enum Before<'a> {
+    /// As they are here: heights and passes.
+    Layer(&'a [f32], &'a [u32]),
+    /// Uncut: the launch that says so, over so many bytes of heights.
+    Uncut {
+        /// Its pipeline.
+        pipeline: &'a wgpu::ComputePipeline,
+        /// Bindings before heights and passes.
+        inputs: [Input<'a>; 2],
+        /// Workgroups in both dimensions.
+        workgroups: [u32; 2],
+        /// Bytes of all heights.
+        bytes: usize,
+    },
+}
+
+impl Before<'_> {
+    fn bytes(&self) -> usize {
+        match self {
+            Self::Layer(heights_mm, _) => size_of_val(*heights_mm),
+            Self::Uncut { bytes, .. } => *bytes,
+        }
+    }
+}
+
+/// Dexels that stay on the device through some steps.
+pub struct Job<'a> {
+    /// What they are before.
+    pub before: Before<'a>,
+    /// Steps in order.
+    pub steps: Vec<Step<'a>>,
+}
+
+/// What goes to the device in one submission.
 pub struct Shipment<'a> {
     /// Name of the stage.
     pub stage: &'static str,
-    /// Bindings in order; heights, passes and the count of iterations that stopped short follow them.
-    pub inputs: &'a [Input<'a>],
     /// `UNIFORM` or `STORAGE`, whichever the stage reads records from.
     pub record_usage: Use,
-    /// Launches in order.
-    pub launches: &'a [StageLaunch<'a>],
-    /// Heights before.
-    pub heights_mm: &'a [f32],
-    /// Passes before.
-    pub passes: &'a [u32],
+    /// Jobs in order.
+    pub jobs: &'a [Job<'a>],
     /// Fill the outputs with ones (a NaN, an impossible id) before the work, so that nothing stale passes for a result.
     pub poison: bool,
 }
 
-/// A batch that the device works on.
+/// A submission that the device works on.
 pub struct InFlight {
     back: wgpu::Buffer,
     submission: wgpu::SubmissionIndex,
     mapped: mpsc::Receiver<Result<(), wgpu::BufferAsyncError>>,
-    dexel_bytes: usize,
+    /// Bytes of heights and number of steps of every job.
+    jobs: Vec<(usize, usize)>,
     timed: usize,
 }
 
-/// What came back.
+/// What a step left.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Returned {
     /// Heights, mm.
@@ -81,11 +119,12 @@ pub struct Returned {
     pub passes: Vec<u32>,
     /// Iterations that stopped short below the height that was there.
     pub unconverged: u32,
-    /// The device's own time for the launches, ns, if it can tell.
-    pub device_ns: Option<f64>,
 }
 
-/// Sends a batch.
+/// Bytes at the end of what a step brings back: its count of iterations, and nothing, so that stamps are aligned.
+const COUNT_BYTES: usize = 8;
+
+/// Sends jobs.
 ///
 /// # Errors
 /// The device is lost, or refuses memory or a call.
@@ -96,59 +135,92 @@ pub fn send(device: &Device, shipment: &Shipment) -> Result<InFlight, GpuProblem
             device.queue.write_buffer(&buffer, 0, bytes);
             buffer
         };
-        let shared: Vec<Option<wgpu::Buffer>> = shipment
-            .inputs
-            .iter()
-            .map(|input| match *input {
+        let shared = |inputs: &[Input]| -> Vec<Option<wgpu::Buffer>> {
+            let own = inputs.iter().map(|input| match *input {
                 Input::Shared { label, bytes, usage } => Some(buffer(label, bytes, usage)),
                 Input::Tiles | Input::Records => None,
-            })
-            .collect();
-        let heights = buffer("heights", bytemuck::cast_slice(shipment.heights_mm), Use::STORAGE | Use::COPY_SRC);
-        let passes = buffer("passes", bytemuck::cast_slice(shipment.passes), Use::STORAGE | Use::COPY_SRC);
-        let unconverged = buffer("unconverged", bytemuck::bytes_of(&0_u32), Use::STORAGE | Use::COPY_SRC);
-
-        let timed = if device.facts.timestamps { shipment.launches.len().min(TIMED_ROUNDS) } else { 0 };
+            });
+            own.collect()
+        };
+        let launches = shipment.jobs.iter().flat_map(|job| &job.steps).map(|step| step.launches.len()).sum::<usize>();
+        let timed = if device.facts.timestamps { launches.min(TIMED_ROUNDS) } else { 0 };
         let stamps = (timed > 0).then(|| Stamps::new(device, timed));
-        let dexel_bytes = size_of_val(shipment.heights_mm);
-        let back_bytes = 2 * dexel_bytes + 8 + STAMP_BYTES * timed;
+        let jobs: Vec<(usize, usize)> = shipment.jobs.iter().map(|job| (job.before.bytes(), job.steps.len())).collect();
+        let dexel_bytes: usize = jobs.iter().map(|(bytes, steps)| steps * (2 * bytes + COUNT_BYTES)).sum();
+        let back_bytes = dexel_bytes + STAMP_BYTES * timed;
         let back = empty(device, "back", back_bytes as u64, Use::MAP_READ | Use::COPY_DST);
         if shipment.poison {
             device.queue.write_buffer(&back, 0, &vec![0xFF; back_bytes]);
         }
 
         let mut encoder = device.handle.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-        for (index, launch) in shipment.launches.iter().enumerate() {
-            let tiles = buffer("tiles", launch.tiles, Use::STORAGE);
-            let records = buffer("records", launch.records, shipment.record_usage);
-            let inputs = shipment.inputs.iter().zip(&shared).map(|(input, shared)| match (input, shared) {
-                (Input::Records, _) => &records,
-                (_, Some(shared)) => shared,
-                (_, None) => &tiles,
-            });
+        let mut index = 0;
+        let mut run = |encoder: &mut wgpu::CommandEncoder,
+                       pipeline: &wgpu::ComputePipeline,
+                       buffers: &[&wgpu::Buffer],
+                       [x, y]: [u32; 2],
+                       is_timed: bool| {
             let entries: Vec<wgpu::BindGroupEntry> = (0..)
-                .zip(inputs.chain([&heights, &passes, &unconverged]))
+                .zip(buffers)
                 .map(|(binding, buffer)| wgpu::BindGroupEntry { binding, resource: buffer.as_entire_binding() })
                 .collect();
-            let pipeline = launch.pipeline;
             let group = device.handle.create_bind_group(&wgpu::BindGroupDescriptor {
                 label: None,
                 layout: &pipeline.get_bind_group_layout(0),
                 entries: &entries,
             });
-            let timestamp_writes = stamps.as_ref().filter(|_| index < timed).map(|s| s.writes(index));
+            let timestamp_writes = stamps.as_ref().filter(|_| is_timed && index < timed).map(|s| s.writes(index));
+            index += usize::from(is_timed);
             let mut pass = encoder
                 .begin_compute_pass(&wgpu::ComputePassDescriptor { label: Some(shipment.stage), timestamp_writes });
             pass.set_pipeline(pipeline);
             pass.set_bind_group(0, &group, &[]);
-            let [x, y] = launch.workgroups;
             pass.dispatch_workgroups(x, y, 1);
+        };
+        let mut place = 0;
+        for job in shipment.jobs {
+            let bytes = job.before.bytes();
+            let both = Use::STORAGE | Use::COPY_SRC | Use::COPY_DST;
+            let [heights, passes] = ["heights", "passes"].map(|label| empty(device, label, bytes as u64, both));
+            match &job.before {
+                Before::Layer(heights_mm, ids) => {
+                    device.queue.write_buffer(&heights, 0, bytemuck::cast_slice(heights_mm));
+                    device.queue.write_buffer(&passes, 0, bytemuck::cast_slice(ids));
+                }
+                Before::Uncut { pipeline, inputs, workgroups, .. } => {
+                    if shipment.poison {
+                        for buffer in [&heights, &passes] {
+                            device.queue.write_buffer(buffer, 0, &vec![0xFF; bytes]);
+                        }
+                    }
+                    let own = shared(inputs);
+                    let buffers: Vec<&wgpu::Buffer> = own.iter().flatten().chain([&heights, &passes]).collect();
+                    run(&mut encoder, pipeline, &buffers, *workgroups, false);
+                }
+            }
+            for step in &job.steps {
+                let own = shared(&step.inputs);
+                let unconverged = buffer("unconverged", bytemuck::bytes_of(&0_u32), Use::STORAGE | Use::COPY_SRC);
+                for launch in &step.launches {
+                    let tiles = buffer("tiles", launch.tiles, Use::STORAGE);
+                    let records = buffer("records", launch.records, shipment.record_usage);
+                    let inputs = step.inputs.iter().zip(&own).map(|(input, own)| match (input, own) {
+                        (Input::Records, _) => &records,
+                        (_, Some(own)) => own,
+                        (_, None) => &tiles,
+                    });
+                    let buffers: Vec<&wgpu::Buffer> = inputs.chain([&heights, &passes, &unconverged]).collect();
+                    run(&mut encoder, launch.pipeline, &buffers, launch.workgroups, true);
+                }
+                for (from, size) in [(&heights, bytes), (&passes, bytes), (&unconverged, 4)] {
+                    encoder.copy_buffer_to_buffer(from, 0, &back, place as u64, size as u64);
+                    place += size;
+                }
+                place += COUNT_BYTES - 4;
+            }
         }
-        encoder.copy_buffer_to_buffer(&heights, 0, &back, 0, dexel_bytes as u64);
-        encoder.copy_buffer_to_buffer(&passes, 0, &back, dexel_bytes as u64, dexel_bytes as u64);
-        encoder.copy_buffer_to_buffer(&unconverged, 0, &back, 2 * dexel_bytes as u64, 4);
         if let Some(stamps) = &stamps {
-            stamps.bring_back(&mut encoder, &back, 2 * dexel_bytes as u64 + 8, timed);
+            stamps.bring_back(&mut encoder, &back, dexel_bytes as u64, timed);
         }
         let submission = device.queue.submit([encoder.finish()]);
         let (sender, mapped) = mpsc::channel();
@@ -156,7 +228,7 @@ pub fn send(device: &Device, shipment: &Shipment) -> Result<InFlight, GpuProblem
             // Nobody listens any more when the batch was given up.
             let _ = sender.send(result);
         });
-        InFlight { back, submission, mapped, dexel_bytes, timed }
+        InFlight { back, submission, mapped, jobs, timed }
     })
 }
 
@@ -166,11 +238,12 @@ pub fn empty(device: &Device, label: &str, size: u64, usage: Use) -> wgpu::Buffe
 }
 
 impl InFlight {
-    /// Waits for the batch.
+    /// Waits for the submission: what every step of every job left, and the device's own time for all launches, ns, if
+    /// it can tell.
     ///
     /// # Errors
     /// The device is lost or silent, or refuses to give the result.
-    pub fn collect(self, device: &Device) -> Result<Returned, GpuProblem> {
+    pub fn collect(self, device: &Device) -> Result<(Vec<Vec<Returned>>, Option<f64>), GpuProblem> {
         let wait = wgpu::PollType::Wait { submission_index: Some(self.submission), timeout: Some(PATIENCE) };
         if device.checked(|| device.handle.poll(wait))?.is_err() {
             return Err(GpuProblem::Silent { seconds: PATIENCE.as_secs() });
@@ -182,14 +255,24 @@ impl InFlight {
             Err(_) => return Err(GpuProblem::Silent { seconds: PATIENCE.as_secs() }),
         }
         let view = device.checked(|| self.back.get_mapped_range(..))?.map_err(|error| lost(error.to_string()))?;
-        let (dexels, rest) = view.split_at(2 * self.dexel_bytes);
-        let (heights, passes) = dexels.split_at(self.dexel_bytes);
-        Ok(Returned {
-            heights_mm: bytemuck::pod_collect_to_vec(heights),
-            passes: bytemuck::pod_collect_to_vec(passes),
-            unconverged: bytemuck::pod_read_unaligned(&rest[..4]),
-            device_ns: (self.timed > 0).then(|| device_ns(device, &rest[8..])),
-        })
+        let mut rest = &view[..];
+        let mut jobs = Vec::with_capacity(self.jobs.len());
+        for &(bytes, steps) in &self.jobs {
+            let mut left = Vec::with_capacity(steps);
+            for _ in 0..steps {
+                let (heights, others) = rest.split_at(bytes);
+                let (passes, others) = others.split_at(bytes);
+                left.push(Returned {
+                    heights_mm: bytemuck::pod_collect_to_vec(heights),
+                    passes: bytemuck::pod_collect_to_vec(passes),
+                    unconverged: bytemuck::pod_read_unaligned(&others[..4]),
+                });
+                rest = &others[COUNT_BYTES..];
+            }
+            jobs.push(left);
+        }
+        let device_ns = (self.timed > 0).then(|| device_ns(device, rest));
+        Ok((jobs, device_ns))
     }
 }
 

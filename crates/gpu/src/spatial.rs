@@ -12,7 +12,7 @@ use super::batches::Allowance;
 use super::context::{Gpu, IN_FLIGHT};
 use super::edge_cells::EdgeCells;
 use super::problem::GpuProblem;
-use super::readback::{self, InFlight, Input, Returned, Shipment, StageLaunch};
+use super::readback::{self, Before, InFlight, Input, Job, Returned, Shipment, StageLaunch, Step};
 use super::sweep_records::{SpatialPass, SpatialTile};
 use gearcut_core::dexel::{Layer, SpatialField};
 use gearcut_core::passes::SweepPlan;
@@ -48,13 +48,14 @@ pub fn cut_on_device(
     let mut unconverged = 0;
     let mut waiting: Vec<(Range<usize>, InFlight)> = Vec::new();
     let mut collect = |(tiles, in_flight): (Range<usize>, InFlight)| -> Result<(), GpuProblem> {
-        let Returned { heights_mm, passes, unconverged: short, device_ns } = in_flight.collect(&gpu.device)?;
+        let (jobs, device_ns) = in_flight.collect(&gpu.device)?;
+        let Returned { heights_mm, passes, unconverged: short } = &jobs[0][0];
         for (at, dexel) in lanes(field, &plan.tiles[tiles], gpu.rows.lanes()).enumerate() {
             // Lanes beyond the last row repeat it, values and all.
             result.heights_mm[dexel] = heights_mm[at];
             result.passes[dexel] = passes[at];
         }
-        unconverged += u64::from(short);
+        unconverged += u64::from(*short);
         gpu.log().count(NAME, device_ns);
         Ok(())
     };
@@ -190,20 +191,19 @@ fn send(
     let passes: Vec<u32> = dexels.iter().map(|&at| layer.passes[at]).collect();
     let launches: Vec<StageLaunch> = rounds.iter().map(|round| round.launch(gpu)).collect();
     let shared = |label, bytes| Input::Shared { label, bytes, usage: wgpu::BufferUsages::STORAGE };
+    let inputs = vec![
+        Input::Tiles,
+        Input::Records,
+        shared("cells", bytemuck::cast_slice(&cells.cells)),
+        shared("rays", bytemuck::cast_slice(&rays)),
+    ];
+    let job = Job { before: Before::Layer(&heights_mm, &passes), steps: vec![Step { inputs, launches }] };
     readback::send(
         &gpu.device,
         &Shipment {
             stage: NAME,
-            inputs: &[
-                Input::Tiles,
-                Input::Records,
-                shared("cells", bytemuck::cast_slice(&cells.cells)),
-                shared("rays", bytemuck::cast_slice(&rays)),
-            ],
             record_usage: wgpu::BufferUsages::STORAGE,
-            launches: &launches,
-            heights_mm: &heights_mm,
-            passes: &passes,
+            jobs: &[job],
             poison: gpu.options.poison_outputs,
         },
     )

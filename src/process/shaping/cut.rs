@@ -12,6 +12,7 @@ use gearcut_core::cut::Backend;
 use gearcut_core::dexel::Field;
 use gearcut_core::error::Result;
 use gearcut_core::terms::Side;
+use rayon::prelude::*;
 
 impl ShapingJob {
     /// Runs all operations over a field.
@@ -21,6 +22,19 @@ impl ShapingJob {
     pub fn cut(&self, backend: &dyn Backend, field: Field) -> Result<CutField> {
         let rows_z_mm = field.rows_z_mm.clone();
         Ok(self.cut_distinct_rows(backend, field)?.over_rows(rows_z_mm))
+    }
+
+    /// Runs all operations over some fields, all of them as one job of the backend.
+    ///
+    /// # Errors
+    /// The backend's.
+    pub fn cut_fields(&self, backend: &dyn Backend, fields: Vec<Field>) -> Result<Vec<CutField>> {
+        if self.cutter_spec.edge_rounding.is_some() {
+            return fields.into_par_iter().map(|field| self.cut(backend, field)).collect();
+        }
+        let rows_z_mm: Vec<Vec<f64>> = fields.iter().map(|field| field.rows_z_mm.clone()).collect();
+        let cut = self.planar().cut_fields(backend, fields)?;
+        Ok(cut.into_iter().zip(rows_z_mm).map(|(cut, rows_z_mm)| cut.over_rows(rows_z_mm)).collect())
     }
 
     /// The same over those rows alone that differ, or over all of them.

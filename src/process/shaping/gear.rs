@@ -79,6 +79,9 @@ pub fn cut_gear(
     Ok(CutGear { report, chips, maps: cut.maps, surfaces: cut.surfaces, pictured: cut.pictured, roots, work })
 }
 
+/// Roots of one job of the backend: their fields are small, and so are their layers.
+const ROOTS_AT_ONCE: usize = 64;
+
 /// Cuts every root once, for the stock that operations find in it and, if meshes need it, for its surface; nothing
 /// where neither is asked for.
 fn cut_roots(
@@ -89,14 +92,17 @@ fn cut_roots(
     if job.operations.len() < 2 && !surfaces {
         return Ok(Vec::new());
     }
-    (1..=job.scene.gear.teeth)
-        .into_par_iter()
-        .map(|space| {
-            let cut = job.cut(backend, job.root_field(space))?;
+    let spaces: Vec<u32> = (1..=job.scene.gear.teeth).collect();
+    let mut roots = Vec::with_capacity(spaces.len());
+    for spaces in spaces.chunks(ROOTS_AT_ONCE) {
+        let fields = spaces.par_iter().map(|&space| job.root_field(space)).collect();
+        let cut = job.cut_fields(backend, fields)?;
+        roots.par_extend(spaces.par_iter().zip(cut).map(|(&space, cut)| {
             let surface = || SurfaceGrid::new(&cut.field, &cut.layers, job.scene.output.mesh_spacing_mm);
-            Ok((root_stock(space, &cut), surfaces.then(surface)))
-        })
-        .collect()
+            (root_stock(space, &cut), surfaces.then(surface))
+        }));
+    }
+    Ok(roots)
 }
 
 /// All strokes in order of time, space by space.

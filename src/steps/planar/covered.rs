@@ -46,10 +46,10 @@ impl BladeRegion {
     }
 }
 
-/// Puts rays that strokes cover at their lowest height.
-pub fn lower(field: &Field, strokes: &StrokeSet, tool: &dyn PlanarTool, layer: &mut Layer) {
+/// Puts rays that strokes cover at their lowest height; gives whether any stood higher.
+pub fn lower(field: &Field, strokes: &StrokeSet, tool: &dyn PlanarTool, layer: &mut Layer) -> bool {
     let columns = &field.columns;
-    let Some(middle) = columns.get(columns.len() / 2) else { return };
+    let Some(middle) = columns.get(columns.len() / 2) else { return false };
     let ends =
         |column: &Column| [UPPER_SHARE * column.low_mm, column.low_mm].map(|h| column.origin_mm + h * column.normal);
     let center_mm = ends(middle)[1];
@@ -93,16 +93,19 @@ pub fn lower(field: &Field, strokes: &StrokeSet, tool: &dyn PlanarTool, layer: &
     };
     let step = (columns.len() / (PROBES - 1)).max(1);
     if !columns.iter().step_by(step).chain(columns.last()).any(|column| by(column).is_some()) {
-        return;
+        return false;
     }
     let rows = field.rows();
+    let mut is_lowered = false;
     for (index, column) in columns.iter().enumerate() {
         let Some(pass) = by(column) else { continue };
         for dexel in index * rows..(index + 1) * rows {
             if layer.heights_mm[dexel] > column.low_mm as f32 {
                 layer.heights_mm[dexel] = column.low_mm as f32;
                 layer.passes[dexel] = pass;
+                is_lowered = true;
             }
         }
     }
+    is_lowered
 }

@@ -2,7 +2,7 @@
 
 use crate::fixtures::paper::*;
 use crate::fixtures::parity::*;
-use gearcut::cut::Backend;
+use gearcut::cut::{Backend, CutJob, cut_in_turn};
 use gearcut::dexel::{Column, Field};
 use gearcut::gpu::GpuOptions;
 use gearcut::gpu::shaders::Rows;
@@ -187,6 +187,40 @@ fn small_batches_give_the_same_bytes() {
     println!("{} batches against {}", many[0].batches, one[0].batches);
     assert!(many[0].batches > 50 * one[0].batches);
     assert!(whole == parts, "batches change the result");
+}
+
+/// Dexels are born on the device, all plans of a field run over them there, and fields share a submission.
+#[test]
+fn plans_in_turn_leave_the_bytes_of_plans_one_by_one() {
+    let operations = vec![operation("rough", NORMAL, 2.0, 360), operation("finish", NORMAL, 0.0, 720)];
+    let job = ShapingJob::new(paper_scene(operations)).expect("the paper's gear");
+    let mut fields: Vec<Field> = (5..8).map(|tooth| job.flank_field(job.target_flank(tooth, Side::Left))).collect();
+    fields.push(job.root_field(2));
+    // Rows that fill their quads, and rows that do not.
+    for (field, rows) in fields.iter_mut().zip([13, 16, 1, 7]) {
+        field.rows_z_mm.truncate(rows);
+    }
+    let plan = |field: &Field| -> Vec<CutPlan> {
+        job.operations.iter().map(|prepared| CutPlan::new(field, &prepared.strokes, &job.cutter)).collect()
+    };
+    let mut plans: Vec<Vec<CutPlan>> = fields.iter().map(plan).collect();
+    let jobs = |plans: &'_ [Vec<CutPlan>]| {
+        let gpu = software_gpu(strict());
+        let jobs: Vec<CutJob> =
+            fields.iter().zip(plans).map(|(field, plans)| CutJob { field, start: None, plans }).collect();
+        let together = gpu.cut_jobs(&jobs).expect("cuts");
+        (together, gpu.stage_times()[0].batches, cut_in_turn(&gpu, &jobs).expect("cuts"))
+    };
+    let (together, submissions, apart) = jobs(&plans);
+    assert!(together == apart, "layers or counts differ");
+    assert_eq!(submissions, 1);
+    // From a layer the plans go one by one, and end the same.
+    let gpu = software_gpu(strict());
+    let rest = CutJob { field: &fields[0], start: Some(&together[0][0].0), plans: &plans[0][1..] };
+    assert!(gpu.cut_jobs(&[rest]).expect("cuts")[0][0] == together[0][1]);
+    // Alive: a pass less in the first plan of the last field.
+    plans[3][0].tiles.iter_mut().for_each(|tile| tile.records.end = tile.records.start);
+    assert!(jobs(&plans).0 != together);
 }
 
 #[test]

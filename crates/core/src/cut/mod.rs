@@ -13,6 +13,7 @@ use crate::dexel::{BlankField, Field, Layer, SpatialField};
 use crate::error::Error;
 use crate::passes::sections::swept_sections::SweptSections;
 use crate::passes::{CutPlan, SweepPlan};
+use rayon::prelude::*;
 use std::ops::Range;
 use sweep_chips::SweepsCut;
 
@@ -56,6 +57,33 @@ pub struct StageTime {
     pub device_s: f64,
 }
 
+/// A field with the plans that run over it in turn.
+#[derive(Debug, Clone, Copy)]
+pub struct CutJob<'a> {
+    /// Rays.
+    pub field: &'a Field,
+    /// What is left on them before; `None`: they are uncut.
+    pub start: Option<&'a Layer>,
+    /// Plans in order.
+    pub plans: &'a [CutPlan],
+}
+
+/// What each plan of a job leaves, with what was met.
+pub type CutLayers = Vec<(Layer, CutStats)>;
+
+/// Runs the plans of every job one by one.
+///
+/// # Errors
+/// The backend's.
+pub fn cut_in_turn(backend: &(impl Backend + ?Sized), jobs: &[CutJob]) -> Result<Vec<CutLayers>, Error> {
+    let in_turn = |job: &CutJob| {
+        let mut layer = job.start.cloned().unwrap_or_else(|| job.field.blank_layer());
+        let each = |plan| backend.cut(job.field, plan, &mut layer).map(|stats| (layer.clone(), stats));
+        job.plans.iter().map(each).collect()
+    };
+    jobs.par_iter().map(in_turn).collect()
+}
+
 /// A machine that cuts.
 pub trait Backend: Sync {
     /// Name for the run record, with the instruction set or adapter.
@@ -71,6 +99,14 @@ pub trait Backend: Sync {
     /// # Errors
     /// Whatever keeps the backend from finishing; the layer is then unusable.
     fn cut(&self, field: &Field, plan: &CutPlan, layer: &mut Layer) -> Result<CutStats, Error>;
+
+    /// Runs the plans of every job in turn, each from what the one before has left.
+    ///
+    /// # Errors
+    /// As [`Self::cut`].
+    fn cut_jobs(&self, jobs: &[CutJob]) -> Result<Vec<CutLayers>, Error> {
+        cut_in_turn(self, jobs)
+    }
 
     /// Takes all strokes of an operation from the blank and checks its return strokes; `advance` is called after every
     /// tile and says whether to go on. `None`: stopped, the field is then as it was or partly cut.
