@@ -19,7 +19,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     std::fs::create_dir_all(&folder)?;
 
     let scene = gearcut::load(Path::new(&path), &[])?;
-    let job = Job::new(&scene)?;
+    let job = Job::new(scene)?;
     let flanks = [job.cut_flank(tooth, Side::Left)?, job.cut_flank(tooth, Side::Right)?];
 
     let middle = |flank: &Flank| flank.face_mm.len() / 2;
@@ -48,7 +48,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         least_division: 0.0,
     });
     let chart = LineChart {
-        title: format!("{}: tooth {tooth} in the middle of the face", scene.scene.name),
+        title: format!("{}: tooth {tooth} in the middle of the face", job.scene().scene.name),
         x_name: "arc from the form point".to_owned(),
         x_unit: "mm".to_owned(),
         panels: panels.collect(),

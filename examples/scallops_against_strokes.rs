@@ -9,6 +9,7 @@ use gearcut::{Job, Side};
 use std::error::Error;
 use std::f64::consts::TAU;
 use std::path::Path;
+use std::sync::Arc;
 
 const CUTTER_TEETH: f64 = 20.0;
 /// Scallops are looked at so far below and above the pitch circle, mm: far enough for several of the longest ones.
@@ -23,10 +24,10 @@ fn main() -> Result<(), Box<dyn Error>> {
             format!("operation.finish.strokes_per_revolution={strokes}"),
             "fields.flank.profile_spacing_um=2".to_owned(),
         ];
-        let scene = gearcut::load(Path::new(&path), &settings)?;
+        let scene = Arc::new(gearcut::load(Path::new(&path), &settings)?);
         let gear = &scene.scene.gear;
         let pitch_radius_mm = 0.5 * gear.module_mm * f64::from(gear.teeth);
-        let flank = Job::new(&scene)?.cut_flank(1, Side::Left)?;
+        let flank = Job::new(Arc::clone(&scene))?.cut_flank(1, Side::Left)?;
         let finish = flank.operation("finish").ok_or("the scene has no operation `finish`")?;
         let middle = flank.face_mm.len() / 2;
         let near_pitch_circle = |&column: &usize| {

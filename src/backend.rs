@@ -44,7 +44,7 @@ pub enum OnFailure {
 /// A backend and the reason for it, for the run record.
 pub struct Choice {
     /// The backend.
-    pub backend: Box<dyn Backend + Send>,
+    pub backend: Box<dyn Backend>,
     /// One line.
     pub why: String,
 }

@@ -74,18 +74,23 @@ pub trait GearJob: Sync {
     /// Where a tooth stands and which way it looks.
     fn tooth_frame(&self, tooth: u32) -> ToothFrame;
 
-    /// Arcs from the form point about `spacing_mm` apart, and points and normals of the target flank there, row after
-    /// row at the places `rows_mm` along the tooth.
+    /// Places along a target flank's profile about `spacing_mm` apart, arcs from the form point, mm, both ends
+    /// included.
     ///
     /// # Errors
     /// The tool generates no flank there.
-    fn target_points(
-        &self,
-        tooth: u32,
-        side: Side,
-        spacing_mm: f64,
-        rows_mm: &[f64],
-    ) -> Result<(Vec<f64>, Vec<Vec<Ray>>)>;
+    fn even_arcs_mm(&self, tooth: u32, side: Side, spacing_mm: f64) -> Result<Vec<f64>> {
+        let length_mm = self.profile_length_mm(tooth, side)?;
+        let intervals = (length_mm / spacing_mm).ceil().max(1.0);
+        Ok((0..=intervals as usize).map(|i| length_mm * i as f64 / intervals).collect())
+    }
+
+    /// Points and normals of the target flank at the arcs `arcs_mm` from the form point, row after row at the places
+    /// `rows_mm` along the tooth.
+    ///
+    /// # Errors
+    /// The tool generates no flank there.
+    fn target_points(&self, tooth: u32, side: Side, arcs_mm: &[f64], rows_mm: &[f64]) -> Result<Vec<Vec<Ray>>>;
 
     /// What every operation left on a part of a flank: arcs from the form point times places along the tooth, mm.
     ///
@@ -122,8 +127,7 @@ pub trait CylindricalGear: GearJob {
     /// straight.
     fn view_rows_z_mm(&self) -> Vec<f64>;
 
-    /// Arcs from the form point about `spacing_mm` apart, and the target flank's profile there in every section of
-    /// `rows_z_mm`.
+    /// The target flank's profile at the arcs `arcs_mm` from the form point in every section of `rows_z_mm`.
     ///
     /// # Errors
     /// The tool generates no flank there.
@@ -131,23 +135,16 @@ pub trait CylindricalGear: GearJob {
         &self,
         tooth: u32,
         side: Side,
-        spacing_mm: f64,
+        arcs_mm: &[f64],
         rows_z_mm: &[f64],
-    ) -> Result<(Vec<f64>, Vec<SectionProfile>)>;
+    ) -> Result<Vec<SectionProfile>>;
 
     /// [`GearJob::target_points`] from [`CylindricalGear::target_profiles`].
     ///
     /// # Errors
     /// The tool generates no flank there.
-    fn target_in_space(
-        &self,
-        tooth: u32,
-        side: Side,
-        spacing_mm: f64,
-        rows_z_mm: &[f64],
-    ) -> Result<(Vec<f64>, Vec<Vec<Ray>>)> {
-        let (arcs_mm, profiles) = self.target_profiles(tooth, side, spacing_mm, rows_z_mm)?;
-        Ok((arcs_mm, in_space(&profiles, rows_z_mm)))
+    fn target_in_space(&self, tooth: u32, side: Side, arcs_mm: &[f64], rows_z_mm: &[f64]) -> Result<Vec<Vec<Ray>>> {
+        Ok(in_space(&self.target_profiles(tooth, side, arcs_mm, rows_z_mm)?, rows_z_mm))
     }
 
     /// Root of the space after tooth `space` in every section of `rows_z_mm`, equally many points about `spacing_mm`

@@ -24,7 +24,7 @@
 //!     teeth = 20
 //! ";
 //! let scene = gearcut::parse(text, "round.toml", Path::new(""), &[])?;
-//! let job = gearcut::Job::new(&scene)?;
+//! let job = gearcut::Job::new(scene)?;
 //! let flank = job.cut_flank(7, Side::Left)?;
 //!
 //! let finish = flank.operation("finish").expect("the operation of a scene that lists none");
@@ -51,7 +51,7 @@
 //! use gearcut::{Part, Parts};
 //!
 //! let scene = gearcut::load(Path::new("scenes/shaping/elliptical_normal.toml"), &["gear.teeth=45".to_owned()])?;
-//! let job = gearcut::Job::new(&scene)?;
+//! let job = gearcut::Job::new(scene)?;
 //! let done = job.run().only(Parts::of([Part::Maps, Part::Report])).into_folder(Path::new("out/mine"))?;
 //! for entry in &done.findings.headline {
 //!     let quantity = &entry.quantity;

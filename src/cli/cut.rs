@@ -1,6 +1,7 @@
 //! `gearcut cut`: the whole job.
 
 use std::path::PathBuf;
+use std::sync::Arc;
 
 use gearcut::interrupt::Interrupt;
 use gearcut::output::progress::{Progress, ProgressMode};
@@ -41,8 +42,9 @@ pub fn run(arguments: &CutArguments) -> Result<(), Failure> {
             "draft: dexels 8, rays and cells of maps 4 times as far apart; deviations, chips and texture are rough",
         );
     }
+    let scene = Arc::new(scene);
     let explained = |error| Failure::of_scene(&scene, error);
-    let job = Job::new(&scene).map_err(explained)?.on(choice);
+    let job = Job::new(Arc::clone(&scene)).map_err(explained)?.on(choice);
     let done = job
         .run()
         .show(&progress)

@@ -183,8 +183,8 @@ fn at_pitch_curve(gear: &dyn GearJob, point: &MeasuredPoint) -> Result<(FlankGri
     let refuse = |problem: String| Refusal::new("--measured", problem, "leave out the chart of pitch");
     let cylinder = gear.cylindrical().ok_or_else(|| refuse("the gear has no pitch curve".to_owned()))?;
     let blank = cylinder.blank();
-    let spacing_mm = gear.profile_length_mm(tooth, side)? / CROSSING_PLACES;
-    let (arcs_mm, rows) = gear.target_points(tooth, side, spacing_mm, &[0.0])?;
+    let arcs_mm = gear.even_arcs_mm(tooth, side, gear.profile_length_mm(tooth, side)? / CROSSING_PLACES)?;
+    let rows = gear.target_points(tooth, side, &arcs_mm, &[0.0])?;
     let foot = |i: usize| {
         let place_mm = rows[0][i].origin_mm.truncate();
         blank.height(place_mm, place_mm.to_angle())

@@ -22,9 +22,6 @@ pub const WHOLE_FLANK: [usize; 2] = [21, 9];
 const RAD_PER_ARCSEC: f64 = PI / 180.0 / 3600.0;
 /// Share of the face that is left out at either end.
 const FACE_MARGIN: f64 = 0.05;
-/// Places along a profile at which points of the target are asked for; between them they are linear. Points and
-/// normals serve for directions alone.
-const TARGET_PLACES: f64 = 64.0;
 
 /// Places on a flank: arcs along the profile times places along the tooth.
 #[derive(Debug, Clone, PartialEq)]
@@ -47,19 +44,8 @@ impl FlankGrid {
     /// # Errors
     /// The tool generates no flank there.
     pub fn new(gear: &dyn GearJob, tooth: u32, side: Side, arcs_mm: Vec<f64>, faces_mm: Vec<f64>) -> Result<Self> {
-        let spacing_mm = gear.profile_length_mm(tooth, side)? / TARGET_PLACES;
-        let (known_mm, rows) = gear.target_points(tooth, side, spacing_mm, &faces_mm)?;
-        let ray = |row: &[Ray], arc_mm: f64| {
-            let above = known_mm.partition_point(|&known| known <= arc_mm).clamp(1, known_mm.len() - 1);
-            let share = (arc_mm - known_mm[above - 1]) / (known_mm[above] - known_mm[above - 1]);
-            let between = |a: DVec3, b: DVec3| a + share * (b - a);
-            Ray {
-                origin_mm: between(row[above - 1].origin_mm, row[above].origin_mm),
-                normal: between(row[above - 1].normal, row[above].normal).normalize(),
-            }
-        };
-        let rays = arcs_mm.iter().flat_map(|&arc_mm| rows.iter().map(move |row| (row, arc_mm)));
-        let rays = rays.map(|(row, arc_mm)| ray(row, arc_mm)).collect();
+        let rows = gear.target_points(tooth, side, &arcs_mm, &faces_mm)?;
+        let rays = (0..arcs_mm.len()).flat_map(|column| rows.iter().map(move |row| row[column])).collect();
         Ok(Self { tooth, side, arcs_mm, faces_mm, rays })
     }
 

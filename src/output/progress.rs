@@ -1,7 +1,8 @@
 //! What the user sees while the work goes on.
 //!
-//! In: steps ("cut flanks", 84 of them) and their advance, from any thread. Out, on standard error: a bar with the time
-//! left on a terminal, a plain line every few seconds elsewhere, one JSON object per line for programs, or nothing.
+//! In: steps ("cut flanks", 84 of them) and their advance, from any thread. Out: [`Event`]s. On standard error they are
+//! a bar with the time left on a terminal, a plain line every few seconds elsewhere, one JSON object per line for other
+//! programs, or nothing; a program that has gearcut as a library watches the events themselves.
 //!
 //! The rule: results go to files and standard output, messages go to standard error; and a time left is named only
 //! after two seconds, because before that it is a guess.
@@ -20,7 +21,6 @@ use std::time::{Duration, Instant};
 
 use crate::wrap::{fitted, printable};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
-use serde_json::json;
 
 /// Earliest moment at which a time left is shown: shorter steps are over before it is read.
 const TIME_LEFT_AFTER: Duration = Duration::from_secs(2);
@@ -59,9 +59,65 @@ impl ProgressMode {
     }
 }
 
+/// What happens in a run. As JSON: one object with the key `event`.
+#[derive(Debug, Clone, PartialEq, serde::Serialize)]
+#[serde(tag = "event", rename_all = "snake_case")]
+#[non_exhaustive]
+pub enum Event {
+    /// A step begins.
+    StepStarted {
+        /// Its name, such as "cut".
+        step: String,
+        /// How many units it has.
+        total: u64,
+        /// What they are, such as "flanks".
+        unit: String,
+    },
+    /// Units of a step are done.
+    Progress {
+        /// Its name.
+        step: String,
+        /// Units done.
+        done: u64,
+        /// How many it has.
+        total: u64,
+        /// What they are.
+        unit: String,
+        /// Time since the step began, s.
+        elapsed_s: f64,
+        /// Time left of the step at its pace so far, s; none in its first two seconds.
+        remaining_s: Option<f64>,
+        /// Time left of the whole run, s; none without a plan and in its first two seconds.
+        whole_remaining_s: Option<f64>,
+    },
+    /// A step has ended.
+    StepFinished {
+        /// Its name.
+        step: String,
+        /// Units done.
+        done: u64,
+        /// How many it has.
+        total: u64,
+        /// What they are.
+        unit: String,
+        /// Time that it took, s.
+        elapsed_s: f64,
+    },
+    /// A remark between the steps: a choice that was made, a warning.
+    Note {
+        /// The remark.
+        text: String,
+    },
+}
+
+/// Takes events; it is called from any thread.
+type Watcher = Box<dyn Fn(&Event) + Send + Sync>;
+
 /// Place where steps and notes are reported.
 pub struct Progress {
     mode: ProgressMode,
+    /// Takes the events instead of the lines of a mode.
+    watcher: Option<Watcher>,
     out: Mutex<Box<dyn Write + Send>>,
     whole: Arc<Mutex<Whole>>,
 }
@@ -106,7 +162,13 @@ impl Progress {
     /// Reports to `out`; bars still draw on standard error, since they need a terminal.
     pub fn to_writer(mode: ProgressMode, out: Box<dyn Write + Send>) -> Self {
         let whole = Whole { started: Instant::now(), ahead: Vec::new(), done_s: 0.0, taken: Vec::new() };
-        Self { mode, out: Mutex::new(out), whole: Arc::new(Mutex::new(whole)) }
+        Self { mode, watcher: None, out: Mutex::new(out), whole: Arc::new(Mutex::new(whole)) }
+    }
+
+    /// Hands every event to `watcher`, twice a second at most while a step advances; it is called from any thread.
+    pub fn watched(watcher: impl Fn(&Event) + Send + Sync + 'static) -> Self {
+        let watcher: Option<Watcher> = Some(Box::new(watcher));
+        Self { watcher, ..Self::to_writer(ProgressMode::Json, Box::new(io::sink())) }
     }
 
     /// The steps that follow, with expected seconds: their proportions are what counts. A step that comes without being
@@ -144,7 +206,7 @@ impl Progress {
             bar,
         };
         if self.mode == ProgressMode::Json {
-            self.line(&json!({"event": "step_started", "step": name, "total": total, "unit": unit}).to_string());
+            self.event(&Event::StepStarted { step: name.to_owned(), total, unit: unit.to_owned() });
         }
         step
     }
@@ -155,7 +217,14 @@ impl Progress {
             ProgressMode::Quiet => {}
             ProgressMode::Bar => self.line(&fitted(&printable(text), WIDTH)),
             ProgressMode::Lines => self.line(&printable(text)),
-            ProgressMode::Json => self.line(&json!({"event": "note", "text": text}).to_string()),
+            ProgressMode::Json => self.event(&Event::Note { text: text.to_owned() }),
+        }
+    }
+
+    fn event(&self, event: &Event) {
+        match &self.watcher {
+            Some(watcher) => watcher(event),
+            None => self.line(&serde_json::json!(event).to_string()),
         }
     }
 
@@ -209,11 +278,10 @@ impl ProgressStep<'_> {
                 self.bar.finish_and_clear();
                 self.progress.line(&format!("{name}: {done} {unit} in {}", duration_text(elapsed_s)));
             }
-            ProgressMode::Json => self.progress.line(
-                &json!({"event": "step_finished", "step": name, "done": done, "total": self.total, "unit": unit,
-                        "elapsed_s": elapsed_s})
-                .to_string(),
-            ),
+            ProgressMode::Json => {
+                let (step, unit, total) = (name.clone(), unit.clone(), self.total);
+                self.progress.event(&Event::StepFinished { step, done, total, unit, elapsed_s });
+            }
         }
     }
 
@@ -222,14 +290,19 @@ impl ProgressStep<'_> {
         let elapsed = self.started.elapsed();
         let left_s = time_left_s(elapsed, done, total);
         let whole_left_s = locked(&self.progress.whole).left_s(name, share(done, total));
-        let text = if self.progress.mode == ProgressMode::Json {
-            json!({"event": "progress", "step": name, "done": done, "total": total, "unit": unit,
-                   "elapsed_s": elapsed.as_secs_f64(), "remaining_s": left_s, "whole_remaining_s": whole_left_s})
-            .to_string()
+        if self.progress.mode == ProgressMode::Json {
+            self.progress.event(&Event::Progress {
+                step: name.clone(),
+                done,
+                total,
+                unit: unit.clone(),
+                elapsed_s: elapsed.as_secs_f64(),
+                remaining_s: left_s,
+                whole_remaining_s: whole_left_s,
+            });
         } else {
-            format!("{name}: {done} of {total} {unit}{}", left_words(left_s, whole_left_s))
-        };
-        self.progress.line(&text);
+            self.progress.line(&format!("{name}: {done} of {total} {unit}{}", left_words(left_s, whole_left_s)));
+        }
     }
 }
 

@@ -59,10 +59,9 @@ pub fn flank_ends(gear: &dyn CylindricalGear) -> Result<FlankEnds> {
 
 fn ends_of_side(gear: &dyn CylindricalGear, side: Side) -> Result<Vec<[ConjugatePoint; 2]>> {
     let ends = |tooth: u32| {
-        let (_, sections) = gear.target_profiles(tooth, side, f64::INFINITY, &[0.0])?;
-        let profile = &sections[0];
-        Ok([0, profile.len() - 1].map(|at| {
-            let (point_mm, normal) = profile[at];
+        let sections = gear.target_profiles(tooth, side, &[0.0, gear.profile_length_mm(tooth, side)?], &[0.0])?;
+        Ok([0, 1].map(|end| {
+            let (point_mm, normal) = sections[0][end];
             ConjugatePoint { point_mm, normal: normal.truncate().normalize() }
         }))
     };

@@ -139,7 +139,8 @@ pub(super) fn cut_flank(
     rows_z_mm: &[f64],
 ) -> Result<Vec<ToothOutline>> {
     let scene = gear.scene();
-    let (arcs_mm, target) = gear.target_points(tooth, side, scene.fields.profile_spacing_mm, rows_z_mm)?;
+    let arcs_mm = gear.even_arcs_mm(tooth, side, scene.fields.profile_spacing_mm)?;
+    let target = gear.target_points(tooth, side, &arcs_mm, rows_z_mm)?;
     let layers = gear.cut_flank(backend, tooth, side, &arcs_mm, rows_z_mm)?;
     let last = layers.last().ok_or(Error::Interrupted)?;
     let rows = rows_z_mm.len();

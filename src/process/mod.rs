@@ -46,7 +46,7 @@ pub struct Process {
 }
 
 /// A scene made ready to cut.
-pub trait ProcessJob: Sync {
+pub trait ProcessJob: Send + Sync {
     /// Cuts and measures, and writes everything but the run record; `frames` is how many pictures of the cut as it
     /// happens are drawn.
     ///

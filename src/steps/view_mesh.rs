@@ -50,7 +50,8 @@ impl ViewFlank {
     /// # Errors
     /// The tool generates no flank there.
     pub fn of_target(job: &dyn GearJob, tooth: u32, side: Side, rows_mm: Vec<f64>) -> Result<Self> {
-        let (arcs_mm, rows) = job.target_points(tooth, side, SPACING_MM, &rows_mm)?;
+        let arcs_mm = job.even_arcs_mm(tooth, side, SPACING_MM)?;
+        let rows = job.target_points(tooth, side, &arcs_mm, &rows_mm)?;
         let (first, [along_profile, along_tooth]) =
             (rows[0][0], [rows[0][arcs_mm.len() - 1], rows[rows.len() - 1][0]].map(|corner| corner.origin_mm));
         let across = (along_profile - first.origin_mm).cross(along_tooth - first.origin_mm);
@@ -73,9 +74,12 @@ impl ViewMesh {
         let mut body = Triangles::of(gear);
         let mut rims = Vec::new();
         for tooth in 1..=job.scene().gear.teeth {
-            let [left, right] =
-                [Side::Left, Side::Right].map(|side| job.target_profiles(tooth, side, SPACING_MM, &rows_z_mm));
-            let ((left_arcs, left), (right_arcs, right)) = (left?, right?);
+            let profiles = |side: Side| -> Result<_> {
+                let arcs_mm = job.even_arcs_mm(tooth, side, SPACING_MM)?;
+                let profiles = job.target_profiles(tooth, side, &arcs_mm, &rows_z_mm)?;
+                Ok((arcs_mm, profiles))
+            };
+            let ((left_arcs, left), (right_arcs, right)) = (profiles(Side::Left)?, profiles(Side::Right)?);
             let tip: Vec<SectionProfile> =
                 right.iter().zip(&left).map(|(right, left)| tip_land(job, right, left)).collect();
             for (side, arcs_mm, profiles) in [(Side::Left, left_arcs, &left), (Side::Right, right_arcs, &right)] {

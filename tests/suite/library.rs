@@ -2,11 +2,16 @@
 
 use gearcut::Job;
 use gearcut::cut::cpu::Cpu;
+use gearcut::interrupt::Interrupt;
 use gearcut::job::GearJob;
+use gearcut::output::progress::{Event, Progress};
 use gearcut::process::hobbing::{HobCutter, HobbingJob};
 use gearcut::scene::LoadedScene;
+use gearcut::steps::parts::Parts;
 use gearcut::terms::Side;
 use std::path::Path;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Arc, Mutex};
 
 fn spur() -> LoadedScene {
     let settings = ["gear.face_width_mm=4", "fields.flank.profile_spacing_um=200", "fields.flank.lead_spacing_um=500"];
@@ -17,7 +22,7 @@ fn spur() -> LoadedScene {
 #[test]
 fn a_flank_holds_what_the_process_cuts_place_by_place() {
     let scene = spur();
-    let flank = Job::new(&scene).expect("a scene that cuts").cut_flank(3, Side::Right).expect("a flank");
+    let flank = Job::new(spur()).expect("a scene that cuts").cut_flank(3, Side::Right).expect("a flank");
     let job = HobbingJob::new(&scene.scene).expect("a scene that cuts");
     let cutter = HobCutter::new(&job).expect("passes");
     let (columns, rows) = (flank.arcs_mm.len(), flank.face_mm.len());
@@ -41,9 +46,112 @@ fn a_flank_holds_what_the_process_cuts_place_by_place() {
 #[test]
 fn a_tooth_that_the_gear_does_not_have_is_refused() {
     let scene = spur();
-    let job = Job::new(&scene).expect("a scene that cuts");
+    let job = Job::new(spur()).expect("a scene that cuts");
     for tooth in [0, scene.scene.gear.teeth + 1] {
         let refused = job.cut_flank(tooth, Side::Left).expect_err("no such tooth").to_string();
         assert!(refused.contains(&format!("tooth {tooth}")), "{refused}");
     }
+}
+
+/// A coarse round gear: seconds for all of it.
+fn coarse() -> LoadedScene {
+    let text = "
+        [gear]
+        module_mm = 3.0
+        teeth = 24
+        face_width_mm = 4.0
+        [tool.shaper_cutter]
+        teeth = 20
+        [fields.flank]
+        profile_spacing_um = 200.0
+        lead_spacing_um = 1000.0
+    ";
+    gearcut::parse(text, "round.toml", Path::new(""), &[]).unwrap_or_else(|problems| panic!("{problems}"))
+}
+
+#[test]
+fn arrays_of_a_flank_have_one_shape_with_rows_fastest() {
+    let flank = Job::new(spur()).expect("a scene that cuts").cut_flank(3, Side::Right).expect("a flank");
+    let [columns, rows] = flank.shape();
+    let last = flank.operations.len() - 1;
+    for (column, row) in [(1, 0), (columns / 2, 3), (columns - 2, rows - 1)] {
+        let dexel = column * rows + row;
+        let height_mm = f64::from(flank.deviations_mm(last)[dexel]);
+        let place_mm = flank.points_mm()[dexel] + height_mm * flank.normals()[dexel];
+        let point_mm = flank.point_mm(last, column, row).expect("cut");
+        assert!((place_mm - point_mm).length() < 1e-12, "{place_mm} {point_mm}");
+        // A spur gear: rows lie along the axis.
+        assert!((flank.points_mm()[dexel].z - flank.face_mm[row]).abs() < 1e-12);
+        assert_eq!(Some(flank.passes(last)[dexel]), flank.pass(last, column, row));
+    }
+    assert_eq!(flank.points_mm().len(), columns * rows);
+    assert!(flank.stock_mm(last).iter().all(|&stock_mm| stock_mm == 0.0 || stock_mm.is_nan()));
+}
+
+#[test]
+fn a_flank_at_places_of_the_callers_own_holds_the_same_heights() {
+    let job = Job::new(coarse()).expect("a scene that cuts");
+    let whole = job.cut_flank(5, Side::Left).expect("a flank");
+    let (columns, rows) = ([3, 7, 11], [0, 2]);
+    let arcs_mm = columns.map(|column| whole.arcs_mm[column]);
+    let own = job.cut_flank_at(5, Side::Left, &arcs_mm, &rows.map(|row| whole.face_mm[row])).expect("a flank");
+    assert_eq!(own.shape(), [3, 2]);
+    for (i, column) in columns.into_iter().enumerate() {
+        for (k, row) in rows.into_iter().enumerate() {
+            let [here, there] =
+                [(&own, own.dexel(i, k)), (&whole, whole.dexel(column, row))].map(|(of, at)| of.deviations_mm(1)[at]);
+            // Newton's method starts elsewhere among other dexels; 0.1 nm is the bound of the native kernel's heights.
+            assert!((here - there).abs() < 1e-7, "{here} mm, {there} mm");
+        }
+    }
+    let length_mm = whole.arcs_mm[whole.arcs_mm.len() - 1];
+    for (arcs_mm, words) in
+        [(&[0.5, 0.2][..], "increase"), (&[0.0, 1.01 * length_mm], "beside"), (&[f64::NAN], "beside")]
+    {
+        let refused = job.cut_flank_at(5, Side::Left, arcs_mm, &[0.0]).expect_err("bad places").to_string();
+        assert!(refused.contains(words), "{refused}");
+    }
+}
+
+#[test]
+fn a_job_is_shared_by_threads_and_ends_when_its_flag_is_raised() {
+    let job = Job::new(coarse()).expect("a scene that cuts");
+    let alone = job.cut_flank(2, Side::Left).expect("a flank");
+    let other = job.clone();
+    let thread = std::thread::spawn(move || other.cut_flank(2, Side::Left).expect("a flank"));
+    let met = Mutex::new(Vec::new());
+    job.cut_flanks(&Interrupt::default(), |flank| {
+        met.lock().expect("no thread has failed").push((flank.tooth, flank.side.name()));
+        Ok(())
+    })
+    .expect("all flanks");
+    let mut met = met.into_inner().expect("no thread has failed");
+    met.sort_unstable();
+    let all: Vec<_> = (1..=24).flat_map(|tooth| ["left", "right"].map(|side| (tooth, side))).collect();
+    assert_eq!(met, all);
+    let same = thread.join().expect("the thread ends");
+    assert_eq!(same.deviations_mm(1), alone.deviations_mm(1));
+
+    let (interrupt, count) = (Interrupt::default(), AtomicUsize::new(0));
+    let ended = job.cut_flanks(&interrupt, |_| {
+        count.fetch_add(1, Ordering::Relaxed);
+        interrupt.raise();
+        Ok(())
+    });
+    assert!(matches!(ended, Err(gearcut::Error::Interrupted)), "{ended:?}");
+    assert!(count.into_inner() < 48, "the flag came too late");
+}
+
+#[test]
+fn a_run_is_watched_event_by_event() {
+    let job = Job::new(coarse()).expect("a scene that cuts");
+    let seen = Arc::new(Mutex::new(Vec::new()));
+    let of_watcher = Arc::clone(&seen);
+    let progress = Progress::watched(move |event| of_watcher.lock().expect("no thread has failed").push(event.clone()));
+    let folder = tempfile::tempdir().expect("a folder");
+    job.run().only(Parts::of([])).show(&progress).into_folder(&folder.path().join("gear")).expect("numbers");
+    let seen = seen.lock().expect("no thread has failed");
+    let cut =
+        |event: &&Event| matches!(event, Event::StepFinished { done: 48, total: 48, unit, .. } if unit == "flanks");
+    assert_eq!(seen.iter().filter(cut).count(), 1, "{seen:?}");
 }

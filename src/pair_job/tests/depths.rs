@@ -33,7 +33,8 @@ fn space(gear: &dyn GearJob, tooth: u32) -> SpaceOutline {
     let root: Vec<DVec2> =
         cylinder.target_roots(tooth - 1, 0.005, &[0.0]).expect("a root")[0].iter().map(|(point, _)| *point).collect();
     let chain = |tooth: u32, side: Side| {
-        let (u_mm, profiles) = cylinder.target_profiles(tooth, side, 0.005, &[0.0]).expect("a flank");
+        let u_mm = cylinder.even_arcs_mm(tooth, side, 0.005).expect("a flank");
+        let profiles = cylinder.target_profiles(tooth, side, &u_mm, &[0.0]).expect("a flank");
         let flank = ToothOutline { points_mm: profiles[0].iter().map(|(point, _)| *point).collect(), u_mm };
         FlankChain::straight(joined(&root, side, &flank).points_mm)
     };

@@ -176,20 +176,10 @@ impl GearJob for BevelJob {
         ToothFrame { place_mm, front, left: along.cross(front), along }
     }
 
-    fn target_points(
-        &self,
-        tooth: u32,
-        side: Side,
-        spacing_mm: f64,
-        rows_mm: &[f64],
-    ) -> Result<(Vec<f64>, Vec<Vec<Ray>>)> {
-        let length_mm = self.target_of(side).length_mm();
-        let intervals = (length_mm / spacing_mm).ceil().max(1.0);
-        let arcs_mm: Vec<f64> = (0..=intervals as usize).map(|i| length_mm * i as f64 / intervals).collect();
-        let rays = self.rays_over(tooth, side, arcs_mm.clone(), rows_mm.to_vec())?;
+    fn target_points(&self, tooth: u32, side: Side, arcs_mm: &[f64], rows_mm: &[f64]) -> Result<Vec<Vec<Ray>>> {
+        let rays = self.rays_over(tooth, side, arcs_mm.to_vec(), rows_mm.to_vec())?;
         let row = |row| (0..arcs_mm.len()).map(|column| rays.field.ray(column, row)).collect();
-        let rows = (0..rows_mm.len()).map(row).collect();
-        Ok((arcs_mm, rows))
+        Ok((0..rows_mm.len()).map(row).collect())
     }
 
     fn cut_flank(

@@ -85,14 +85,8 @@ impl GearJob for HobCutter<'_> {
         ToothFrame::of_cylinder(&self.job.blank, &self.job.scene.gear, tooth)
     }
 
-    fn target_points(
-        &self,
-        tooth: u32,
-        side: Side,
-        spacing_mm: f64,
-        rows_mm: &[f64],
-    ) -> Result<(Vec<f64>, Vec<Vec<Ray>>)> {
-        self.target_in_space(tooth, side, spacing_mm, rows_mm)
+    fn target_points(&self, tooth: u32, side: Side, arcs_mm: &[f64], rows_mm: &[f64]) -> Result<Vec<Vec<Ray>>> {
+        self.target_in_space(tooth, side, arcs_mm, rows_mm)
     }
 
     fn cut_flank(
@@ -145,18 +139,16 @@ impl CylindricalGear for HobCutter<'_> {
         &self,
         tooth: u32,
         side: Side,
-        spacing_mm: f64,
+        arcs_mm: &[f64],
         rows_z_mm: &[f64],
-    ) -> Result<(Vec<f64>, Vec<SectionProfile>)> {
+    ) -> Result<Vec<SectionProfile>> {
         let target = self.target(tooth, side)?;
-        let intervals = (target.length_mm() / spacing_mm).ceil().max(1.0);
-        let arcs: Vec<f64> = (0..=intervals as usize).map(|i| target.length_mm() * i as f64 / intervals).collect();
-        let shares: Vec<f64> = arcs.iter().map(|&arc| target.share_at(arc)).collect();
+        let shares: Vec<f64> = arcs_mm.iter().map(|&arc| target.share_at(arc)).collect();
         let profile = |&z_mm: &f64| {
             let section = target.section(z_mm);
             shares.iter().map(|&share| section.ray(share)).map(|ray| (ray.origin_mm.truncate(), ray.normal)).collect()
         };
-        Ok((arcs, rows_z_mm.iter().map(profile).collect()))
+        Ok(rows_z_mm.iter().map(profile).collect())
     }
 
     fn target_roots(&self, space: u32, spacing_mm: f64, rows_z_mm: &[f64]) -> Result<Vec<SectionProfile>> {

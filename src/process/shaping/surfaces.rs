@@ -59,14 +59,8 @@ impl GearJob for ShapingJob {
         ToothFrame::of_cylinder(&self.blank, &self.scene.gear, tooth)
     }
 
-    fn target_points(
-        &self,
-        tooth: u32,
-        side: Side,
-        spacing_mm: f64,
-        rows_mm: &[f64],
-    ) -> Result<(Vec<f64>, Vec<Vec<Ray>>)> {
-        self.target_in_space(tooth, side, spacing_mm, rows_mm)
+    fn target_points(&self, tooth: u32, side: Side, arcs_mm: &[f64], rows_mm: &[f64]) -> Result<Vec<Vec<Ray>>> {
+        self.target_in_space(tooth, side, arcs_mm, rows_mm)
     }
 
     fn cut_flank(
@@ -117,18 +111,16 @@ impl CylindricalGear for ShapingJob {
         &self,
         tooth: u32,
         side: Side,
-        spacing_mm: f64,
+        arcs_mm: &[f64],
         rows_z_mm: &[f64],
-    ) -> Result<(Vec<f64>, Vec<SectionProfile>)> {
+    ) -> Result<Vec<SectionProfile>> {
         let target = self.target_flank(tooth, side);
-        let intervals = (target.length_mm() / spacing_mm).ceil().max(1.0);
-        let arcs: Vec<f64> = (0..=intervals as usize).map(|i| target.length_mm() * i as f64 / intervals).collect();
-        let profile: SectionProfile = arcs
+        let profile: SectionProfile = arcs_mm
             .iter()
             .map(|&arc| target.at_arc(arc))
             .map(|contact| (contact.point_mm, contact.normal.extend(0.0)))
             .collect();
-        Ok((arcs, vec![profile; rows_z_mm.len()]))
+        Ok(vec![profile; rows_z_mm.len()])
     }
 
     fn target_roots(&self, space: u32, spacing_mm: f64, rows_z_mm: &[f64]) -> Result<Vec<SectionProfile>> {

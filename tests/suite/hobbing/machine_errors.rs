@@ -360,8 +360,7 @@ fn scatter_finds_the_pitch_of_an_eccentric_helical_gear() {
     let mut place_mm = 0.0;
     let mut find = |gear: &dyn GearJob| {
         let middle_mm = 0.5 * gear.evaluated_profile_mm(1, Side::Left)?.iter().sum::<f64>();
-        let (known_mm, rows) = gear.target_points(1, Side::Left, 0.01, &[0.0])?;
-        place_mm = rows[0][known_mm.partition_point(|&mm| mm < middle_mm)].origin_mm.truncate().length();
+        place_mm = gear.target_points(1, Side::Left, &[middle_mm], &[0.0])?[0][0].origin_mm.truncate().length();
         Ok(())
     };
     process::prepare(&scene).and_then(|job| job.with_gear(&mut find)).expect("a job");

@@ -63,7 +63,8 @@ fn a_profile_shift_makes_the_helical_tooth_that_its_definition_says() {
 /// A point of a flank in the section at `z_mm` where its distance from the axis is `radius_mm`, with its normal:
 /// between the two nearest points of the generated target.
 fn on_flank(gear: &HobCutter, tooth: u32, side: Side, radius_mm: f64, z_mm: f64) -> [DVec3; 2] {
-    let (_, rows) = gear.target_points(tooth, side, 0.005, &[z_mm]).expect("a flank");
+    let arcs_mm = gear.even_arcs_mm(tooth, side, 0.005).expect("a flank");
+    let rows = gear.target_points(tooth, side, &arcs_mm, &[z_mm]).expect("a flank");
     let radius = |index: usize| rows[0][index].origin_mm.truncate().length();
     let above = (1..rows[0].len()).find(|&index| radius(index) > radius_mm).expect("it lies on the flank");
     let share = (radius_mm - radius(above - 1)) / (radius(above) - radius(above - 1));
@@ -109,7 +110,8 @@ fn balls_touch_the_generated_helical_flanks() {
         let middle = (sides[0] + sides[1]).truncate().normalize();
         let center = (middle * center_mm).extend(0.0);
         for (tooth, side) in [(1, Side::Left), (2, Side::Right)] {
-            let (_, rows) = gear.target_points(tooth, side, 0.01, &rows_mm).expect("a flank");
+            let arcs_mm = gear.even_arcs_mm(tooth, side, 0.01).expect("a flank");
+            let rows = gear.target_points(tooth, side, &arcs_mm, &rows_mm).expect("a flank");
             let distances = rows.iter().flatten().map(|ray| ray.origin_mm.distance(center));
             let nearest_mm = distances.fold(f64::INFINITY, f64::min);
             println!("{} of tooth {tooth}: {nearest_mm:.6} mm from a ball of {:.6}", side.name(), 0.5 * over.ball_mm);

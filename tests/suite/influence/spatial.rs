@@ -107,7 +107,8 @@ impl Gear {
 
 /// Where a flank crosses a circle about the axis.
 fn at_radius(gear: &dyn GearJob, tooth: u32, side: Side, radius_mm: f64) -> f64 {
-    let (arcs_mm, rows) = gear.target_points(tooth, side, 0.01, &[0.0]).expect("a flank");
+    let arcs_mm = gear.even_arcs_mm(tooth, side, 0.01).expect("a flank");
+    let rows = gear.target_points(tooth, side, &arcs_mm, &[0.0]).expect("a flank");
     let above = rows[0].partition_point(|ray| ray.origin_mm.truncate().length() < radius_mm);
     arcs_mm[above]
 }

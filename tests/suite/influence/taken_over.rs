@@ -58,7 +58,8 @@ fn each_has_its_own(of: fn(&[&str]) -> LoadedScene, others: &[&str]) {
     let places = |job: &dyn ProcessJob| {
         let mut rays = Vec::new();
         job.with_gear(&mut |gear| {
-            rays = gear.target_points(1, Side::Left, gear.profile_length_mm(1, Side::Left)? / 8.0, &[0.0])?.1;
+            let arcs_mm = gear.even_arcs_mm(1, Side::Left, gear.profile_length_mm(1, Side::Left)? / 8.0)?;
+            rays = gear.target_points(1, Side::Left, &arcs_mm, &[0.0])?;
             Ok(())
         })
         .expect("a flank");

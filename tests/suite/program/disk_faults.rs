@@ -36,7 +36,7 @@ fn cut(strokes: u32, parts: Parts, out: &Path) -> Result<bool, Error> {
     let strokes = format!("operation.finish.strokes_per_revolution={strokes}");
     let settings: Vec<String> = SETTINGS.iter().map(|&set| set.to_owned()).chain([strokes]).collect();
     let scene = gearcut::load(Path::new("scenes/shaping/circular_m3_z24.toml"), &settings).expect("a scene");
-    let done = Job::new(&scene)?.run().only(parts).into_folder(out)?;
+    let done = Job::new(scene)?.run().only(parts).into_folder(out)?;
     Ok(done.findings.complete)
 }
 

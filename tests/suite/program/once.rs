@@ -111,7 +111,7 @@ fn logged(scene: &str, settings: &[&str], cut: impl Fn(&Job)) -> Log {
     let scene = gearcut::load(Path::new(scene), &settings).unwrap_or_else(|problems| panic!("{problems}"));
     let backend = Logging::default();
     let log = Arc::clone(&backend.log);
-    let job = Job::new(&scene).expect("a scene that cuts");
+    let job = Job::new(scene).expect("a scene that cuts");
     let job = job.on(Choice { backend: Box::new(backend), why: "it writes down what it is asked for".to_owned() });
     cut(&job);
     drop(job);

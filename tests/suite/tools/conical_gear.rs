@@ -151,18 +151,10 @@ impl GearJob for ConicalJob {
         ToothFrame { place_mm: self.gear_from_head.point(RADIUS_MM * DVec3::X), front, left, along }
     }
 
-    fn target_points(
-        &self,
-        _tooth: u32,
-        side: Side,
-        spacing_mm: f64,
-        rows_mm: &[f64],
-    ) -> Result<(Vec<f64>, Vec<Vec<Ray>>)> {
-        let arcs_mm = even(0.0, PROFILE_MM, (PROFILE_MM / spacing_mm) as usize + 1);
-        let rays = self.rays(side, arcs_mm.clone(), rows_mm.to_vec());
+    fn target_points(&self, _tooth: u32, side: Side, arcs_mm: &[f64], rows_mm: &[f64]) -> Result<Vec<Vec<Ray>>> {
+        let rays = self.rays(side, arcs_mm.to_vec(), rows_mm.to_vec());
         let row = |row| (0..arcs_mm.len()).map(|column| rays.field.ray(column, row)).collect();
-        let rows = (0..rows_mm.len()).map(row).collect();
-        Ok((arcs_mm, rows))
+        Ok((0..rows_mm.len()).map(row).collect())
     }
 
     fn cut_flank(

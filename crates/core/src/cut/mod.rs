@@ -85,7 +85,7 @@ pub fn cut_in_turn(backend: &(impl Backend + ?Sized), jobs: &[CutJob]) -> Result
 }
 
 /// A machine that cuts.
-pub trait Backend: Sync {
+pub trait Backend: Send + Sync {
     /// Name for the run record, with the instruction set or adapter.
     fn name(&self) -> String;
 
