@@ -19,15 +19,15 @@ use super::failure::Failure;
 use super::folder::listening;
 use super::print;
 use lines::Lines;
-use reading::{Found, Reading};
+use reading::{FileFound, Reading};
 
 /// Runs the command.
 pub fn run(arguments: &TextureArguments) -> Result<(), Failure> {
     check(arguments)?;
     let saves = reading::saves(arguments)?;
     let file = match reading::reading(arguments)? {
-        Found::Surface(file) => file,
-        Found::Profile(file) => return profile(arguments, file),
+        FileFound::Surface(file) => file,
+        FileFound::Profile(file) => return profile(arguments, file),
     };
     // Only files have temporary names that Ctrl-C must not leave; without them it ends the program at once.
     let interrupt = match arguments.save.first() {

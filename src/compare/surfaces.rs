@@ -20,7 +20,7 @@ mod page;
 use super::maps::grid_of;
 use crate::colormap::ColourScale;
 use crate::findings::Datum;
-use crate::measure::topography::align::{self, Aligned, Marks};
+use crate::measure::topography::align::{self, Aligned, SurfaceMarks};
 use crate::measure::topography::{Arguments, Chain, Evaluation, Surface};
 use crate::output::atomic::file_error;
 use crate::output::folder::OutputFolder;
@@ -35,8 +35,6 @@ use gearcut_core::units::UM_PER_MM;
 
 /// Correlation below which the surfaces are hardly of one place.
 const POOR: f64 = 0.5;
-/// How much better inverted heights must correlate to be told.
-const CLEARLY: f64 = 0.1;
 /// Steps of the drawn material ratio curves.
 const CURVE_POINTS: u32 = 400;
 
@@ -50,13 +48,13 @@ pub struct SurfaceComparison {
     chain: Vec<String>,
     evaluations: [Evaluation; 2],
     difference: Surface,
-    marks: [Result<Marks, String>; 2],
+    marks: [Result<SurfaceMarks, String>; 2],
     /// Phase of the first's marks on the second, deg.
     phase_deg: Result<f64, String>,
 }
 
 /// A parameter of both.
-struct Row {
+struct ComparedRow {
     symbol: String,
     unit: &'static str,
     values: [Option<f64>; 2],
@@ -223,7 +221,7 @@ impl SurfaceComparison {
                 correlation_text(a.correlation)
             ));
         }
-        if a.inverted > a.by_mirror[0].max(a.correlation) + CLEARLY {
+        if align::fits_better(a.inverted, a.by_mirror[0].max(a.correlation)) {
             doubts.push(format!(
                 "with its heights inverted the second correlates with {}: is one of them a replica? \
                  `gearcut texture FILE --invert --save ...` turns it back",
@@ -233,9 +231,9 @@ impl SurfaceComparison {
         doubts
     }
 
-    fn rows(&self) -> Vec<Row> {
+    fn rows(&self) -> Vec<ComparedRow> {
         let [a, b] = &self.evaluations;
-        let row = |p: &crate::measure::topography::Parameter| Row {
+        let row = |p: &crate::measure::topography::Parameter| ComparedRow {
             symbol: p.symbol.clone(),
             unit: p.unit,
             values: [p.value.as_ref().ok().copied(), b.value(&p.symbol)],

@@ -5,9 +5,9 @@
 //!
 //! Law: play grows with the distance of the axes (external; internal: falls). From the distance of the meshing the
 //! search walks towards the side where play vanishes, however far that is, until play has changed its sign, and closes
-//! in by the regula falsi ([`regula_falsi`]). It ends without a place only where the teeth lose each other before. First
-//! order: delta a = s [F_R sin(mu - alpha) + F_L sin(mu + alpha)] / sin(2 alpha) with the gaps F that errors close along
-//! the normals.
+//! in by the regula falsi ([`regula_falsi`]). It ends without a place only where the teeth lose each other before.
+//! First order: delta a = s [F_R sin(mu - alpha) + F_L sin(mu + alpha)] / sin(2 alpha) with the gaps F that errors
+//! close along the normals.
 //!
 //! Road not taken: an enclosure round what the slope of play foretells. Play bends where another pair of teeth, a
 //! corner or a fillet carries, and the slope at one place foretells nothing beyond the bend.

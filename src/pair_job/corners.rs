@@ -46,7 +46,7 @@ pub struct DeepestCorner {
 
 /// A tip corner of the mate that is looked at: the section, the label of the pair of flanks, and the side of the tooth.
 #[derive(Debug, Clone, Copy)]
-struct Corner {
+struct ToothCorner {
     section: usize,
     label: i64,
     tip: Side,
@@ -61,7 +61,7 @@ struct InGear<'a> {
 
 impl InGear<'_> {
     /// Where a corner is; none far from its space, and of gears whose outlines are not known.
-    fn depth(&self, pitch: &PitchPoint, corner: Corner) -> Option<CornerDepth> {
+    fn depth(&self, pitch: &PitchPoint, corner: ToothCorner) -> Option<CornerDepth> {
         let section = &self.meshing.sections[corner.section];
         let gears = &self.flanks.sections[corner.section];
         let stand = self.meshing.stand(pitch, section, 0.0);
@@ -84,24 +84,24 @@ impl InGear<'_> {
     }
 
     /// The deepest corner of a position.
-    fn deepest(&self, pitch: &PitchPoint) -> Option<(Corner, DeepestCorner)> {
+    fn deepest(&self, pitch: &PitchPoint) -> Option<(ToothCorner, DeepestCorner)> {
         let pitch_mm = self.meshing.pitch.pitch_mm();
         let corners = self.meshing.sections.iter().enumerate().flat_map(|(section, gears)| {
             let labels = gears.near(pitch, pitch_mm);
-            labels.flat_map(move |label| [Side::Right, Side::Left].map(|tip| Corner { section, label, tip }))
+            labels.flat_map(move |label| [Side::Right, Side::Left].map(|tip| ToothCorner { section, label, tip }))
         });
         let found = corners.filter_map(|corner| Some((corner, self.named(pitch, corner)?)));
         found.max_by(|a, b| deeper(&a.1, &b.1))
     }
 
     /// A corner with its place in words of the pair.
-    fn named(&self, pitch: &PitchPoint, corner: Corner) -> Option<DeepestCorner> {
+    fn named(&self, pitch: &PitchPoint, corner: ToothCorner) -> Option<DeepestCorner> {
         let found = self.depth(pitch, corner)?;
         Some(place(found, &self.flanks.sections[corner.section], self.member, corner.label, pitch.phi_1_rad))
     }
 
     /// Where a corner is deepest between two angles of the driver.
-    fn followed(&self, corner: Corner, [low, high]: [f64; 2]) -> Option<DeepestCorner> {
+    fn followed(&self, corner: ToothCorner, [low, high]: [f64; 2]) -> Option<DeepestCorner> {
         let pitch = &self.meshing.pitch;
         let depth_mm = |phi| self.depth(&pitch.at(phi), corner).map_or(f64::NEG_INFINITY, |found| found.depth_mm);
         self.named(&pitch.at(maximum(depth_mm, low, high, FOLLOWED_CELLS).0), corner)
@@ -124,7 +124,7 @@ pub fn deepest(
         stage.count()?;
         Ok(gear.deepest(&moment.pitch))
     };
-    let found: Vec<Option<(Corner, DeepestCorner)>> = moments.par_iter().map(of).collect::<Result<_>>()?;
+    let found: Vec<Option<(ToothCorner, DeepestCorner)>> = moments.par_iter().map(of).collect::<Result<_>>()?;
     let n = found.len();
     let depth_mm = |i: usize| found[i % n].as_ref().map_or(f64::NEG_INFINITY, |(_, corner)| corner.depth_mm);
     let phi_rad = |i: usize| moments[i % n].pitch.phi_1_rad;

@@ -131,7 +131,14 @@ fn pair(scenes: [&Scene; 2], options: &PairOptions, rolled: &RolledPair) -> Sect
             "centre distance",
             length(closing_mm + error_um / UM_PER_MM, "distance of the axes at which the gears are rolled"),
         )
-        .with("closing_center_distance", length(closing_mm, "distance of the axes at which the pitch curves roll on each other: of round gears that of their profile shifts, or the one that is named"))
+        .with(
+            "closing_center_distance",
+            length(
+                closing_mm,
+                "distance of the axes at which the pitch curves roll on each other: of round gears that of their \
+                 profile shifts, or the one that is named",
+            ),
+        )
         .with("center_distance_error", um(error_um, "added to that distance"))
         .with("eccentricity_A", um(a[0], "from gear A's axis of rotation to the origin of its pitch curve"))
         .with("eccentricity_angle_A", Quantity::number(a[1], "deg", "polar angle of that vector in gear A"))

@@ -1,11 +1,12 @@
 //! Whether two gears belong together, and which of their teeth meet.
 //!
-//! In: the scenes of both gears, and the centre distance where one is named. Out: [`Fit`]: the pitch curves in mesh, how
-//! the driven gear is turned on its axis so that its pitch curve follows the driver's, and which of its flanks meets
-//! which.
+//! In: the scenes of both gears, and the centre distance where one is named. Out: [`Fit`]: the pitch curves in mesh,
+//! how the driven gear is turned on its axis so that its pitch curve follows the driver's, and which of its flanks
+//! meets which.
 //!
 //! Round gears roll at any distance of their axes: their pitch curves in the pair are the circles of that distance
-//! ([`super::working`]). Pitch curves that are not round close at one distance, and another one is an error of mounting.
+//! ([`super::working`]). Pitch curves that are not round close at one distance, and another one is an error of
+//! mounting.
 //!
 //! Law: equal transverse modules and pressure angles; helices of one angle, of opposite hands outside and of one hand
 //! in a ring; r2 = a - s r1 all round, at the distance a at which a mate with this number of teeth closes. A scene has

@@ -32,8 +32,8 @@ pub struct PairOptions {
     pub positions: Option<usize>,
     /// Transverse sections; `None`: 1 where all are alike, else 11.
     pub sections: Option<usize>,
-    /// Distance of the axes; `None`: what the scenes name, else that of the shifts of round gears and the closing one of
-    /// others.
+    /// Distance of the axes; `None`: what the scenes name, else that of the shifts of round gears and the closing one
+    /// of others.
     pub center_distance_mm: Option<f64>,
     /// Added to that distance.
     pub center_distance_error_um: f64,

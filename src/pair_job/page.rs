@@ -159,7 +159,8 @@ fn run_record(options: &PairOptions, record: &PairRecord) -> PageSection {
     PageSection::new(
         "record",
         "Run record",
-        "What is needed to roll the pair again: both scenes, and the options of the command in run.json beside this page.",
+        "What is needed to roll the pair again: both scenes, and the options of the command in run.json beside this \
+         page.",
         [Block::Table(table)].into_iter().chain(scenes).collect(),
     )
 }

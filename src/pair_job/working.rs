@@ -4,10 +4,10 @@
 //! pitch pair of that distance, heights of tips over its circles, thickness of teeth on them.
 //!
 //! Law (ISO 21771, 5.3): an involute keeps its base circle, so cos(alpha_w) = a_0 cos(alpha) / a, and a tooth that is s
-//! thick on r is r_w (s / r + 2 sigma (inv alpha - inv alpha_w)) thick on r_w, with sigma = +1 outside and -1 in a ring.
-//! Teeth without play fill the pitch there: inv(alpha_w) = inv(alpha) + s 2 (x1 + x2) / (z2 + s z1) tan(alpha), with s =
-//! +1 external and -1 internal. A shift counts towards the tips, in a ring as well; thickness allowances stay out of the
-//! distance, for they are the play.
+//! thick on r is r_w (s / r + 2 sigma (inv alpha - inv alpha_w)) thick on r_w, with sigma = +1 outside and -1 in a
+//! ring. Teeth without play fill the pitch there: inv(alpha_w) = inv(alpha) + s 2 (x1 + x2) / (z2 + s z1) tan(alpha),
+//! with s = +1 external and -1 internal. A shift counts towards the tips, in a ring as well; thickness allowances stay
+//! out of the distance, for they are the play.
 //!
 //! Road not taken: the gears' own pitch circles with an error of the distance. Contact ratio, heights and play would
 //! belong to circles that do not roll on each other.
@@ -20,7 +20,8 @@ use gearcut_core::error::Refusal;
 use gearcut_core::gear::{PitchCurve, PitchCurveShape};
 use gearcut_core::math::roots::bisect;
 
-/// Beyond every working pressure angle: its involute is 12.6, and shifts of 3 modules on one tooth of difference ask for
+/// Beyond every working pressure angle: its involute is 12.6, and shifts of 3 modules on one tooth of difference ask
+/// for
 /// 6.2.
 const STEEPEST_RAD: f64 = 1.5;
 
@@ -33,8 +34,8 @@ pub struct RollingCircles {
 }
 
 impl RollingCircles {
-    /// The circles at the named distance, or at that of the shifts; none where the gears' own pitch circles roll on each
-    /// other.
+    /// The circles at the named distance, or at that of the shifts; none where the gears' own pitch circles roll on
+    /// each other.
     ///
     /// # Errors
     /// No distance without play; a distance at which no teeth run.
@@ -73,8 +74,8 @@ impl RollingCircles {
         Err(Refusal::new(
             "gear.center_distance_mm",
             format!(
-                "at a centre distance of {center_distance_mm} mm these teeth do not run on each other: the base circles \
-                 touch at {base_mm:.4} mm, and the tips pass each other at {tips_mm:.4} mm"
+                "at a centre distance of {center_distance_mm} mm these teeth do not run on each other: the base \
+                 circles touch at {base_mm:.4} mm, and the tips pass each other at {tips_mm:.4} mm"
             ),
             format!("name a distance {range}; without one they roll at that of their shifts"),
         ))

@@ -156,7 +156,7 @@ fn a_scene_gives_the_process_its_own_part_back() {
     assert_eq!(loaded.scene.process_name(), "sawing");
     assert_eq!(loaded.locate("operation.last.cuts").expect("written").written, "7");
     let resolved = loaded.resolved_toml();
-    assert!(resolved.contains("flow_mm = 1.0  # default") && !resolved.contains("linkage"), "{resolved}");
+    assert!(resolved.contains("flow_mm = 1.0  # default") && !resolved.contains("[operation.linkage"), "{resolved}");
     let again = parse(&resolved, "log.toml", Path::new(""), &[], &table()).expect("loads");
     assert_eq!(loaded.scene, again.scene);
     let other = parse(SCENE, "log.toml", Path::new(""), &[], &table()).expect("loads").scene;

@@ -65,7 +65,7 @@ pub struct StrokesDone {
 }
 
 /// How a launch over some tiles ended.
-enum Outcome {
+enum StrokesOutcome {
     Done(Vec<Vec<u8>>),
     NeedsSpans(usize),
 }
@@ -132,8 +132,8 @@ impl Gpu {
                 return Err(GpuProblem::OutOfMemory { reason });
             }
             match self.try_strokes(work, tiles.clone(), capacity)? {
-                Outcome::Done(parts) => done.take(work, &tiles, &parts)?,
-                Outcome::NeedsSpans(needed) => {
+                StrokesOutcome::Done(parts) => done.take(work, &tiles, &parts)?,
+                StrokesOutcome::NeedsSpans(needed) => {
                     *room = (needed - longest).max(2 * *room);
                     waiting.push(tiles);
                 }
@@ -142,7 +142,12 @@ impl Gpu {
         Ok(done)
     }
 
-    fn try_strokes(&self, work: &StrokeWork, tiles: Range<usize>, capacity: usize) -> Result<Outcome, GpuProblem> {
+    fn try_strokes(
+        &self,
+        work: &StrokeWork,
+        tiles: Range<usize>,
+        capacity: usize,
+    ) -> Result<StrokesOutcome, GpuProblem> {
         let device = &self.device;
         let rays = work.rays_of(&tiles);
         let first_span = work.rays[rays.start].first;
@@ -253,7 +258,7 @@ impl Gpu {
         }
         if needed > 0 {
             self.log().count(BLANK_STROKES.name, None);
-            return Ok(Outcome::NeedsSpans(needed));
+            return Ok(StrokesOutcome::NeedsSpans(needed));
         }
         let mut wanted = vec![
             (&packed_buffer, left * size_of::<BlankSpan>()),
@@ -264,7 +269,7 @@ impl Gpu {
         let parts = self.bring_back_all(&wanted)?;
         let device_ns = parts.get(3).map(|stamps| device_ns(device, stamps));
         self.log().count(BLANK_STROKES.name, device_ns);
-        Ok(Outcome::Done(parts))
+        Ok(StrokesOutcome::Done(parts))
     }
 }
 

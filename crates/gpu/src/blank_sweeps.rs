@@ -85,7 +85,7 @@ impl Gpu {
                 for (f, tiles) in visits.tiles.into_iter().enumerate() {
                     for (tile, passes) in tiles.into_iter().enumerate().filter(|(_, passes)| !passes.is_empty()) {
                         let rays = tile_rays(tile, grid.rows[f].count);
-                        places.push(TilePlace { slice: index, family: f, first: rays.start });
+                        places.push(SweptTilePlace { slice: index, family: f, first: rays.start });
                         work.push(TileWork { family: FAMILIES[f], rays: &slice.rays[f][rays], passes });
                     }
                 }
@@ -95,8 +95,9 @@ impl Gpu {
                 done.extend(self.run_blank_tiles(group, &mut terms)?);
             }
             drop(work);
-            let done: Vec<(TilePlace, TileDone)> = places.into_iter().zip(done).collect();
-            let of_slices: Vec<&[(TilePlace, TileDone)]> = done.chunk_by(|(a, _), (b, _)| a.slice == b.slice).collect();
+            let done: Vec<(SweptTilePlace, TileDone)> = places.into_iter().zip(done).collect();
+            let of_slices: Vec<&[(SweptTilePlace, TileDone)]> =
+                done.chunk_by(|(a, _), (b, _)| a.slice == b.slice).collect();
             let chips: Vec<Vec<PassChip>> =
                 of_slices.into_par_iter().map(|tiles| chips_of_slice(&grid, &headings, tiles)).collect();
             for chip in chips.iter().flatten() {
@@ -122,7 +123,7 @@ impl Gpu {
 }
 
 /// Where a tile stands.
-struct TilePlace {
+struct SweptTilePlace {
     slice: usize,
     family: usize,
     first: usize,
@@ -239,7 +240,7 @@ impl SliceVisits {
 fn chips_of_slice(
     grid: &BlankGrid,
     headings: &[Vec<(u32, SweepHeading)>],
-    tiles: &[(TilePlace, TileDone)],
+    tiles: &[(SweptTilePlace, TileDone)],
 ) -> Vec<PassChip> {
     let slice = tiles[0].0.slice;
     let width_mm = grid.slice_widths_mm()[slice];

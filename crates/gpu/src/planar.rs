@@ -7,7 +7,7 @@
 use crate::batches::{self, Batch, Round};
 use crate::context::{Gpu, IN_FLIGHT};
 use crate::problem::GpuProblem;
-use crate::readback::{self, Before, InFlight, Input, Job, Returned, Shipment, StageLaunch, Step};
+use crate::readback::{self, Before, InFlight, Input, ReadbackJob, ReadbackStep, Returned, Shipment, StageLaunch};
 use crate::{compose, records};
 use gearcut_core::cut::{CutJob, CutLayers, CutStats};
 use gearcut_core::dexel::{Field, Layer};
@@ -81,10 +81,10 @@ impl Gpu {
                 .collect();
             composed.push(of_job?);
         }
-        let jobs: Vec<Job> = uncut
+        let jobs: Vec<ReadbackJob> = uncut
             .iter()
             .zip(&composed)
-            .map(|(uncut, steps)| Job {
+            .map(|(uncut, steps)| ReadbackJob {
                 before: uncut.before(self),
                 steps: steps.iter().map(|step| step.step(self)).collect(),
             })
@@ -92,7 +92,7 @@ impl Gpu {
         self.send_planar(&jobs)
     }
 
-    fn send_planar(&self, jobs: &[Job]) -> Result<InFlight, GpuProblem> {
+    fn send_planar(&self, jobs: &[ReadbackJob]) -> Result<InFlight, GpuProblem> {
         readback::send(
             &self.device,
             &Shipment { stage: NAME, record_usage: Use::UNIFORM, jobs, poison: self.options.poison_outputs },
@@ -131,7 +131,7 @@ impl Gpu {
             let dexels = batch.columns.start * rows..batch.columns.end * rows;
             let heights_mm = padded_columns(&layer.heights_mm[dexels.clone()], rows);
             let passes = padded_columns(&layer.passes[dexels], rows);
-            let job = Job { before: Before::Layer(&heights_mm, &passes), steps: vec![composed.step(self)] };
+            let job = ReadbackJob { before: Before::Layer(&heights_mm, &passes), steps: vec![composed.step(self)] };
             let in_flight = self.send_planar(&[job])?;
             waiting.push((batch, in_flight));
         }
@@ -252,7 +252,7 @@ impl StepInputs {
         }
     }
 
-    fn step<'a>(&'a self, gpu: &'a Gpu) -> Step<'a> {
+    fn step<'a>(&'a self, gpu: &'a Gpu) -> ReadbackStep<'a> {
         let launches = self.rounds.iter().zip(&self.records).map(|(round, records)| StageLaunch {
             pipeline: &gpu.planar_flank[round.variant()],
             tiles: bytemuck::cast_slice(&round.tiles),
@@ -263,7 +263,7 @@ impl StepInputs {
             ],
         });
         let shared = |label, bytes| Input::Shared { label, bytes, usage: Use::STORAGE };
-        Step {
+        ReadbackStep {
             launches: launches.collect(),
             inputs: vec![
                 Input::Shared { label: "launch", bytes: bytemuck::bytes_of(&self.launch), usage: Use::UNIFORM },

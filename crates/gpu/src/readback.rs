@@ -47,7 +47,7 @@ pub struct StageLaunch<'a> {
 }
 
 /// Launches of a stage over the dexels of a job, in order; what they leave comes back.
-pub struct Step<'a> {
+pub struct ReadbackStep<'a> {
     /// Bindings in order; heights, passes and the count of iterations that stopped short follow them.
     pub inputs: Vec<Input<'a>>,
     /// Launches in order.
@@ -81,11 +81,11 @@ impl Before<'_> {
 }
 
 /// Dexels that stay on the device through some steps.
-pub struct Job<'a> {
+pub struct ReadbackJob<'a> {
     /// What they are before.
     pub before: Before<'a>,
     /// Steps in order.
-    pub steps: Vec<Step<'a>>,
+    pub steps: Vec<ReadbackStep<'a>>,
 }
 
 /// What goes to the device in one submission.
@@ -95,7 +95,7 @@ pub struct Shipment<'a> {
     /// `UNIFORM` or `STORAGE`, whichever the stage reads records from.
     pub record_usage: Use,
     /// Jobs in order.
-    pub jobs: &'a [Job<'a>],
+    pub jobs: &'a [ReadbackJob<'a>],
     /// Fill the outputs with ones (a NaN, an impossible id) before the work, so that nothing stale passes for a result.
     pub poison: bool,
 }

@@ -12,7 +12,7 @@ use super::batches::Allowance;
 use super::context::{Gpu, IN_FLIGHT};
 use super::edge_cells::EdgeCells;
 use super::problem::GpuProblem;
-use super::readback::{self, Before, InFlight, Input, Job, Returned, Shipment, StageLaunch, Step};
+use super::readback::{self, Before, InFlight, Input, ReadbackJob, ReadbackStep, Returned, Shipment, StageLaunch};
 use super::sweep_records::{SpatialPass, SpatialTile};
 use gearcut_core::dexel::{Layer, SpatialField};
 use gearcut_core::passes::SweepPlan;
@@ -197,7 +197,8 @@ fn send(
         shared("cells", bytemuck::cast_slice(&cells.cells)),
         shared("rays", bytemuck::cast_slice(&rays)),
     ];
-    let job = Job { before: Before::Layer(&heights_mm, &passes), steps: vec![Step { inputs, launches }] };
+    let job =
+        ReadbackJob { before: Before::Layer(&heights_mm, &passes), steps: vec![ReadbackStep { inputs, launches }] };
     readback::send(
         &gpu.device,
         &Shipment {

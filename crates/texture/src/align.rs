@@ -4,10 +4,10 @@
 //! where they overlap, with what was done to the second.
 //!
 //! 1. Both lose their least-squares planes and are averaged to at most [`COARSE`] cells a side.
-//! 2. For the second as it is and mirrored in x, in y and in both, the normalised cross-correlation of every shift is
-//!    taken at once by Fourier transforms, each shift over the cells that overlap and were measured (Padfield 2012). The
-//!    largest of overlaps of at least half of the smaller surface counts. A mirror is taken only where it correlates
-//!    better by [`CLEARLY`], or leaves less than half of the variance: symmetrical marks fit either way.
+//! 2. For the second as it is and mirrored in x, in y and in both, the normalised cross-correlation of every shift
+//!    is taken at once by Fourier transforms, each shift over the cells that overlap and were measured (Padfield 2012).
+//!    The largest of overlaps of at least half of the smaller surface counts. A mirror is taken only where it
+//!    correlates better by [`CLEARLY`], or leaves less than half of the variance: symmetrical marks fit either way.
 //! 3. Shift and plane are refined together by least squares on the points themselves (Gauss and Newton), the second
 //!    interpolated by cubic convolution.
 //!
@@ -23,7 +23,7 @@ use rustfft::num_complex::Complex;
 use std::f64::consts::TAU;
 
 use super::form::{self, Form};
-use super::prepare::{Axis, Preparation, interpolated};
+use super::prepare::{MirrorAxis, Preparation, interpolated};
 use super::surface::{Surface, transposed};
 
 /// Cells a side of the averaged surfaces: marks of 20 points keep five cells on maps of 1500 points.
@@ -76,6 +76,13 @@ pub struct Aligned {
 
 const MIRRORS: [Mirrored; 4] = [[false, false], [true, false], [false, true], [true, true]];
 
+/// Whether one correlation is better than another beyond doubt: by [`CLEARLY`], or by [`HARDLY`] where it halves the
+/// variance that is left.
+pub fn fits_better(correlation: f64, than: f64) -> bool {
+    let left = |correlation: f64| 1.0 - correlation * correlation;
+    correlation > than + CLEARLY || correlation > than + HARDLY && left(correlation) < 0.5 * left(than)
+}
+
 /// Lays `second` over `first`.
 ///
 /// # Errors
@@ -93,9 +100,7 @@ pub fn aligned(first: &Surface, second: &Surface) -> Result<Aligned, String> {
     let by_mirror = [0, 1, 2, 3].map(|k| found[k].0.0);
     let best = (1..4).fold(0, |best, k| if by_mirror[k] > by_mirror[best] { k } else { best });
     let [as_it_is, mirrored] = [by_mirror[0], by_mirror[best]];
-    let left = |correlation: f64| 1.0 - correlation * correlation;
-    let halved = mirrored > as_it_is + HARDLY && left(mirrored) < 0.5 * left(as_it_is);
-    let taken = if mirrored > as_it_is + CLEARLY || halved { best } else { 0 };
+    let taken = if fits_better(mirrored, as_it_is) { best } else { 0 };
     let (correlation, cells) = found[taken].0;
     if correlation == f64::NEG_INFINITY {
         return Err("the surfaces share too few measured points to be laid over each other".to_owned());
@@ -152,7 +157,7 @@ pub fn difference(aligned: &Aligned) -> Result<Surface, String> {
 }
 
 fn mirror(surface: &Surface, [x, y]: Mirrored) -> Result<Surface, String> {
-    let axes = [(x, Axis::X), (y, Axis::Y)].into_iter().filter(|(wanted, _)| *wanted);
+    let axes = [(x, MirrorAxis::X), (y, MirrorAxis::Y)].into_iter().filter(|(wanted, _)| *wanted);
     axes.into_iter().try_fold(surface.clone(), |surface, (_, axis)| {
         Ok(Preparation { mirror: Some(axis), ..Preparation::default() }.apply(&surface)?.0)
     })
@@ -386,7 +391,7 @@ fn correlation_of(first: &Surface, second: &Surface) -> Result<f64, String> {
 
 /// The marks of a surface: its largest wave.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Marks {
+pub struct SurfaceMarks {
     /// Wavelength across the marks, um.
     pub pitch_um: f64,
     /// Direction across the marks, deg from +x towards +y, above -90 and up to 90.
@@ -403,7 +408,7 @@ pub struct Marks {
 ///
 /// # Errors
 /// A surface without a wave that it holds often enough.
-pub fn marks(surface: &Surface) -> Result<Marks, String> {
+pub fn marks(surface: &Surface) -> Result<SurfaceMarks, String> {
     let (level, _) = form::remove(surface, Form::Poly2)?;
     let (lx, ly) = (level.nx() as f64 * level.dx_um(), level.ny() as f64 * level.dy_um());
     let cell = [(lx / COARSE as f64).max(level.dx_um()), (ly / COARSE as f64).max(level.dy_um())];
@@ -454,7 +459,7 @@ pub fn marks(surface: &Surface) -> Result<Marks, String> {
     }
     let found = wave(&level, frequency);
     let size = frequency[0].hypot(frequency[1]);
-    Ok(Marks {
+    Ok(SurfaceMarks {
         pitch_um: 1.0 / size,
         direction_deg: frequency[1].atan2(frequency[0]).to_degrees(),
         amplitude_um: found.norm(),
@@ -463,9 +468,9 @@ pub fn marks(surface: &Surface) -> Result<Marks, String> {
     })
 }
 
-impl Marks {
+impl SurfaceMarks {
     /// Phase of these marks on another surface less that on this one, deg, -180 to 180: where the other's marks come
-    /// later along [`Marks::direction_deg`] it is negative.
+    /// later along [`SurfaceMarks::direction_deg`] it is negative.
     ///
     /// # Errors
     /// A surface without form.

@@ -1,14 +1,15 @@
 //! What is done to a surface before its chain: points left out, outliers, holes filled, replicas turned back.
 //!
-//! In: a [`Surface`] and a [`Preparation`]. Out: the surface with what was done, in words and counted. Order: rectangles
-//! left out, outliers left out, holes filled, heights inverted, mirrored, cropped to a rectangle, rotated.
+//! In: a [`Surface`] and a [`Preparation`]. Out: the surface with what was done, in words and counted. Order:
+//! rectangles left out, outliers left out, holes filled, heights inverted, mirrored, cropped to a rectangle, rotated.
 //!
 //! - A replica shows hills for valleys, and left for right: `invert` and one `mirror` give back the original.
 //! - An outlier is a point farther from the median of its 5 x 5 neighbours than a number of standard deviations of
 //!   these differences, which are estimated by 1.4826 times their median (Hampel's identifier).
 //! - A hole is filled with the harmonic surface through its edge: every point the mean of its four neighbours. At the
 //!   edge of the map the missing neighbours do not count.
-//! - Right angles turn points; other angles interpolate (cubic convolution, Keys 1981, which damps waves of 10 points by
+//! - Right angles turn points; other angles interpolate (cubic convolution, Keys 1981, which damps waves of 10 points
+//!   by
 //!   0.1 % and of 4 points by up to a tenth) and keep the largest rectangle that lies inside the turned map.
 //!
 //! Road not taken: fitting outliers and holes after the form is off. What is left out must not depend on what is made
@@ -32,7 +33,7 @@ const SETTLED: f64 = 1e-7;
 
 /// An axis of the map.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Axis {
+pub enum MirrorAxis {
     /// Along a row.
     X,
     /// From row to row.
@@ -63,7 +64,7 @@ pub struct Preparation {
     /// Heights change their sign.
     pub invert: bool,
     /// The axis that runs the other way.
-    pub mirror: Option<Axis>,
+    pub mirror: Option<MirrorAxis>,
     /// The rectangle that is kept.
     pub crop_um: Option<RectangleUm>,
     /// Rotation, after everything else.
@@ -101,7 +102,7 @@ impl Preparation {
         }
         if let Some(axis) = self.mirror {
             surface = mirrored(&surface, axis);
-            words.push(format!("mirror: {} runs the other way", if axis == Axis::X { "x" } else { "y" }));
+            words.push(format!("mirror: {} runs the other way", if axis == MirrorAxis::X { "x" } else { "y" }));
         }
         if let Some(rectangle) = &self.crop_um {
             surface = cropped(&surface, rectangle)?;
@@ -159,11 +160,11 @@ fn cropped(surface: &Surface, rectangle: &RectangleUm) -> Result<Surface, String
     Surface::new(x.len(), y.len(), surface.dx_um(), surface.dy_um(), heights)
 }
 
-fn mirrored(surface: &Surface, axis: Axis) -> Surface {
+fn mirrored(surface: &Surface, axis: MirrorAxis) -> Surface {
     let (nx, ny) = (surface.nx(), surface.ny());
     let heights = (0..ny).flat_map(|y| {
-        let row = surface.row(if axis == Axis::Y { ny - 1 - y } else { y });
-        let turned: Vec<f64> = if axis == Axis::X { row.iter().rev().copied().collect() } else { row.to_vec() };
+        let row = surface.row(if axis == MirrorAxis::Y { ny - 1 - y } else { y });
+        let turned: Vec<f64> = if axis == MirrorAxis::X { row.iter().rev().copied().collect() } else { row.to_vec() };
         debug_assert_eq!(turned.len(), nx);
         turned
     });

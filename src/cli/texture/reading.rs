@@ -1,16 +1,16 @@
 //! How `gearcut texture` reads its file, what it does to the surface first, and where it saves it.
 
 use gearcut::Refusal;
-use gearcut::measure::topography::prepare::{Axis, Preparation, RectangleUm, Turn};
+use gearcut::measure::topography::prepare::{MirrorAxis, Preparation, RectangleUm, Turn};
 use gearcut::measure::topography::{ProfileTrace, Surface};
-use gearcut::output::surface_files::{Content, Format, Given, read};
+use gearcut::output::surface_files::{Format, Given, MeasuredContent, read};
 use std::path::{Path, PathBuf};
 
 use crate::cli::args::{AxisChoice, ReadingArguments, TextureArguments};
 use crate::cli::failure::Failure;
 
 /// A file that was read and made ready.
-pub enum Found {
+pub enum FileFound {
     Surface(Reading<Surface>),
     Profile(Reading<ProfileTrace>),
 }
@@ -26,7 +26,7 @@ pub struct Reading<T> {
 }
 
 /// Reads the file and makes its surface ready.
-pub fn reading(arguments: &TextureArguments) -> Result<Found, Failure> {
+pub fn reading(arguments: &TextureArguments) -> Result<FileFound, Failure> {
     let reading = &arguments.reading;
     let preparation = preparation(reading)?;
     let given = Given {
@@ -43,13 +43,13 @@ pub fn reading(arguments: &TextureArguments) -> Result<Found, Failure> {
     let doubts = measured.doubt().into_iter().collect();
     let (notes, mut remarks) = (measured.notes, measured.remarks);
     match measured.content {
-        Content::Surface(surface) => {
+        MeasuredContent::Surface(surface) => {
             let prepared = preparation.apply(&surface).map_err(|reason| unsuited(&arguments.file, &reason));
             let (surface, words) = prepared?;
             remarks.extend(words);
-            Ok(Found::Surface(Reading { surface, notes, remarks, doubts }))
+            Ok(FileFound::Surface(Reading { surface, notes, remarks, doubts }))
         }
-        Content::Trace(surface) => {
+        MeasuredContent::Trace(surface) => {
             if preparation != Preparation::default() || !arguments.save.is_empty() {
                 let reason = "it is a profile, and masks, outliers, turns, crops and --save are for surfaces";
                 return Err(unsuited(&arguments.file, reason).into());
@@ -57,7 +57,7 @@ pub fn reading(arguments: &TextureArguments) -> Result<Found, Failure> {
             if !arguments.lines.line.is_empty() || !arguments.lines.lines.is_empty() {
                 return Err(unsuited(&arguments.file, "it is a profile, which has no lines to choose from").into());
             }
-            Ok(Found::Profile(Reading { surface, notes, remarks, doubts }))
+            Ok(FileFound::Profile(Reading { surface, notes, remarks, doubts }))
         }
     }
 }
@@ -83,8 +83,8 @@ fn preparation(reading: &ReadingArguments) -> Result<Preparation, Refusal> {
         fill: reading.fill,
         invert: reading.invert,
         mirror: reading.mirror.map(|axis| match axis {
-            AxisChoice::X => Axis::X,
-            AxisChoice::Y => Axis::Y,
+            AxisChoice::X => MirrorAxis::X,
+            AxisChoice::Y => MirrorAxis::Y,
         }),
         crop_um: rectangles("--crop-to-um", &reading.crop_to_um)?.pop(),
         rotate: rotate.transpose()?,

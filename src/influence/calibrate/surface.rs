@@ -202,7 +202,9 @@ mod tests {
             assert!((number.value / expected - 1.0).abs() < 0.01, "{number:?}, {expected}");
             assert!((number.uncertainty / number.value - 0.05).abs() < 1e-12);
         }
-        assert_eq!(note, None);
+        assert!(note.is_some_and(|note| note.contains("100 x 5.00 um apart")), "the file is coarser along the tooth");
+        let alike = evaluated(&["texture.0.lead_spacing_um=100"], asked.clone(), Some(5.0)).expect("a surface");
+        assert_eq!(alike.1, None);
         // The same without the window's form is the bend.
         let (bent, _) = evaluated(&["texture.0.form=none"], asked.clone(), Some(5.0)).expect("a surface");
         assert!(bent[0].value > 5.0, "{bent:?}");

@@ -1,5 +1,5 @@
-//! Round gears with profile shifts: at the distance of their shifts they run without play, outside and in a ring; at any
-//! other one with the play of ISO 21771. All against closed forms of involutes.
+//! Round gears with profile shifts: at the distance of their shifts they run without play, outside and in a ring; at
+//! any other one with the play of ISO 21771. All against closed forms of involutes.
 
 use super::*;
 use crate::pair_job::fit::Fit;
@@ -11,6 +11,9 @@ use gearcut_core::error::Result;
 use gearcut_core::units::UM_PER_MM;
 
 const RING: &str = "kind = \"internal\"\nrim_mm = 20.0\n";
+/// A ring whose tips stay outside of the driver's end of the line of action: its tip radius of 72.6 mm is above
+/// sqrt(r_b^2 + (a sin(alpha_w))^2) = 72.27 mm, which the 72 mm of a full tooth are not.
+const LOW_RING: &str = "kind = \"internal\"\nrim_mm = 20.0\naddendum_coefficient = 0.8\n";
 
 fn shifted(name: &str, teeth: u32, shift: f64, more: &str) -> LoadedScene {
     let kind = if more.contains("internal") { RING } else { "" };
@@ -94,7 +97,7 @@ fn shifted_gears_run_without_play_at_the_distance_of_their_shifts() {
 fn a_named_distance_is_rolled_with_its_play() {
     let alpha = 20_f64.to_radians();
     for (teeth, shift, named_mm, more) in
-        [([20, 30], 0.0, 75.4, ""), ([20, 30], 0.25, 76.1, ""), ([20, 50], -0.2, 45.2, RING)]
+        [([20, 30], 0.0, 75.4, ""), ([20, 30], 0.25, 76.1, ""), ([20, 50], -0.2, 45.2, LOW_RING)]
     {
         let sign = if more.is_empty() { 1.0 } else { -1.0 };
         let apart = f64::from(teeth[1]) + sign * f64::from(teeth[0]);

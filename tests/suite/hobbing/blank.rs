@@ -329,6 +329,12 @@ mod slow {
             // and generating marks together. (A sharp hob corner leaves higher cusps in fillets.)
             let sharpest = job.curve.facts().curvature_extrema.iter().map(|e| e.curvature_per_mm).fold(0.0, f64::max);
             let marks_um = 1e3 * (job.feed_mark_mm(job.finishing()) + job.generating_mark_mm(sharpest));
+            // The outline is transverse, marks are normal to the flank.
+            let cos_base = {
+                let gear = &job.scene.gear;
+                let tan_base = gear.helix_angle_rad.tan() * gear.transverse_pressure_angle_rad().cos();
+                1.0 / tan_base.hypot(1.0)
+            };
             let (mut lowest_um, mut highest_um, mut ends) = (f64::INFINITY, 0.0_f64, 0);
             let grid = &blank.cut.field.grid;
             for (slice, &z_mm) in blank.cut.field.slices.iter().zip(&grid.slices_z_mm) {
@@ -340,8 +346,8 @@ mod slow {
                             let place = family.point(end.at_mm, grid.rows[f].at_mm(ray));
                             let over_um = 1e3 * target.distance_mm(place, 2.0).expect("near");
                             lowest_um = lowest_um.min(over_um);
-                            if job.blank.height(place, place.to_angle()).0.abs() < 0.3 * job.scene.gear.module_mm {
-                                highest_um = highest_um.max(over_um);
+                            if job.blank.height(place, place.to_angle()).0.abs() < 0.05 * job.scene.gear.module_mm {
+                                highest_um = highest_um.max(over_um * cos_base);
                             }
                             ends += 1;
                         }

@@ -105,7 +105,7 @@ mod slow {
                         && !outcome
                             .out
                             .split_whitespace()
-                            .any(|word| word.contains("inf") && !word.contains("inferred")),
+                            .any(|word| word.trim_matches(|c: char| !c.is_alphanumeric()) == "inf"),
                     "{}",
                     outcome.out
                 );
@@ -186,7 +186,7 @@ fn what_cut_refuses_is_refused_before() {
 #[test]
 fn a_shaping_scene_has_no_helix() {
     for (setting, way_out) in
-        [("gear.helix_angle_deg=10", "hob the gear with [tool.hob]"), ("gear.hand=left", "way out: remove it")]
+        [("gear.helix_angle_deg=10", "write [tool.hob] instead"), ("gear.hand=left", "way out: remove it")]
     {
         let scene = "scenes/shaping/circular_m3_z24.toml";
         gearcut(&["check", scene, "--set", setting])

@@ -1,7 +1,7 @@
 //! What a file holds and what its reader adds: a surface or a trace, its notes, and remarks on how it was read.
 //!
-//! In: heights with the sides that a header gives them. Out: [`Content`]. A single line of points is a trace, whatever
-//! the format calls it, and several lines are a surface.
+//! In: heights with the sides that a header gives them. Out: [`MeasuredContent`]. A single line of points is a trace,
+//! whatever the format calls it, and several lines are a surface.
 
 use super::units::LengthUnit;
 use super::{SpacingUm, SurfaceFile};
@@ -30,14 +30,14 @@ impl Given {
 
 /// A surface or a trace.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Content {
+pub enum MeasuredContent {
     /// Heights on a grid.
     Surface(Surface),
     /// Heights along one line.
     Trace(ProfileTrace),
 }
 
-impl Content {
+impl MeasuredContent {
     /// `nx` x `ny` heights; one line along either axis is a trace.
     pub(super) fn new(nx: usize, ny: usize, dx_um: f64, dy_um: f64, heights_um: Vec<f64>) -> Result<Self, String> {
         if nx.checked_mul(ny) != Some(heights_um.len()) {
@@ -64,17 +64,17 @@ const USUAL_RANGE_UM: [f64; 2] = [1e-3, 1e3];
 
 /// A file that was read.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Measured {
+pub struct MeasuredFile {
     /// Heights and spacing.
-    pub content: Content,
+    pub content: MeasuredContent,
     /// Texts by name, as in [`SurfaceFile::notes`].
     pub notes: Vec<(String, String)>,
     /// What the reader took otherwise than it is written, or left out, in words.
     pub remarks: Vec<String>,
 }
 
-impl Measured {
-    pub(super) fn new(content: Content, notes: Vec<(String, String)>) -> Self {
+impl MeasuredFile {
+    pub(super) fn new(content: MeasuredContent, notes: Vec<(String, String)>) -> Self {
         Self { content, notes, remarks: Vec::new() }
     }
 
@@ -86,8 +86,8 @@ impl Measured {
                 .to_owned());
         }
         let (x, y) = match &self.content {
-            Content::Surface(surface) => (surface.dx_um(), surface.dy_um()),
-            Content::Trace(trace) => (trace.spacing_um(), trace.spacing_um()),
+            MeasuredContent::Surface(surface) => (surface.dx_um(), surface.dy_um()),
+            MeasuredContent::Trace(trace) => (trace.spacing_um(), trace.spacing_um()),
         };
         match given.spacing_um {
             Some([ax, ay]) if (x - ax).abs() > 1e-6 * ax || (y - ay).abs() > 1e-6 * ay => {
@@ -118,8 +118,8 @@ impl Measured {
     /// It is a trace.
     pub fn into_surface(self) -> Result<SurfaceFile, String> {
         match self.content {
-            Content::Surface(surface) => Ok(SurfaceFile { surface, notes: self.notes }),
-            Content::Trace(trace) => Err(format!(
+            MeasuredContent::Surface(surface) => Ok(SurfaceFile { surface, notes: self.notes }),
+            MeasuredContent::Trace(trace) => Err(format!(
                 "the file holds a profile of {} points, where a surface is needed",
                 trace.heights_um().len()
             )),

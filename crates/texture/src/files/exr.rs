@@ -3,7 +3,7 @@
 //! Of several channels the one called `height_mm`, else `height_um`, else the first in mm or um is the surface.
 
 use super::bounds::points;
-use super::content::{Content, Measured};
+use super::content::{MeasuredContent, MeasuredFile};
 use super::exr_map::{self, MapChannel, Samples};
 use crate::surface::Surface;
 use crate::text::quoted;
@@ -11,7 +11,7 @@ use crate::text::quoted;
 /// Micrometres in a millimetre.
 const UM_PER_MM: f64 = 1e3;
 
-pub(super) fn decode(bytes: &[u8]) -> Result<Measured, String> {
+pub(super) fn decode(bytes: &[u8]) -> Result<MeasuredFile, String> {
     let map = exr_map::decode(bytes)?;
     points(map.grid.v.count, map.grid.u.count)?;
     let is_length = |c: &&MapChannel| ["mm", "um"].contains(&c.unit.as_str());
@@ -32,5 +32,5 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Measured, String> {
         ("quantity".to_owned(), format!("{}: {}", channel.name, channel.definition)),
     ];
     notes.extend(map.notes);
-    Ok(Measured::new(Content::Surface(surface), notes))
+    Ok(MeasuredFile::new(MeasuredContent::Surface(surface), notes))
 }

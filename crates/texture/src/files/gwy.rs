@@ -1,13 +1,13 @@
 //! GWY, Gwyddion's own format, read: objects within objects, each with its name, its bytes and named components.
 //!
-//! `GWYP`, then an object `GwyContainer`: a name that ends with zero, the number of bytes, components. A component: name,
-//! a letter for its type, its value; numbers are little endian. Channels are the fields `/0/data`, `/1/data`, ...; a field
-//! has `xres`, `yres`, `xreal`, `yreal` (points times spacing), heights row by row, and the units of both. The first
-//! channel of lengths is read, others are remarked. A mask marks points of any meaning: it makes holes where that
-//! is wished, and is remarked. Source: the format's description in Gwyddion's user guide.
+//! `GWYP`, then an object `GwyContainer`: a name that ends with zero, the number of bytes, components. A component:
+//! name, a letter for its type, its value; numbers are little endian. Channels are the fields `/0/data`, `/1/data`,
+//! ...; a field has `xres`, `yres`, `xreal`, `yreal` (points times spacing), heights row by row, and the units of both.
+//! The first channel of lengths is read, others are remarked. A mask marks points of any meaning: it makes holes where
+//! that is wished, and is remarked. Source: the format's description in Gwyddion's user guide.
 
 use super::bounds::{kept_number, points, side};
-use super::content::{Content, Measured};
+use super::content::{MeasuredContent, MeasuredFile};
 use super::raw::{Bytes, Raw};
 use super::units::LengthUnit;
 use crate::text::quoted;
@@ -21,7 +21,7 @@ struct Component<'a> {
 }
 
 /// Reads the first channel of lengths; `use_mask`: what its mask marks are holes.
-pub(super) fn decode(bytes: &[u8], use_mask: bool) -> Result<Measured, String> {
+pub(super) fn decode(bytes: &[u8], use_mask: bool) -> Result<MeasuredFile, String> {
     let (name, inner, _) = object(&bytes[4.min(bytes.len())..])?;
     if name != "GwyContainer" {
         return Err(format!("it holds a `{}`, no container of channels", quoted(name)));
@@ -43,7 +43,7 @@ pub(super) fn decode(bytes: &[u8], use_mask: bool) -> Result<Measured, String> {
         let masked = mask.filter(|_| use_mask).map(|mask| values(mask.value)).transpose()?;
         match field(channel.value, masked.as_deref()) {
             Ok(content) => {
-                let mut measured = Measured::new(content, Vec::new());
+                let mut measured = MeasuredFile::new(content, Vec::new());
                 let title = components.iter().find(|c| c.name == format!("/{number}/data/title"));
                 let title = title.map(|c| quoted(&String::from_utf8_lossy(c.value))).unwrap_or_default();
                 if channels.len() > 1 {
@@ -79,7 +79,7 @@ fn values(value: &[u8]) -> Result<Vec<f64>, String> {
 }
 
 /// Heights of a field; holes where `mask` is above zero.
-fn field(value: &[u8], mask: Option<&[f64]>) -> Result<Content, String> {
+fn field(value: &[u8], mask: Option<&[f64]>) -> Result<MeasuredContent, String> {
     let components = of_field(value)?;
     let find = |name: &str, kind: u8| {
         components.iter().find(|c| c.name == name && c.kind == kind).ok_or_else(|| format!("it has no `{name}`"))
@@ -103,7 +103,7 @@ fn field(value: &[u8], mask: Option<&[f64]>) -> Result<Content, String> {
     let masked = |i: usize| mask.is_some_and(|mask| mask[i] > 0.0);
     let heights = heights.into_iter().enumerate();
     let heights = heights.map(|(i, z)| if masked(i) { f64::NAN } else { kept_number(z, z * up) }).collect();
-    Content::new(nx, ny, real("xreal")? / nx as f64 * across, real("yreal")? / ny as f64 * across, heights)
+    MeasuredContent::new(nx, ny, real("xreal")? / nx as f64 * across, real("yreal")? / ny as f64 * across, heights)
 }
 
 /// Name and inner bytes of the object that `bytes` begin with, and its whole length.

@@ -2,8 +2,8 @@
 //! maps; GWY and text of any program are read.
 //!
 //! Out: [`SurfaceFile`], heights in um on a regular grid with spacing, holes as NaN, and notes (frame, scene, run
-//! record). In: [`Measured`], a surface or a trace of one line, with remarks on how it was read. What each format can
-//! carry:
+//! record). In: [`MeasuredFile`], a surface or a trace of one line, with remarks on how it was read. What each format
+//! can carry:
 //!
 //! | format | heights | spacing | holes | notes |
 //! | --- | --- | --- | --- | --- |
@@ -45,7 +45,7 @@ use crate::surface::Surface;
 use crate::{Error, Result};
 pub use bounds::MOST_POINTS;
 use bounds::unreadable;
-pub use content::{Content, Given, Measured};
+pub use content::{Given, MeasuredContent, MeasuredFile};
 use kind::FileKind;
 pub use units::LengthUnit;
 
@@ -107,19 +107,19 @@ pub fn read_surface(path: &Path, spacing_um: Option<SpacingUm>) -> Result<Surfac
     read(path, &Given::spacing(spacing_um))?.into_surface().map_err(unreadable(path))
 }
 
-/// Reads a surface or a trace. What is `given` holds where the file does not say it, and must not contradict it where it
-/// does.
+/// Reads a surface or a trace. What is `given` holds where the file does not say it, and must not contradict it where
+/// it does.
 ///
 /// # Errors
 /// Files that cannot be read, are no regular files or larger than their format allows, are damaged, are none of these
 /// formats, hold heights or spacings out of range ([`Surface::new`]), or leave open what is not given.
-pub fn read(path: &Path, given: &Given) -> Result<Measured> {
+pub fn read(path: &Path, given: &Given) -> Result<MeasuredFile> {
     let (kind, bytes) = bounds::read(path, |head| FileKind::of(head, path).map(|kind| (kind, kind.most_bytes())))?;
     decoded(kind, &bytes, path, given).map_err(unreadable(path))
 }
 
 /// What the bytes of a file of a kind hold; `path` for the file beside it.
-fn decoded(kind: FileKind, bytes: &[u8], path: &Path, given: &Given) -> std::result::Result<Measured, String> {
+fn decoded(kind: FileKind, bytes: &[u8], path: &Path, given: &Given) -> std::result::Result<MeasuredFile, String> {
     let measured = match kind {
         FileKind::X3p => x3p::decode(bytes),
         FileKind::SdfBinary => sdf::decode(bytes),

@@ -12,7 +12,7 @@ use serde_json::{Value, json};
 
 use super::SurfaceFile;
 use super::bounds::{self, kept_number, points};
-use super::content::{Content, Given, Measured};
+use super::content::{Given, MeasuredContent, MeasuredFile};
 use super::units::LengthUnit;
 use crate::surface::Surface;
 use crate::text::quoted;
@@ -60,7 +60,7 @@ pub(super) fn facts_beside(path: &Path) -> Result<Option<Value>, String> {
     serde_json::from_slice(&text).map(Some).map_err(|reason| format!("{}: {reason}", beside.display()))
 }
 
-pub(super) fn decode(bytes: &[u8], facts: Option<&Value>, given: &Given) -> Result<Measured, String> {
+pub(super) fn decode(bytes: &[u8], facts: Option<&Value>, given: &Given) -> Result<MeasuredFile, String> {
     let unit = facts.map(|f| &f["height_unit"]).filter(|unit| !unit.is_null());
     if let Some(unit) = unit.filter(|unit| **unit != "um") {
         return Err(format!(
@@ -80,7 +80,7 @@ pub(super) fn decode(bytes: &[u8], facts: Option<&Value>, given: &Given) -> Resu
     for z in &mut heights {
         *z = kept_number(*z, *z * own.um());
     }
-    let mut measured = Measured::new(Content::new(shape[1], shape[0], dx_um, dy_um, heights)?, notes);
+    let mut measured = MeasuredFile::new(MeasuredContent::new(shape[1], shape[0], dx_um, dy_um, heights)?, notes);
     let said = Given { height_unit: given.height_unit.filter(|_| unit.is_some()), ..*given };
     measured.agrees(&said)?;
     if unit.or(given.height_unit.map(|_| &Value::Null)).is_none() {

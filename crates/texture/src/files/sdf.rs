@@ -2,12 +2,12 @@
 //!
 //! Little endian. 0 `bISO-1.0`, 8 maker, 18 and 30 dates, 42 points, 44 rows (16 bits: at most 65535 a side), 46, 54
 //! spacing in m, 62 metres per unit of height, 70 resolution (-1: unknown), 78 compression, 79 type of heights, 80
-//! check, 81 heights. Version ISO-2.0, whose sizes have 32 bits, and the older BCR dialect, which also has types without
-//! sign, are read too; one row is a trace.
+//! check, 81 heights. Version ISO-2.0, whose sizes have 32 bits, and the older BCR dialect, which also has types
+//! without sign, are read too; one row is a trace.
 
 use super::SurfaceFile;
 use super::bounds::{factor, kept_number, points, side};
-use super::content::{Content, Measured};
+use super::content::{MeasuredContent, MeasuredFile};
 use super::raw::{Bytes, Raw};
 use super::sdf_parts::{MAKER, UNKNOWN_DATE, raw_type, trailer_notes, trailer_text, type_code};
 use crate::text::quoted;
@@ -33,7 +33,7 @@ pub(super) fn encode(file: &SurfaceFile) -> Result<Vec<u8>, String> {
     Ok(bytes)
 }
 
-pub(super) fn decode(bytes: &[u8]) -> Result<Measured, String> {
+pub(super) fn decode(bytes: &[u8]) -> Result<MeasuredFile, String> {
     let all = Bytes(bytes);
     let (nx, ny, rest) = match all.at(0, 8)? {
         b"bISO-1.0" | b"bBCR-1.0" | b"bBCR-0.0" => (usize::from(all.u16(42)?), usize::from(all.u16(44)?), 46),
@@ -54,6 +54,6 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Measured, String> {
     let heights =
         heights.map(|z| if Some(z) == mark { f64::NAN } else { kept_number(z, z * (scale * UM_PER_M)) }).collect();
     let trailer = String::from_utf8_lossy(&data[count * raw.bytes()..]).into_owned();
-    let content = Content::new(nx, ny, dx * UM_PER_M, dy * UM_PER_M, heights)?;
-    Ok(Measured::new(content, trailer_notes(&trailer)))
+    let content = MeasuredContent::new(nx, ny, dx * UM_PER_M, dy * UM_PER_M, heights)?;
+    Ok(MeasuredFile::new(content, trailer_notes(&trailer)))
 }

@@ -1,13 +1,14 @@
 //! SDF ASCII (ISO 25178-71): header lines `Name = value`, a star, heights, a star, trailer, a star.
 //!
 //! Heights are written in um (`Zscale` 1e-6) with the fewest digits that read back the same, one line per row; holes as
-//! `NaN`, which every reader that was tried takes, where `BAD` fails in one. Both are read, and so are header names in any case, the BCR dialect, and one row as a trace.
+//! `NaN`, which every reader that was tried takes, where `BAD` fails in one. Both are read, and so are header names in
+//! any case, the BCR dialect, and one row as a trace.
 
 use std::fmt::Write as _;
 
 use super::SurfaceFile;
 use super::bounds::{factor, height, kept_number, points};
-use super::content::{Content, Measured};
+use super::content::{MeasuredContent, MeasuredFile};
 use super::sdf_parts::{MAKER, UNKNOWN_DATE, raw_type, trailer_notes, trailer_text};
 use super::text::characters;
 use crate::text::quoted;
@@ -37,7 +38,7 @@ pub(super) fn encode(file: &SurfaceFile) -> Result<Vec<u8>, String> {
     Ok(text.into_bytes())
 }
 
-pub(super) fn decode(bytes: &[u8]) -> Result<Measured, String> {
+pub(super) fn decode(bytes: &[u8]) -> Result<MeasuredFile, String> {
     let (text, _) = characters(bytes)?;
     let mut parts = text.splitn(3, '*');
     let (header, data) = (parts.next().unwrap_or_default(), parts.next().ok_or("the header does not end with a star")?);
@@ -75,6 +76,6 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Measured, String> {
             Ok(if Some(value) == mark { f64::NAN } else { kept_number(value, value * (scale * 1e6)) })
         })
         .collect::<Result<Vec<f64>, String>>()?;
-    let content = Content::new(nx, ny, dx * 1e6, dy * 1e6, heights)?;
-    Ok(Measured::new(content, trailer_notes(parts.next().unwrap_or_default())))
+    let content = MeasuredContent::new(nx, ny, dx * 1e6, dy * 1e6, heights)?;
+    Ok(MeasuredFile::new(content, trailer_notes(parts.next().unwrap_or_default())))
 }

@@ -3,12 +3,12 @@
 //! Numbers are little endian. Spacing and step are f32 here (1e-7 of the value): fine for looking at, not for
 //! archiving. Written with 32 bits, the steps spread over the range of heights, no offset (a reader loses it), the
 //! micro sign as the single byte 0xB5 (readers fail on two). Read: 16 and 32 bits, any unit of length, offset, deflated
-//! heights (`DSCOMPRESSED`), profiles, and surfaces that call themselves profiles, as Gwyddion's do. What the header says
-//! of replicas, inversion and levelling is said, and nothing is turned for it.
+//! heights (`DSCOMPRESSED`), profiles, and surfaces that call themselves profiles, as Gwyddion's do. What the header
+//! says of replicas, inversion and levelling is said, and nothing is turned for it.
 
 use super::SurfaceFile;
 use super::bounds::{factor, points, side};
-use super::content::{Content, Measured};
+use super::content::{MeasuredContent, MeasuredFile};
 use super::raw::{Bytes, Raw};
 use super::units::LengthUnit;
 use crate::text::quoted;
@@ -66,7 +66,7 @@ pub(super) fn encode(file: &SurfaceFile) -> Result<Vec<u8>, String> {
 /// Kinds of objects that are read: a profile, a surface, a series of surfaces.
 const KINDS: [i16; 3] = [1, 2, 6];
 
-pub(super) fn decode(bytes: &[u8]) -> Result<Measured, String> {
+pub(super) fn decode(bytes: &[u8]) -> Result<MeasuredFile, String> {
     let all = Bytes(bytes);
     let kind = all.i16(18)?;
     if !KINDS.contains(&kind) {
@@ -104,7 +104,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Measured, String> {
     };
     let height = |z: f64| if has_holes && z == low - 2.0 { f64::NAN } else { (z * step + offset) * z_um };
     let heights = raw.values(data, count)?.into_iter().map(height).collect();
-    let mut measured = Measured::new(Content::new(nx, ny, dx * x_um, dy * y_um, heights)?, Vec::new());
+    let mut measured = MeasuredFile::new(MeasuredContent::new(nx, ny, dx * x_um, dy * y_um, heights)?, Vec::new());
     let mut remark = |condition: bool, words: String| {
         if condition {
             measured.remarks.push(words);

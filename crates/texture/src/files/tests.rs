@@ -132,8 +132,8 @@ fn of_dialects() -> Surface {
     Surface::new(10, 8, 2.0, 3.0, heights).expect("a grid")
 }
 
-fn surface_of(measured: &Measured) -> &Surface {
-    let Content::Surface(surface) = &measured.content else { panic!("no surface: {measured:?}") };
+fn surface_of(measured: &MeasuredFile) -> &Surface {
+    let MeasuredContent::Surface(surface) = &measured.content else { panic!("no surface: {measured:?}") };
     surface
 }
 
@@ -216,11 +216,13 @@ fn archives_of_other_zips_are_read_or_named() {
         read(&path, &Given::default())
     };
     let axes = "<Record1><FeatureType>SUR</FeatureType><Axes><CX><AxisType>I</AxisType><Increment>2e-6</Increment></CX>\
-                <CY><AxisType>I</AxisType><Increment>3e-6</Increment></CY><CZ><DataType>D</DataType></CZ></Axes></Record1>";
+                <CY><AxisType>I</AxisType><Increment>3e-6</Increment></CY><CZ><DataType>D</DataType></CZ></Axes>\
+                </Record1>";
     let record = |data: &str| {
         format!(
             "<p:ISO5436_2 xmlns:p=\"http://www.opengps.eu/2008/ISO5436_2\">{axes}<Record2><Comment>gr\u{fc}n</Comment>\
-             </Record2><Record3><MatrixDimension><SizeX>3</SizeX><SizeY>2</SizeY><SizeZ>1</SizeZ></MatrixDimension>{data}\
+             </Record2><Record3><MatrixDimension><SizeX>3</SizeX><SizeY>2</SizeY><SizeZ>1</SizeZ></MatrixDimension>\
+             {data}\
              </Record3></p:ISO5436_2>"
         )
     };
@@ -260,7 +262,7 @@ fn one_row_is_a_profile() {
     let folder = tempfile::tempdir().expect("a folder for the test");
     let profile = |path: &Path| {
         let measured = read(path, &Given::default()).unwrap_or_else(|reason| panic!("{reason}"));
-        let Content::Trace(trace) = measured.content else { panic!("{path:?} is a surface") };
+        let MeasuredContent::Trace(trace) = measured.content else { panic!("{path:?} is a surface") };
         trace
     };
     // 8 waves of amplitude 0.5 um in steps of 0.1 nm, 0.5 um apart.
@@ -278,8 +280,10 @@ fn one_row_is_a_profile() {
     assert_eq!(profile(&sdf).heights_um(), of_dialects().heights_um());
     let x3p = folder.path().join("p.x3p");
     let record = "<p xmlns=\"x\"><Record1><FeatureType>PRF</FeatureType><Axes><CX><AxisType>I</AxisType>\
-                  <Increment>5e-7</Increment></CX><CZ><DataType>L</DataType><Increment>1e-9</Increment></CZ></Axes></Record1>\
-                  <Record3><MatrixDimension><SizeX>12</SizeX><SizeY>1</SizeY><SizeZ>1</SizeZ></MatrixDimension><DataLink>\
+                  <Increment>5e-7</Increment></CX><CZ><DataType>L</DataType><Increment>1e-9</Increment></CZ></Axes>\
+                  </Record1>\
+                  <Record3><MatrixDimension><SizeX>12</SizeX><SizeY>1</SizeY><SizeZ>1</SizeZ></MatrixDimension>\
+                  <DataLink>\
                   <PointDataLink>d</PointDataLink></DataLink></Record3></p>";
     let steps = [100_i32, -250, 7, 0, 1, 2, 3, 4, 5, 6, 7, -8];
     let heights: Vec<u8> = steps.iter().flat_map(|z| z.to_le_bytes()).collect();
@@ -318,7 +322,7 @@ fn a_range_that_no_texture_has_is_doubted() {
     for (factor, doubted) in [(1.0, false), (1e-6, true), (1e6, true), (0.0, true)] {
         let heights = of_dialects().heights_um().iter().map(|z| z * factor * 0.1).collect();
         let surface = Surface::new(10, 8, 2.0, 3.0, heights).expect("a grid");
-        let measured = Measured::new(Content::Surface(surface), Vec::new());
+        let measured = MeasuredFile::new(MeasuredContent::Surface(surface), Vec::new());
         assert_eq!(measured.doubt().is_some(), doubted, "{factor}: {:?}", measured.doubt());
     }
 }

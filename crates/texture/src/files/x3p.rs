@@ -4,9 +4,9 @@
 //! 2000`; MD5 of `main.xml` in lower case; NaN for what was not measured. Record 2 carries the notes in its comment.
 //! The format demands dates: the epoch stands for "not recorded", because the same scene must give the same bytes.
 //!
-//! Read: surfaces (SUR) and profiles (PRF), types D, F, L and I (with increment and offset), heights in a binary file or
-//! as text in the record, validity bits, both revisions; archives with everything in a folder, or with backslashes in
-//! their names; records in UTF-8, UTF-16 and Latin-1. A checksum of `data.bin` where one of `main.xml` should be is
+//! Read: surfaces (SUR) and profiles (PRF), types D, F, L and I (with increment and offset), heights in a binary file
+//! or as text in the record, validity bits, both revisions; archives with everything in a folder, or with backslashes
+//! in their names; records in UTF-8, UTF-16 and Latin-1. A checksum of `data.bin` where one of `main.xml` should be is
 //! accepted, because a common writer puts it there.
 
 use std::fmt::{Display, Write as _};
@@ -17,7 +17,7 @@ use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, DateTime, ZipArchive, ZipWriter};
 
 use super::bounds::{factor, height, kept_number, points};
-use super::content::{Content, Measured};
+use super::content::{MeasuredContent, MeasuredFile};
 use super::raw::Raw;
 use super::text::characters;
 use super::{SurfaceFile, notes_json, notes_of};
@@ -136,7 +136,7 @@ fn hex(bytes: &[u8]) -> String {
     })
 }
 
-pub(super) fn decode(bytes: &[u8]) -> Result<Measured, String> {
+pub(super) fn decode(bytes: &[u8]) -> Result<MeasuredFile, String> {
     let mut archive = Archive::open(bytes)?;
     let main = archive.entry(MAIN, MOST_MAIN)?;
     let (text, encoding) = characters(&main).map_err(|reason| format!("{MAIN}: {reason}"))?;
@@ -202,8 +202,8 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Measured, String> {
     let dx = spacing("CX")?;
     // A profile has one axis; what it says of the other is nothing.
     let dy = if ny == 1 { dx } else { spacing("CY")? };
-    let content = Content::new(nx, ny, dx, dy, heights)?;
-    let mut measured = Measured::new(content, notes_of(record.text("Record2/Comment").unwrap_or_default()));
+    let content = MeasuredContent::new(nx, ny, dx, dy, heights)?;
+    let mut measured = MeasuredFile::new(content, notes_of(record.text("Record2/Comment").unwrap_or_default()));
     measured.remarks.extend(encoding.map(|encoding| format!("encoding of {MAIN}: {encoding}")));
     measured.remarks.extend(record.rotation());
     Ok(measured)

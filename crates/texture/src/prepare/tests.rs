@@ -19,7 +19,7 @@ fn a_replica_turned_back_is_the_original() {
         let heights = (0..35).map(|i| -original.row(i / 7)[6 - i % 7]).collect();
         Surface::new(7, 5, 2.0, 3.0, heights).expect("a grid")
     };
-    let back = Preparation { invert: true, mirror: Some(Axis::X), ..Preparation::default() };
+    let back = Preparation { invert: true, mirror: Some(MirrorAxis::X), ..Preparation::default() };
     let (turned, words) = back.apply(&replica).expect("turned");
     assert_eq!(turned, original);
     assert_eq!(words.len(), 2);

@@ -82,12 +82,14 @@ mod tests {
         HobTip { module_mm: 2.0, pressure_angle_rad, hob_addendum, gear_addendum, thinning_mm: 0.0, protuberance: None }
     }
 
-    /// ISO 53, racks A and C: 0.38 and 0.25 modules; a spline of 30 deg with a clearance of 0.15 modules 0.3; 25 deg
-    /// and 1.25 modules are too pointed for 0.38.
+    /// ISO 53, rack A: 0.38 modules; at 1.4 modules nine tenths of the full round (pi / 4 - 1.4 tan 20 deg) /
+    /// tan 35 deg; a spline of 30 deg with a clearance of 0.15 modules 0.3; 25 deg and 1.25 modules are too pointed
+    /// for 0.38.
     #[test]
     fn a_tip_round_is_that_of_the_standard_rack_where_it_fits() {
         assert_eq!(tip(20.0, 1.25, 1.0).round_mm(), 0.76);
-        assert_eq!(tip(20.0, 1.4, 1.0).round_mm(), 0.76);
+        let full_mm = 2.0 * (std::f64::consts::FRAC_PI_4 - 1.4 * 0.363970234266202) / 0.700207538209710;
+        assert!((tip(20.0, 1.4, 1.0).round_mm() - 0.9 * full_mm).abs() < 1e-12);
         assert!((tip(30.0, 0.6, 0.45).round_mm() - 0.6).abs() < 1e-12);
         let pointed_mm = tip(25.0, 1.25, 1.0).round_mm();
         assert!(pointed_mm > 0.5 && pointed_mm < 0.64, "{pointed_mm}");

@@ -1,10 +1,10 @@
 //! What the lines above a table of heights say: units, spacing, numbers of points, names of columns.
 //!
-//! In: comment lines (`#`, `%`) and lines of words above the first row. Out: [`Header`]. A line is a key and a value,
-//! parted by `=`, `:` or the separator of the table, with the unit behind the value, in brackets behind the key, or as
-//! its last word (`dx_um`). Keys are those of Gwyddion's and Keyence's exports, of this program, and what instruments
-//! write in plain words. A known key with a value that cannot be one is refused. Lines that name a unit under a key
-//! that is not known are kept, to be quoted where a unit is missing.
+//! In: comment lines (`#`, `%`) and lines of words above the first row. Out: [`TextHeader`]. A line is a key and a
+//! value, parted by `=`, `:` or the separator of the table, with the unit behind the value, in brackets behind the key,
+//! or as its last word (`dx_um`). Keys are those of Gwyddion's and Keyence's exports, of this program, and what
+//! instruments write in plain words. A known key with a value that cannot be one is refused. Lines that name a unit
+//! under a key that is not known are kept, to be quoted where a unit is missing.
 //!
 //! Road not taken: reading what other programs mean by the length of a side. Gwyddion's is points times spacing,
 //! others' is one spacing less; only Gwyddion's, known by its `Channel` line, is taken.
@@ -25,7 +25,7 @@ pub(super) struct Length {
 
 /// What a column holds, by its name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Column {
+pub(super) enum TextColumn {
     X,
     Y,
     Z,
@@ -33,7 +33,7 @@ pub(super) enum Column {
 
 /// Everything that the lines say.
 #[derive(Debug, Default)]
-pub(super) struct Header {
+pub(super) struct TextHeader {
     /// The file is one of this program: cells are as they are, empty ones holes.
     pub(super) own: bool,
     pub(super) notes: Vec<(String, String)>,
@@ -44,7 +44,7 @@ pub(super) struct Header {
     pub(super) sides: [Option<Length>; 2],
     pub(super) counts: [Option<(usize, usize)>; 2],
     /// Names of two or three columns, with units.
-    pub(super) columns: Vec<(Column, Option<LengthUnit>)>,
+    pub(super) columns: Vec<(TextColumn, Option<LengthUnit>)>,
     /// Lines that name a unit and were not understood.
     pub(super) unclear: Vec<String>,
     channel: bool,
@@ -52,7 +52,7 @@ pub(super) struct Header {
 
 /// What a key is about.
 #[derive(Clone, Copy)]
-enum Role {
+enum LineRole {
     Own,
     Channel,
     Notes,
@@ -66,12 +66,12 @@ enum Role {
 }
 
 /// Keys in small letters, words parted by one blank.
-const ROLES: [(Role, &[&str]); 13] = [
-    (Role::Own, &["gearcut surface"]),
-    (Role::Channel, &["channel"]),
-    (Role::Notes, &["notes"]),
+const ROLES: [(LineRole, &[&str]); 13] = [
+    (LineRole::Own, &["gearcut surface"]),
+    (LineRole::Channel, &["channel"]),
+    (LineRole::Notes, &["notes"]),
     (
-        Role::HeightUnit,
+        LineRole::HeightUnit,
         &[
             "value unit",
             "value units",
@@ -87,9 +87,9 @@ const ROLES: [(Role, &[&str]); 13] = [
             "data units",
         ],
     ),
-    (Role::AnyUnit, &["unit", "units"]),
+    (LineRole::AnyUnit, &["unit", "units"]),
     (
-        Role::SpacingUnit,
+        LineRole::SpacingUnit,
         &[
             "xy unit",
             "xy units",
@@ -106,7 +106,7 @@ const ROLES: [(Role, &[&str]); 13] = [
         ],
     ),
     (
-        Role::Spacing(&[0, 1]),
+        LineRole::Spacing(&[0, 1]),
         &[
             "xy calibration",
             "pixel size",
@@ -123,17 +123,17 @@ const ROLES: [(Role, &[&str]); 13] = [
         ],
     ),
     (
-        Role::Spacing(&[0]),
+        LineRole::Spacing(&[0]),
         &["dx", "x spacing", "spacing x", "x step", "step x", "x increment", "increment x", "delta x", "pixel size x"],
     ),
     (
-        Role::Spacing(&[1]),
+        LineRole::Spacing(&[1]),
         &["dy", "y spacing", "spacing y", "y step", "step y", "y increment", "increment y", "delta y", "pixel size y"],
     ),
-    (Role::Side(0), &["width"]),
-    (Role::Side(1), &["height"]),
-    (Role::Count(0), &["nx", "columns", "number of columns", "horizontal", "x points", "points x", "numpoints"]),
-    (Role::Count(1), &["ny", "rows", "number of rows", "vertical", "y points", "points y", "numprofiles"]),
+    (LineRole::Side(0), &["width"]),
+    (LineRole::Side(1), &["height"]),
+    (LineRole::Count(0), &["nx", "columns", "number of columns", "horizontal", "x points", "points x", "numpoints"]),
+    (LineRole::Count(1), &["ny", "rows", "number of rows", "vertical", "y points", "points y", "numprofiles"]),
 ];
 
 /// Words of a key that says by what the heights are to be multiplied.
@@ -141,7 +141,7 @@ const FACTORS: [&str; 5] = ["scale", "factor", "multiplier", "scaling", "gain"];
 /// Words of a key that is about heights.
 const OF_HEIGHTS: [&str; 5] = ["z", "height", "heights", "value", "data"];
 
-impl Header {
+impl TextHeader {
     /// Takes in one line above the table, its comment sign taken off.
     pub(super) fn line(&mut self, line: &str, number: usize) -> Result<Understood, String> {
         let (key, value) = parted(line);
@@ -149,7 +149,7 @@ impl Header {
         let about = |k: &str| words.split(' ').any(|word| word == k);
         let known = ROLES.iter().find(|(_, keys)| keys.contains(&words.as_str())).map(|(role, _)| *role);
         let scales = FACTORS.iter().any(|k| about(k)) && OF_HEIGHTS.iter().any(|k| about(k));
-        let Some(role) = known.or(scales.then_some(Role::Scale)) else {
+        let Some(role) = known.or(scales.then_some(LineRole::Scale)) else {
             self.unknown(line, number);
             return Ok(Understood::No);
         };
@@ -157,42 +157,42 @@ impl Header {
         let unit_of =
             |name: &str| LengthUnit::of(name).ok_or_else(|| at(format!("`{}` is no unit of length", quoted(name))));
         match role {
-            Role::Own => {
+            LineRole::Own => {
                 self.own = true;
                 if value.contains("heights in um") {
                     self.height_unit = Some(LengthUnit::Micrometre);
                 }
             }
-            Role::Channel => self.channel = true,
-            Role::Notes => self.notes = notes_of(line.split_once('=').map_or("", |(_, json)| json)),
-            Role::HeightUnit => self.set_height_unit(unit_of(&value)?).map_err(at)?,
-            Role::AnyUnit => match LengthUnit::of(&value) {
+            LineRole::Channel => self.channel = true,
+            LineRole::Notes => self.notes = notes_of(line.split_once('=').map_or("", |(_, json)| json)),
+            LineRole::HeightUnit => self.set_height_unit(unit_of(&value)?).map_err(at)?,
+            LineRole::AnyUnit => match LengthUnit::of(&value) {
                 Some(unit) => self.set_height_unit(unit).map_err(at)?,
                 None => {
                     self.unknown(line, number);
                     return Ok(Understood::No);
                 }
             },
-            Role::SpacingUnit => self.spacing_unit = Some(unit_of(&value)?),
-            Role::Spacing(axes) => {
+            LineRole::SpacingUnit => self.spacing_unit = Some(unit_of(&value)?),
+            LineRole::Spacing(axes) => {
                 let length = length(&value, key_unit, number).map_err(|reason| at(format!("{reason} (a spacing)")))?;
                 for &axis in axes {
                     self.spacing[axis] = Some(length);
                 }
             }
             // `Height: 24 um` is a side in Gwyddion's exports alone, and a number of points in others.
-            Role::Side(axis) => match length(&value, key_unit, number) {
+            LineRole::Side(axis) => match length(&value, key_unit, number) {
                 Ok(length) if length.unit.is_some() => self.sides[axis] = Some(length),
                 _ => {
                     self.unknown(line, number);
                     return Ok(Understood::No);
                 }
             },
-            Role::Count(axis) => {
+            LineRole::Count(axis) => {
                 let count = value.parse().map_err(|_| at("it is no number of points".to_owned()))?;
                 self.counts[axis] = Some((count, number));
             }
-            Role::Scale => {
+            LineRole::Scale => {
                 if number_of(&value).is_none_or(|(factor, _)| factor != 1.0) {
                     return Err(at(
                         "heights are to be multiplied by it, which is not done here: save the surface with \
@@ -303,13 +303,13 @@ fn length(text: &str, key_unit: Option<LengthUnit>, line: usize) -> Result<Lengt
 }
 
 /// A column by its name: `X [mm]`, `z/um`, `Height (nm)`.
-fn column(name: &str) -> Option<(Column, Option<LengthUnit>)> {
+fn column(name: &str) -> Option<(TextColumn, Option<LengthUnit>)> {
     let (words, unit) = key_words(&name.replace(['/', '"'], " ").replace(" in ", " "));
     let first = words.split(' ').next().unwrap_or_default();
     let column = match first {
-        "x" | "position" | "distance" | "length" | "weg" => Column::X,
-        "y" => Column::Y,
-        "z" | "height" | "profile" | "depth" | "h\u{f6}he" | "hoehe" => Column::Z,
+        "x" | "position" | "distance" | "length" | "weg" => TextColumn::X,
+        "y" => TextColumn::Y,
+        "z" | "height" | "profile" | "depth" | "h\u{f6}he" | "hoehe" => TextColumn::Z,
         _ => return None,
     };
     Some((column, unit))

@@ -1,7 +1,7 @@
 //! Heights as text, of any program: encoding, the lines above the table, its cells, and what the table is.
 //!
-//! In: the bytes of a file and what is known beside it. Out: a surface or a trace, with remarks on how it was read. Lines
-//! that begin with `#` or `%` are comments, wherever they are; other lines above the table are titles, keys with
+//! In: the bytes of a file and what is known beside it. Out: a surface or a trace, with remarks on how it was read.
+//! Lines that begin with `#` or `%` are comments, wherever they are; other lines above the table are titles, keys with
 //! values, or names of columns. Neither a unit nor the shape of a table is guessed.
 
 mod encoding;
@@ -13,10 +13,10 @@ mod written;
 pub(super) use encoding::characters;
 pub(super) use written::encode;
 
-use super::content::{Given, Measured};
+use super::content::{Given, MeasuredFile};
 use crate::text::quoted;
-use header::{Header, Understood};
-use table::Layout;
+use header::{TextHeader, Understood};
+use table::TextLayout;
 
 /// First words of text files that hold no heights in a unit of length, and what to do with them.
 const OTHERS: [(&str, &str); 2] = [
@@ -28,12 +28,12 @@ const OTHERS: [(&str, &str); 2] = [
 const CONVERT: &str = "save it as X3P where it was measured, or convert it (docs/howto.md)";
 
 /// Reads a table of heights.
-pub(super) fn decode(bytes: &[u8], given: &Given) -> Result<Measured, String> {
+pub(super) fn decode(bytes: &[u8], given: &Given) -> Result<MeasuredFile, String> {
     let (text, encoding) = characters(bytes)?;
     if let Some((_, what)) = OTHERS.iter().find(|(start, _)| text.starts_with(start)) {
         return Err(format!("it is {what}: {CONVERT}"));
     }
-    let mut header = Header::default();
+    let mut header = TextHeader::default();
     let mut lines: Vec<(usize, &str)> = Vec::new();
     let mut names = None;
     for (index, line) in text.lines().enumerate() {
@@ -55,7 +55,7 @@ pub(super) fn decode(bytes: &[u8], given: &Given) -> Result<Measured, String> {
         }
     }
     header.finish();
-    let layout = Layout::of(&lines, header.own)?;
+    let layout = TextLayout::of(&lines, header.own)?;
     let mut table = layout.table(&lines)?;
     if let Some((number, line)) = names {
         let cells: Vec<String> = if layout.is_blank() {

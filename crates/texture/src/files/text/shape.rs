@@ -1,15 +1,15 @@
 //! What a table of numbers is: a map of heights, positions and heights of a trace, or points of a grid.
 //!
-//! In: the [`Table`], what the lines above it say, what is given beside the file. Out: heights in um with their
+//! In: the [`TextTable`], what the lines above it say, what is given beside the file. Out: heights in um with their
 //! spacing. Three columns are x, y, z if their places make a grid; two are x, z if the places are equally far apart;
 //! one is a trace. Tables of two and three columns are maps only where the file gives a map's spacing, and no unit is
 //! taken for granted: what the file and its reader leave open is refused, with what the table was seen to be.
 
 use super::super::bounds::{kept_number, points};
-use super::super::content::{Content, Given, Measured};
+use super::super::content::{Given, MeasuredContent, MeasuredFile};
 use super::super::units::LengthUnit;
-use super::header::{Column, Header, Length};
-use super::table::Table;
+use super::header::{Length, TextColumn, TextHeader};
+use super::table::TextTable;
 
 /// Share of a step by which a printed place may lie beside its place on the grid.
 const BESIDE: f64 = 0.01;
@@ -21,14 +21,14 @@ const SAME: f64 = 1e-6;
 const MANY_LINES: usize = 8;
 
 /// Equal steps of sorted places.
-struct Steps {
+struct EvenSteps {
     start: f64,
     step: f64,
     count: usize,
 }
 
 /// Heights with sides and spacing, in the units of the file.
-struct Grid {
+struct TextGrid {
     nx: usize,
     ny: usize,
     spacing: [f64; 2],
@@ -38,7 +38,7 @@ struct Grid {
 }
 
 /// The surface or trace of a table.
-pub(super) fn measured(table: Table, header: Header, given: &Given) -> Result<Measured, String> {
+pub(super) fn measured(table: TextTable, header: TextHeader, given: &Given) -> Result<MeasuredFile, String> {
     let columns = table.columns;
     let lines = table.values.len().checked_div(columns).unwrap_or(0);
     if lines == 0 {
@@ -54,7 +54,7 @@ pub(super) fn measured(table: Table, header: Header, given: &Given) -> Result<Me
     let mut remarks = table.remarks;
     let (grid, spacing_um) = match coordinates {
         Some(grid) => {
-            let unit = header.columns.iter().find(|(column, _)| *column != Column::Z).and_then(|(_, unit)| *unit);
+            let unit = header.columns.iter().find(|(column, _)| *column != TextColumn::Z).and_then(|(_, unit)| *unit);
             let unit = agreed("positions", unit.or(header.spacing_unit), given.spacing_unit)?;
             let unit = unit.ok_or_else(|| open(&grid.what, "the unit of its positions", "--spacing-unit", &header))?;
             let spacing_um = grid.spacing.map(|step| step * unit.um());
@@ -64,7 +64,7 @@ pub(super) fn measured(table: Table, header: Header, given: &Given) -> Result<Me
             let what = format!("a table of {columns} x {lines} heights");
             let spacing_um = map_spacing(&header, given, &what, [columns, lines])?;
             let (nx, ny, remarks) = (columns, lines, Vec::new());
-            (Grid { nx, ny, spacing: spacing_um, values: table.values, what, remarks }, spacing_um)
+            (TextGrid { nx, ny, spacing: spacing_um, values: table.values, what, remarks }, spacing_um)
         }
     };
     remarks.extend(grid.remarks);
@@ -79,7 +79,7 @@ pub(super) fn measured(table: Table, header: Header, given: &Given) -> Result<Me
             }
         }
     }
-    let named = header.columns.iter().find(|(column, _)| *column == Column::Z).and_then(|(_, unit)| *unit);
+    let named = header.columns.iter().find(|(column, _)| *column == TextColumn::Z).and_then(|(_, unit)| *unit);
     if let (Some(a), Some(b)) = (named, header.height_unit)
         && a != b
     {
@@ -88,8 +88,8 @@ pub(super) fn measured(table: Table, header: Header, given: &Given) -> Result<Me
     let unit = agreed("heights", named.or(header.height_unit), given.height_unit)?;
     let unit = unit.ok_or_else(|| open(&grid.what, "the unit of its heights", "--height-unit", &header))?;
     let heights = grid.values.into_iter().map(|z| kept_number(z, z * unit.um())).collect();
-    let content = Content::new(grid.nx, grid.ny, spacing_um[0], spacing_um[1], heights)?;
-    Ok(Measured { content, notes: header.notes, remarks })
+    let content = MeasuredContent::new(grid.nx, grid.ny, spacing_um[0], spacing_um[1], heights)?;
+    Ok(MeasuredFile { content, notes: header.notes, remarks })
 }
 
 /// The unit of the file and the one that is given, which must not contradict each other.
@@ -103,7 +103,7 @@ fn agreed(what: &str, of_file: Option<LengthUnit>, given: Option<LengthUnit>) ->
 }
 
 /// What the table is, what is not known of it, and how to say it.
-fn open(what: &str, missing: &str, option: &str, header: &Header) -> String {
+fn open(what: &str, missing: &str, option: &str, header: &TextHeader) -> String {
     let key = option.trim_start_matches("--").replace('-', "_");
     let seen = match &header.unclear[..] {
         [] => String::new(),
@@ -115,7 +115,7 @@ fn open(what: &str, missing: &str, option: &str, header: &Header) -> String {
 }
 
 /// Spacing of a map, um: of the file, else as it is given.
-fn map_spacing(header: &Header, given: &Given, what: &str, counts: [usize; 2]) -> Result<[f64; 2], String> {
+fn map_spacing(header: &TextHeader, given: &Given, what: &str, counts: [usize; 2]) -> Result<[f64; 2], String> {
     let um = |length: Length, points: f64| -> Result<(f64, f64), String> {
         let unit = agreed("spacings", length.unit.or(header.spacing_unit), given.spacing_unit)?;
         let unit = unit.ok_or_else(|| open(what, "the unit of its spacing", "--spacing-unit", header))?;
@@ -154,17 +154,17 @@ fn map_spacing(header: &Header, given: &Given, what: &str, counts: [usize; 2]) -
 }
 
 /// Positions and heights, if the table is that.
-fn coordinates(table: &Table, lines: usize, header: &Header) -> Result<Option<Grid>, String> {
+fn coordinates(table: &TextTable, lines: usize, header: &TextHeader) -> Result<Option<TextGrid>, String> {
     let column = |k: usize| table.values.iter().skip(k).step_by(table.columns).copied().collect::<Vec<f64>>();
-    let named: Vec<Column> = header.columns.iter().map(|(column, _)| *column).collect();
+    let named: Vec<TextColumn> = header.columns.iter().map(|(column, _)| *column).collect();
     match table.columns {
         2 => {
-            if !named.is_empty() && named != [Column::X, Column::Z] {
+            if !named.is_empty() && named != [TextColumn::X, TextColumn::Z] {
                 return Err("two columns that are not position and height by their names".to_owned());
             }
             let (places, heights) = (column(0), column(1));
             let steps = steps(&places, true).filter(|steps| steps.count == lines);
-            let Some(Steps { step, .. }) = steps else {
+            let Some(EvenSteps { step, .. }) = steps else {
                 return Err(format!(
                     "two columns of {lines} lines whose first are no places at equal distances: a profile must be \
                      resampled at equal distances; a map of two points a row needs lines `# dx_um = ` and `# dy_um = `"
@@ -173,7 +173,7 @@ fn coordinates(table: &Table, lines: usize, header: &Header) -> Result<Option<Gr
             let what =
                 format!("two columns whose first rises by {step} from line to line: a profile of {lines} points");
             let spacing = [step; 2];
-            Ok(Some(Grid {
+            Ok(Some(TextGrid {
                 nx: lines,
                 ny: 1,
                 spacing,
@@ -183,7 +183,7 @@ fn coordinates(table: &Table, lines: usize, header: &Header) -> Result<Option<Gr
             }))
         }
         3 => {
-            if !named.is_empty() && named != [Column::X, Column::Y, Column::Z] {
+            if !named.is_empty() && named != [TextColumn::X, TextColumn::Y, TextColumn::Z] {
                 return Err("three columns that are not x, y and height by their names".to_owned());
             }
             grid_of_points([column(0), column(1), column(2)]).map(Some)
@@ -209,7 +209,7 @@ fn coordinates(table: &Table, lines: usize, header: &Header) -> Result<Option<Gr
 }
 
 /// Points x, y, z in any order on a grid; places without a point are holes.
-fn grid_of_points([x, y, z]: [Vec<f64>; 3]) -> Result<Grid, String> {
+fn grid_of_points([x, y, z]: [Vec<f64>; 3]) -> Result<TextGrid, String> {
     let lines = x.len();
     let scattered = || {
         format!(
@@ -223,7 +223,7 @@ fn grid_of_points([x, y, z]: [Vec<f64>; 3]) -> Result<Grid, String> {
     if (lines as f64) < LEAST_FILLED * count as f64 || lines > count {
         return Err(scattered());
     }
-    let index = |steps: &Steps, place: f64| ((place - steps.start) / steps.step).round() as usize;
+    let index = |steps: &EvenSteps, place: f64| ((place - steps.start) / steps.step).round() as usize;
     let mut values = vec![f64::NAN; count];
     let mut taken = vec![false; count];
     for i in 0..lines {
@@ -240,11 +240,11 @@ fn grid_of_points([x, y, z]: [Vec<f64>; 3]) -> Result<Grid, String> {
     }
     let (dx, dy) = (along_x.step, along_y.step);
     let what = format!("three columns, x, y and z of {nx} x {ny} points {dx} x {dy} apart");
-    Ok(Grid { nx, ny, spacing: [dx, dy], values, what, remarks })
+    Ok(TextGrid { nx, ny, spacing: [dx, dy], values, what, remarks })
 }
 
 /// The equal steps of places; `in_order`: each place one step after that before it.
-fn steps(places: &[f64], in_order: bool) -> Option<Steps> {
+fn steps(places: &[f64], in_order: bool) -> Option<EvenSteps> {
     if places.len() < 2 || places.iter().any(|place| !place.is_finite()) {
         return None;
     }
@@ -270,7 +270,7 @@ fn steps(places: &[f64], in_order: bool) -> Option<Steps> {
         (at - at.round()).abs() <= BESIDE
     };
     let ordered = || sorted.windows(2).all(|pair| ((pair[1] - pair[0]) / step - 1.0).abs() <= 2.0 * BESIDE);
-    (count <= 1e7 && sorted.iter().all(fits) && (!in_order || ordered())).then_some(Steps {
+    (count <= 1e7 && sorted.iter().all(fits) && (!in_order || ordered())).then_some(EvenSteps {
         start,
         step,
         count: count as usize,

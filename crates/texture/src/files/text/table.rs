@@ -10,7 +10,7 @@ use crate::text::quoted;
 
 /// How cells are written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Layout {
+pub(super) struct TextLayout {
     /// None: blanks.
     separator: Option<char>,
     decimal_comma: bool,
@@ -20,7 +20,7 @@ pub(super) struct Layout {
 
 /// The numbers of a table.
 #[derive(Debug)]
-pub(super) struct Table {
+pub(super) struct TextTable {
     pub(super) columns: usize,
     pub(super) values: Vec<f64>,
     pub(super) remarks: Vec<String>,
@@ -46,7 +46,7 @@ pub(super) fn has_number(line: &str) -> bool {
     line.split(['\t', ';', ',', ' ']).any(|part| part.trim().parse::<f64>().is_ok())
 }
 
-impl Layout {
+impl TextLayout {
     /// Of the lines of a table; `own` files have commas and points.
     pub(super) fn of(lines: &[(usize, &str)], own: bool) -> Result<Self, String> {
         let has = |sign: char| lines.iter().any(|(_, line)| line.contains(sign));
@@ -93,7 +93,7 @@ impl Layout {
     }
 
     /// Numbers of all lines, every line as long as the first.
-    pub(super) fn table(self, lines: &[(usize, &str)]) -> Result<Table, String> {
+    pub(super) fn table(self, lines: &[(usize, &str)]) -> Result<TextTable, String> {
         let (mut values, mut columns) = (Vec::new(), 0);
         for (row, &(number, line)) in lines.iter().enumerate() {
             let before = values.len();
@@ -130,7 +130,7 @@ impl Layout {
         if self.trailing {
             remarks.push(format!("{named}, one at the end of every line, which is no cell"));
         }
-        Ok(Table { columns, values, remarks })
+        Ok(TextTable { columns, values, remarks })
     }
 }
 

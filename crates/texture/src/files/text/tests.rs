@@ -1,6 +1,6 @@
 //! Tables of every dialect: the right heights, or a refusal that says what the table is. Nothing in between.
 
-use super::super::content::{Content, Given, Measured};
+use super::super::content::{Given, MeasuredContent, MeasuredFile};
 use super::super::units::LengthUnit;
 use super::decode;
 
@@ -15,7 +15,7 @@ const MAP: [[f64; 4]; 5] = [
 const UM: Given = Given { spacing_um: Some([2.0, 3.0]), height_unit: Some(LengthUnit::Micrometre), ..NOTHING };
 const NOTHING: Given = Given { spacing_um: None, height_unit: None, spacing_unit: None, use_mask: false };
 
-fn read(text: &str, given: &Given) -> Result<Measured, String> {
+fn read(text: &str, given: &Given) -> Result<MeasuredFile, String> {
     decode(text.as_bytes(), given)
 }
 
@@ -34,16 +34,16 @@ fn table(per_um: f64, separator: &str, decimal: char, end: &str) -> String {
     MAP.iter().map(row).collect::<Vec<_>>().join("\n") + "\n"
 }
 
-fn is_map(found: &Measured) -> bool {
-    let Content::Surface(surface) = &found.content else { return false };
+fn is_map(found: &MeasuredFile) -> bool {
+    let MeasuredContent::Surface(surface) = &found.content else { return false };
     (surface.nx(), surface.ny()) == (4, 5)
         && (surface.dx_um() - 2.0).abs() < 1e-9
         && (surface.dy_um() - 3.0).abs() < 1e-9
         && surface.heights_um().iter().zip(MAP.iter().flatten()).all(|(a, b)| (a - b).abs() < 1e-6)
 }
 
-fn trace(found: &Measured) -> (&[f64], f64) {
-    let Content::Trace(trace) = &found.content else { panic!("{found:?}") };
+fn trace(found: &MeasuredFile) -> (&[f64], f64) {
+    let MeasuredContent::Trace(trace) = &found.content else { panic!("{found:?}") };
     (trace.heights_um(), trace.spacing_um())
 }
 
@@ -154,9 +154,10 @@ fn gwyddions_sides_are_points_times_spacing() {
 
 #[test]
 fn exports_with_quoted_cells_are_understood() {
-    let head = "\"Model\",\"VK-X1000\"\n\"XY calibration\",\"2000\",\"nm\"\n\"Horizontal\",\"4\"\n\"Vertical\",\"5\"\n\"Unit\",\"nm\"\n";
+    let head = "\"Model\",\"VK-X1000\"\n\"XY calibration\",\"2000\",\"nm\"\n\"Horizontal\",\"4\"\n\
+                \"Vertical\",\"5\"\n\"Unit\",\"nm\"\n";
     let found = read(&format!("{head}{}", table(1e3, ",", '.', "")), &NOTHING).expect("a map");
-    let Content::Surface(surface) = found.content else { panic!("a map") };
+    let MeasuredContent::Surface(surface) = found.content else { panic!("a map") };
     assert_eq!((surface.dx_um(), surface.dy_um()), (2.0, 2.0));
     assert!((surface.row(4)[3] - 1.527).abs() < 1e-12);
     let wrong = head.replace("\"4\"", "\"6\"");
