@@ -19,7 +19,10 @@ pub fn run(arguments: &CompareArguments) -> Result<(), Failure> {
     let paths = &arguments.results;
     let is_surface = |path: &PathBuf| path.is_file() && path.extension().is_none_or(|ending| ending != "json");
     match &paths[..] {
-        [first, second] if is_surface(first) && is_surface(second) => return surfaces(arguments, [first, second]),
+        // A surface beside a path that leads nowhere is an error of that path.
+        [a, b] if [a, b].iter().all(|&of| is_surface(of) || !of.exists()) && (a.is_file() || b.is_file()) => {
+            return surfaces(arguments, [a, b]);
+        }
         _ => refuse_mixed(paths.iter().find(|path| is_surface(path)))?,
     }
     let read = |path: &PathBuf| -> Result<Compared, Failure> {

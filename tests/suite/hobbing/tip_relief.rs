@@ -48,12 +48,17 @@ fn lack_um(height_mm: f64) -> f64 {
     let involute = |angle: f64| angle.tan() - angle;
     let (alpha, pitch_mm) = (20_f64.to_radians(), 30.0);
     let steeper = (alpha.tan() + 0.02 / (0.8 * alpha.cos())).atan();
-    let radius_mm = (pitch_mm * alpha.cos()).hypot(pitch_mm * alpha.sin() + height_mm / alpha.sin());
-    let half_rad = |angle: f64, thicker_mm: f64| {
-        thicker_mm / pitch_mm + involute(angle) - involute((pitch_mm * angle.cos() / radius_mm).acos())
+    let base_mm = pitch_mm * alpha.cos();
+    let tangent_mm = pitch_mm * alpha.sin() + height_mm / alpha.sin();
+    // Half angles of a tooth, less that on the pitch circle: of the relieved flank at a radius, and of the place that
+    // lies below the flank along its normal, a tangent of its base circle.
+    let relieved = |radius_mm: f64| {
+        1.2 * (steeper.tan() - alpha.tan()) / pitch_mm + involute(steeper)
+            - involute((pitch_mm * steeper.cos() / radius_mm).acos())
     };
-    let relieved = half_rad(steeper, 1.2 * (steeper.tan() - alpha.tan()));
-    1e3 * pitch_mm * alpha.cos() * (half_rad(alpha, 0.0) - relieved).max(0.0)
+    let below = |mm: f64| involute(alpha) - tangent_mm / base_mm + ((tangent_mm - mm) / base_mm).atan();
+    let step = |mm: f64| mm + base_mm * (below(mm) - relieved(base_mm.hypot(tangent_mm - mm)));
+    1e3 * (0..8).fold(0.0, |mm, _| step(mm)).max(0.0)
 }
 
 /// The gear's tip is cut at 1.67 mm, not at the hob's addendum.

@@ -283,13 +283,9 @@ mod slow {
         assert!((sum / number(&load["volume"]) - 1.0).abs() < 1e-12);
         let compared = folder.path().join("compared");
         let gear = out.display().to_string();
-        gearcut(&["compare", &gear, &gear, "--out", &compared.display().to_string()]).done().says(&[
-            "gear (a) and gear (b)",
-            "hob load.operations.finish.largest volume",
-            "marks.tooth",
-            "texture.finish",
-            "Sa",
-        ]);
+        gearcut(&["compare", &gear, &gear, "--out", &compared.display().to_string()])
+            .done()
+            .says(&["gear (a) and gear (b)", "nothing changed"]);
         assert!(compared.join("hob_load_operations_finish_teeth_volume.svg").is_file());
         let page = std::fs::read_to_string(out.join("report.html")).expect("a page");
         for words in [

@@ -92,7 +92,7 @@ fn a_pair_writes_numbers_tables_charts_patterns_and_a_page() {
     roll(folder.path(), &["--center-distance-error-um", "20", "--out", "out/apart"]);
     let compared = gearcut_in(folder.path(), &["compare", "out/a_with_a_mate_18", "out/apart"]).done().out;
     // 20 um apart: 2 * 20 um * tan(20 deg).
-    assert!(compared.contains("backlash smallest") && compared.contains("14.5"), "{compared}");
+    assert!(compared.contains("Smallest backlash") && compared.contains("14.5"), "{compared}");
     let curves = folder.path().join("out/compare_a_with_a_mate_18_apart/transmission_error_positions.svg");
     let curves = std::fs::read_to_string(curves).expect("both curves in one chart");
     for words in

@@ -129,7 +129,7 @@ fn dialects_arrive_with_their_heights() {
     let spacing = ["--spacing-um", "2", "3"];
     run(&[&["comma.csv", "--height-unit", "um"][..], &spacing].concat()).done().says(&["0.81284 um", "decimal commas"]);
     run(&[&["comma.csv"][..], &spacing].concat()).failed(1, &["a table of 10 x 8 heights", "--height-unit um"]);
-    run(&[&["comma.csv", "--height-unit", "m"][..], &spacing].concat()).done().says(&["warning", "in another unit?"]);
+    run(&[&["comma.csv", "--height-unit", "mm"][..], &spacing].concat()).done().says(&["warning", "in another unit?"]);
     run(&[&["mm.txt"][..], &spacing].concat()).done().says(&["0.81284 um"]);
     run(&[&["mm.txt", "--height-unit", "nm"][..], &spacing].concat()).failed(1, &["in mm, not in nm"]);
     run(&["mm.txt", "--height-unit", "furlong"]).failed(2, &["not a unit of length"]);

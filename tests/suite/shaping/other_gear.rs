@@ -10,7 +10,7 @@ use std::fs;
 use std::path::Path;
 
 /// Quantities that are the same whatever is cut: how it was asked for and where it is measured. Each ends a path.
-const OF_THE_SCENE: [&str; 22] = [
+const OF_THE_SCENE: [&str; 24] = [
     "/strokes",
     "/cycle_time",
     "/idle_strokes",
@@ -29,6 +29,8 @@ const OF_THE_SCENE: [&str; 22] = [
     "/profile_shift",
     "/generating_profile_shift",
     "/thickness",
+    "/chordal_thickness",
+    "/chordal_height",
     "/ball_diameter",
     "/span_teeth",
     "/span",
