@@ -3,15 +3,15 @@
 //! In: two [`Surface`]s, the first the one that keeps its place. Out: [`Aligned`], both on the points of the first
 //! where they overlap, with what was done to the second.
 //!
-//! 1. Both lose their least-squares planes and are averaged to at most [`COARSE`] cells a side.
+//! 1. Both lose their least-squares planes and are averaged to at most `COARSE` cells a side.
 //! 2. For the second as it is and mirrored in x, in y and in both, the normalised cross-correlation of every shift
 //!    is taken at once by Fourier transforms, each shift over the cells that overlap and were measured (Padfield 2012).
 //!    The largest of overlaps of at least half of the smaller surface counts. A mirror is taken only where it
-//!    correlates better by [`CLEARLY`], or leaves less than half of the variance: symmetrical marks fit either way.
+//!    correlates better by `CLEARLY`, or leaves less than half of the variance: symmetrical marks fit either way.
 //! 3. Shift and plane are refined together by least squares on the points themselves (Gauss and Newton), the second
 //!    interpolated by cubic convolution.
 //!
-//! Marks: the wave of largest amplitude that the overlap holds at least [`FEWEST_WAVES`] times, with a Hann window, its
+//! Marks: the wave of largest amplitude that the overlap holds at least `FEWEST_WAVES` times, with a Hann window, its
 //! wave vector refined on the points.
 //!
 //! Road not taken: rotation and scale. A flank lies in its instrument by its axis, and a turned one is turned by
@@ -28,7 +28,7 @@ use super::surface::{Surface, transposed};
 
 /// Cells a side of the averaged surfaces: marks of 20 points keep five cells on maps of 1500 points.
 const COARSE: usize = 384;
-/// How much better a mirrored surface must correlate to be taken, or the better of two good ones by [`HARDLY`] where it
+/// How much better a mirrored surface must correlate to be taken, or the better of two good ones by `HARDLY` where it
 /// halves the variance that is left.
 const CLEARLY: f64 = 0.1;
 const HARDLY: f64 = 0.005;
@@ -76,7 +76,7 @@ pub struct Aligned {
 
 const MIRRORS: [Mirrored; 4] = [[false, false], [true, false], [false, true], [true, true]];
 
-/// Whether one correlation is better than another beyond doubt: by [`CLEARLY`], or by [`HARDLY`] where it halves the
+/// Whether one correlation is better than another beyond doubt: by `CLEARLY`, or by `HARDLY` where it halves the
 /// variance that is left.
 pub fn fits_better(correlation: f64, than: f64) -> bool {
     let left = |correlation: f64| 1.0 - correlation * correlation;

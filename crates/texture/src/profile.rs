@@ -8,7 +8,7 @@
 //! - Rp, Rv and Rz are means over the sections of their highest peak, their deepest pit, and both together.
 //! - Rzx is the largest height within one section's length anywhere on the line, moved point by point.
 //! - Rdq: slopes by seven points, `(z[3] - 9 z[2] + 45 z[1] - 45 z[-1] + 9 z[-2] - z[-3]) / 60 dx` (ISO 4287, 4.4.1).
-//! - RSm: [`crate::elements`].
+//! - RSm: `elements`.
 //! - Rk and its kin: the construction of [`crate::core`] on the line's heights.
 
 use super::core::Core;

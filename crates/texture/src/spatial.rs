@@ -5,7 +5,7 @@
 //! reaches the edge of the field (feed marks do, along the lay) has no longest distance: Str is undefined there, which
 //! is not 0.
 //!
-//! Std is in [`crate::direction`]. Ssw is the wavelength of the largest Fourier component of the window, as fine as
+//! Std is in `direction`. Ssw is the wavelength of the largest Fourier component of the window, as fine as
 //! whole waves in the window can tell.
 
 use super::direction::{NO_WAVES, direction_deg};

@@ -40,7 +40,8 @@ fn mirrors_are_found_and_inverted_heights_told() {
     }
     let inverted = sampled(150, 130, 3.0, |x, y| -flank(x, y));
     let a = aligned(&whole, &inverted).expect("laid over").alignment;
-    assert!(a.inverted > 0.99 && a.correlation < 0.9, "{a:?}");
+    // Half a mark beside it, turned round, correlates well, too; the other sign leaves less than half of that variance.
+    assert!(a.inverted > 0.99 && fits_better(a.inverted, a.correlation), "{a:?}");
 }
 
 #[test]
