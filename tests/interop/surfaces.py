@@ -127,7 +127,7 @@ CALLS = {"Smr(0)": ("Smr", 0.0), "Sdc(10,80)": ("Sdc", 10, 80)}
 CALLS |= {"Smrk1": ("Smr1",), "Smrk2": ("Smr2",)}
 CALLS |= {f"{name}({p})": (name, p) for name in ("Smc", "Vm", "Vv") for p in (10, 50, 80)}
 # Same sums over the same points: rounding alone.
-EXACT = "Sa Sq Ssk Sku Sp Sv Sz Ssw Sdq Sdr Spc Svc S10z S5p S5v".split()
+EXACT = "Sa Sq Ssk Sku Sp Sv Sz Ssw Sdq Sdr Spc S10z S5p S5v".split()
 # surfalize's material ratio curve has 10,000 quantiles, gearcut's all heights.
 CURVE = "Sk Spk Svk Smrk1 Smrk2 Spkx Svkx Sxp Vmp Vmc Vvc Vvv".split() + list(CALLS)
 # Where the autocorrelation falls to 0.2: straight lines between lags here, cubic splines along rays there.
@@ -171,6 +171,8 @@ def compare_parameters(program, path, defined):
     nx, ny = surface.size
     for symbol in ("Spd", "Svd"):
         agree("known differences", symbol, theirs(symbol), value(symbol) * nx * ny / ((nx - 1) * (ny - 1)), 1e-9)
+    # Curvature of pits of the surface turned over here, of the surface as it is there.
+    agree("known differences", "Svc", -theirs("Svc"), value("Svc"), 1e-9)
     for symbol in ("Sak1", "Sak2"):  # areas over a ratio in per cent there, volumes per area here
         agree("known differences", symbol, theirs(symbol), 100 * value(symbol), 5e-3)
     turned = (180 - theirs("Std") - value("Std") + 90) % 180 - 90  # its y points up the map; classes of half a degree
@@ -190,8 +192,8 @@ def compare_parameters(program, path, defined):
     for symbol in ("a", "q", "t", "sk", "ku"):
         peer = float(getattr(profile, f"R{symbol}")())
         agree("profile, sums over points", f"P{symbol}", peer, line[f"P{symbol}"]["value"], 1e-9)
-    # A line has few points: half of one at the ends of the curve counts.
-    agree("profile, material ratio curve", "Pk", float(profile.Rk()), line["Pk"]["value"], 1e-2)
+    # A line has few points: the secant over 40 % of them begins and ends within one point.
+    agree("profile, material ratio curve", "Pk", float(profile.Rk()), line["Pk"]["value"], 2 / (0.4 * len(heights)))
     for group, (off, count) in worst.items():
         print(f"ok   {name + ', ' + group:58s} {off:.1e}, {count} compared")
     missing = [symbol for symbol in defined if value(symbol) is None]
