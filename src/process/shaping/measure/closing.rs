@@ -24,7 +24,7 @@ fn step(job: &ShapingJob, report: &GearReport) -> Option<Warning> {
     (step.value_mm.abs() > LEAST_STEP_MM).then(|| {
         Warning::warn(format!(
             "operation {}: where its end meets its beginning, on tooth {} {}, the later strokes lie {} um {} the \
-             earlier ones: something has drifted or yielded meanwhile; see machine.errors and machine.compliance",
+             earlier ones: see machine.errors and machine.compliance; where both are left out, try finer dexels",
             job.finishing().spec.name,
             flank.tooth,
             flank.side.name(),
