@@ -26,8 +26,8 @@ pub fn run(arguments: &PairArguments) -> Result<(), Failure> {
     let name = format!("{}_with_{}", a.scene.name, b.scene.name);
     let out = arguments.out.clone().unwrap_or_else(|| PathBuf::from("out").join(&name));
     let words = std::env::args().skip(1).collect::<Vec<_>>();
-    let (choice, progress) = backend::of_few_places_with_events(&arguments.few_places, arguments.json)?;
-    let (path, (found, interference)) = folder::fill(&out, "pair", |folder, interrupt| {
+    let (choice, progress) = backend::of_few_places(&arguments.run, arguments.json)?;
+    let (path, found) = folder::fill(&out, "pair", |folder, interrupt| {
         let watch = Watch::new(&progress, interrupt);
         let rolled = rolled::roll_pair(scenes, &options, choice.backend.as_ref(), &watch)?;
         let found = findings::findings(&name, scenes, &options, &rolled);
@@ -35,7 +35,7 @@ pub fn run(arguments: &PairArguments) -> Result<(), Failure> {
         let run = PairRecord { backend: choice.backend.name_in_files(), scenes: [scene_a.clone(), scene_b.clone()] };
         write::write(scenes, &options, &rolled, &found, folder, &run, &watch)?;
         let record = [("arguments", json!(words)), ("scene_A", json!(scene_a)), ("scene_B", json!(scene_b))];
-        Ok((record.to_vec(), (found, findings::interference(&rolled))))
+        Ok((record.to_vec(), found))
     })
     .map_err(|error| in_place(&a, error))?;
     if arguments.json {
@@ -49,7 +49,7 @@ pub fn run(arguments: &PairArguments) -> Result<(), Failure> {
         print::sheet(&format!("{}\neverything is in {}\n", sheet.into_text(), path.display()))?;
     }
     // Everything is written all the same.
-    if interference.is_empty() { Ok(()) } else { Err(Failure::bad_verdict(&interference.join("; "))) }
+    Failure::verdict(&found.warnings, &arguments.run.verdict.rules())
 }
 
 fn heading(found: &Findings, teeth: [u32; 2], module_mm: f64, sheet: &mut Sheet) {
