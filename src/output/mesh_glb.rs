@@ -1,10 +1,13 @@
 //! Meshes as binary glTF 2.0: one node per flank, root and tip, so that viewers can pick and hide them by name.
 //!
-//! glTF asks for metres with y up; places stay in mm of the gear frame in the buffers, and the root node turns and
-//! scales them. Every part has vertices of its own with smooth normals, because edges between parts are sharp. Colours
-//! are vertex colours in linear light, 16 bits (8 would show steps in the dark). Quantities are the attributes
-//! `_HEIGHT_UM`, `_STOCK_MM` and `_PASS_ID`; glTF allows no NaN and no 32-bit integers on vertices, so that parts with
-//! missing values go without the attribute, and pass ids are floats (exact up to 2^24).
+//! glTF asks for metres with y up; the gear frame in mm is the root node's, which turns and scales it. Every part has
+//! vertices of its own with smooth normals, because edges between parts are sharp. Places are whole numbers of 16 bits
+//! (`KHR_mesh_quantization`): the part's lowest corner and so many steps of its longest side over 65,535, which the
+//! part's node adds and scales; a flank of 30 mm is off by a quarter of a micrometre at most. Normals are floats:
+//! readers that are not told otherwise take whole numbers for what they are, and of normals that is seen. Colours are
+//! vertex colours in linear light, 16 bits (8 would show steps in the dark). Quantities are the attributes
+//! `_HEIGHT_UM`, `_STOCK_MM` and `_PASS_ID`, not rounded; glTF allows no NaN and no 32-bit integers on vertices, so
+//! that parts with missing values go without the attribute, and pass ids are floats (exact up to 2^24).
 
 mod document;
 
@@ -14,7 +17,7 @@ use crate::output::mesh_file::{FRAME, MeshFile};
 use crate::surface::mesh::{Scalar, ScalarValues};
 use document::{
     ARRAY_BUFFER, Accessor, Asset, Buffer, Document, ELEMENT_ARRAY_BUFFER, FLOAT, GltfMesh, GltfNode, GltfScene,
-    GltfView, Material, MetallicRoughness, Primitive, UNSIGNED_INT, UNSIGNED_SHORT,
+    GltfView, Material, MetallicRoughness, Primitive, QUANTIZATION, UNSIGNED_INT, UNSIGNED_SHORT,
 };
 use gearcut_core::{Error, Result};
 use glam::DVec3;
@@ -65,11 +68,16 @@ const POSITION: usize = 0;
 const NORMAL: usize = 1;
 const COLOUR: usize = 2;
 const QUANTITY: usize = 3;
-const INDEX: usize = 4;
+const LONG_INDEX: usize = 4;
+const INDEX: usize = 5;
+const STREAMS: usize = 6;
+
+/// Steps in the longest side of a part.
+const STEPS: f64 = u16::MAX as f64;
 
 /// Streams and the accessors into them.
 struct Streams {
-    streams: [Stream; 5],
+    streams: [Stream; STREAMS],
     accessors: Vec<Accessor>,
 }
 
@@ -77,7 +85,8 @@ fn build(file: &MeshFile) -> (Document, Vec<u8>) {
     let mesh = file.mesh;
     let colours = file.vertex_colours();
     let stream = |stride| Stream { bytes: Vec::new(), stride };
-    let streams = [stream(Some(12)), stream(Some(12)), stream(Some(8)), stream(Some(4)), stream(None)];
+    // Three components of 16 bits begin on multiples of four bytes.
+    let streams = [stream(Some(8)), stream(Some(12)), stream(Some(8)), stream(Some(4)), stream(None), stream(None)];
     let mut values = Streams { streams, accessors: Vec::new() };
     let (mut meshes, mut nodes) = (Vec::new(), Vec::new());
     let mut local = vec![u32::MAX; mesh.positions_mm.len()];
@@ -102,17 +111,22 @@ fn build(file: &MeshFile) -> (Document, Vec<u8>) {
         for &vertex in &vertices {
             local[vertex as usize] = u32::MAX;
         }
-        let positions: Vec<[f32; 3]> =
-            vertices.iter().map(|&v| mesh.positions_mm[v as usize].as_vec3().to_array()).collect();
+        let places_mm = || vertices.iter().map(|&v| mesh.positions_mm[v as usize]);
+        let low_mm = places_mm().reduce(DVec3::min).unwrap_or_default();
+        let longest_mm = places_mm().map(|p| (p - low_mm).max_element()).fold(0.0, f64::max);
+        let step_mm = if longest_mm > 0.0 { longest_mm / STEPS } else { 1.0 };
+        let steps: Vec<DVec3> = places_mm().map(|p| ((p - low_mm) / step_mm).round()).collect();
         let count = vertices.len();
-        let bounds = |pick: fn(f32, f32) -> f32| {
-            let bound = positions.iter().copied().reduce(|a, b| std::array::from_fn(|k| pick(a[k], b[k])));
-            bound.map(|bound| bound.map(f64::from))
-        };
+        let bounds = |pick: fn(DVec3, DVec3) -> DVec3| steps.iter().copied().reduce(pick).map(|bound| bound.to_array());
         let position = values.push(
             POSITION,
-            positions.iter().flatten().flat_map(|x| x.to_le_bytes()),
-            Accessor { min: bounds(f32::min), max: bounds(f32::max), ..floats(count, "VEC3") },
+            steps.iter().flat_map(|p| [p.x, p.y, p.z, 0.0]).flat_map(|x| (x as u16).to_le_bytes()),
+            Accessor {
+                component_type: UNSIGNED_SHORT,
+                min: bounds(DVec3::min),
+                max: bounds(DVec3::max),
+                ..floats(count, "VEC3")
+            },
         );
         let unit = |n: &DVec3| n.try_normalize().unwrap_or(DVec3::Z).as_vec3().to_array();
         let normal =
@@ -131,12 +145,23 @@ fn build(file: &MeshFile) -> (Document, Vec<u8>) {
             }
         }
         quantities.sort();
-        let layout = Accessor { component_type: UNSIGNED_INT, ..floats(indices.len(), "SCALAR") };
-        let indices = values.push(INDEX, indices.into_iter().flat_map(u32::to_le_bytes), layout);
+        let layout = |component_type| Accessor { component_type, ..floats(indices.len(), "SCALAR") };
+        // The largest number of each kind ends a strip.
+        let indices = if count <= usize::from(u16::MAX) {
+            values.push(INDEX, indices.iter().flat_map(|&i| (i as u16).to_le_bytes()), layout(UNSIGNED_SHORT))
+        } else {
+            values.push(LONG_INDEX, indices.iter().flat_map(|i| i.to_le_bytes()), layout(UNSIGNED_INT))
+        };
         let standard = [("POSITION", position), ("NORMAL", normal), ("COLOR_0", colour)];
         let attributes = quantities.into_iter().chain(standard.map(|(name, place)| (name.to_owned(), place)));
         let attributes = attributes.map(|(name, place)| (name, json!(place))).collect();
-        nodes.push(GltfNode { mesh: Some(meshes.len()), name: part.name.clone(), ..GltfNode::default() });
+        nodes.push(GltfNode {
+            mesh: Some(meshes.len()),
+            name: part.name.clone(),
+            scale: Some([step_mm; 3]),
+            translation: Some(low_mm.to_array()),
+            ..GltfNode::default()
+        });
         meshes.push(GltfMesh { name: part.name.clone(), primitives: [Primitive { attributes, indices, material: 0 }] });
     }
     let half = std::f32::consts::FRAC_1_SQRT_2;
@@ -148,8 +173,7 @@ fn build(file: &MeshFile) -> (Document, Vec<u8>) {
         scale: Some([1e-3; 3]),
         ..GltfNode::default()
     });
-    let Streams { streams, accessors } = values;
-    let (buffer_views, buffer) = join(streams);
+    let (buffer_views, accessors, buffer) = join(values);
     let document = Document {
         accessors,
         asset: Asset {
@@ -157,6 +181,8 @@ fn build(file: &MeshFile) -> (Document, Vec<u8>) {
             generator: format!("gearcut {}", env!("CARGO_PKG_VERSION")),
             version: "2.0",
         },
+        extensions_required: [QUANTIZATION],
+        extensions_used: [QUANTIZATION],
         buffers: [Buffer { byte_length: buffer.len() }],
         buffer_views,
         scene: 0,
@@ -194,10 +220,12 @@ impl Streams {
     }
 }
 
-/// A view of each stream, and one buffer of all of them.
-fn join(streams: [Stream; 5]) -> (Vec<GltfView>, Vec<u8>) {
+/// A view of each stream that has bytes, and one buffer of all of them.
+fn join(Streams { streams, mut accessors }: Streams) -> (Vec<GltfView>, Vec<Accessor>, Vec<u8>) {
     let (mut views, mut bytes) = (Vec::new(), Vec::new());
-    for stream in streams {
+    let mut numbers = [0; STREAMS];
+    for (number, stream) in numbers.iter_mut().zip(streams).filter(|(_, stream)| !stream.bytes.is_empty()) {
+        *number = views.len();
         views.push(GltfView {
             buffer: 0,
             byte_length: stream.bytes.len(),
@@ -207,7 +235,10 @@ fn join(streams: [Stream; 5]) -> (Vec<GltfView>, Vec<u8>) {
         });
         bytes.extend(stream.bytes);
     }
-    (views, bytes)
+    for accessor in &mut accessors {
+        accessor.buffer_view = numbers[accessor.buffer_view];
+    }
+    (views, accessors, bytes)
 }
 
 /// Name of a quantity's attribute; the standard asks for the underscore.

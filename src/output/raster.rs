@@ -1,9 +1,26 @@
 //! A picture in memory.
 //!
 //! In: pixels, 8 bits of red, green and blue each. Out: PNG bytes, the same for the same pixels.
+//!
+//! Maps, sheets and charts have a few hundred colours: those of the scale, and where letters fade into the paper. They
+//! are written as numbers of 256 colours, a fifth of the bytes. The most frequent stay what they are; of the others one
+//! stands for those that are within 4 of 255 in every channel. Drawn bodies keep all their colours.
 
-use image::codecs::png::{CompressionType, FilterType, PngEncoder};
-use image::{ExtendedColorType, ImageEncoder};
+use std::collections::HashMap;
+
+use png::{BitDepth, ColorType, Compression, DeflateCompression, Encoder, Filter};
+
+/// Colours that a byte can number.
+const NUMBERED: usize = 256;
+/// More colours than this belong to a drawn body.
+const OF_MAPS: usize = 4096;
+/// Most frequent colours that stay what they are.
+const EXACT: usize = 128;
+/// How far another colour may be moved to be numbered, of 255: not seen, at the edges of letters least of all. Maps,
+/// sheets and charts of a shaped gear need 170 to 256 colours then.
+const NEAREST: u8 = 4;
+/// Level of deflate for numbers, which have no filter: higher ones take longer and save nothing.
+const NUMBERS_LEVEL: u8 = 6;
 
 /// RGB pixels, rows from the top.
 pub(super) struct Raster {
@@ -55,14 +72,102 @@ impl Raster {
 
     /// The picture as a PNG file.
     ///
-    /// Fast compression: a gear has a thousand pictures, and the last tenth of their bytes would take five times as
-    /// long. One filter for all rows makes equal rows and slow changes zeros; a choice row by row takes nearly twice as
-    /// long for a twentieth of the bytes.
+    /// Fast compression of drawn bodies: the last tenth of their bytes would take five times as long. One filter for
+    /// all rows makes equal rows and slow changes zeros; a choice row by row takes nearly twice as long for a twentieth
+    /// of the bytes.
     pub(super) fn png(&self) -> Result<Vec<u8>, String> {
         let mut bytes = Vec::new();
-        PngEncoder::new_with_quality(&mut bytes, CompressionType::Fast, FilterType::Paeth)
-            .write_image(&self.rgb, self.size_px.0, self.size_px.1, ExtendedColorType::Rgb8)
-            .map_err(|error| error.to_string())?;
+        let mut encoder = Encoder::new(&mut bytes, self.size_px.0, self.size_px.1);
+        encoder.set_depth(BitDepth::Eight);
+        let numbered = numbered(&self.rgb);
+        let data = if let Some((colours, numbers)) = &numbered {
+            encoder.set_color(ColorType::Indexed);
+            encoder.set_palette(colours.as_flattened());
+            encoder.set_deflate_compression(DeflateCompression::Level(NUMBERS_LEVEL));
+            encoder.set_filter(Filter::NoFilter);
+            numbers
+        } else {
+            encoder.set_color(ColorType::Rgb);
+            encoder.set_compression(Compression::Fast);
+            encoder.set_filter(Filter::Paeth);
+            &self.rgb
+        };
+        let mut writer = encoder.write_header().map_err(|error| error.to_string())?;
+        writer.write_image_data(data).map_err(|error| error.to_string())?;
+        writer.finish().map_err(|error| error.to_string())?;
         Ok(bytes)
+    }
+}
+
+/// The most frequent colours and the number of every pixel's; none where they stand for the picture too badly.
+fn numbered(rgb: &[u8]) -> Option<(Vec<[u8; 3]>, Vec<u8>)> {
+    let (pixels, _) = rgb.as_chunks::<3>();
+    let runs = || pixels.chunk_by(|a, b| a == b);
+    let mut counts: HashMap<[u8; 3], usize> = HashMap::new();
+    for run in runs() {
+        *counts.entry(run[0]).or_default() += run.len();
+        if counts.len() > OF_MAPS {
+            return None;
+        }
+    }
+    let mut colours: Vec<([u8; 3], usize)> = counts.into_iter().collect();
+    colours.sort_unstable_by(|a, b| b.1.cmp(&a.1).then(a.0.cmp(&b.0)));
+    let all: Vec<[u8; 3]> = colours.iter().map(|(colour, _)| *colour).collect();
+    let off = |a: [u8; 3], b: [u8; 3]| (0..3).map(|k| a[k].abs_diff(b[k])).max().unwrap_or_default();
+    let exact = if all.len() <= NUMBERED { NUMBERED } else { EXACT };
+    let mut kept: Vec<[u8; 3]> = Vec::with_capacity(NUMBERED);
+    let mut numbers: HashMap<[u8; 3], u8> = HashMap::new();
+    for colour in all {
+        let nearest = (0..=u8::MAX).zip(&kept).min_by_key(|(_, of)| off(**of, colour));
+        let near = nearest.filter(|(_, of)| kept.len() >= exact && off(**of, colour) <= NEAREST);
+        let number = near.map_or_else(|| u8::try_from(kept.len()).ok(), |(number, _)| Some(number))?;
+        if near.is_none() {
+            kept.push(colour);
+        }
+        numbers.insert(colour, number);
+    }
+    let of_pixels = runs().flat_map(|run| std::iter::repeat_n(numbers[&run[0]], run.len())).collect();
+    Some((kept, of_pixels))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A picture of so many greens and blues, in stripes ten pixels wide, the first colours more often.
+    fn striped(colours: u32) -> Raster {
+        let mut raster = Raster::white((400, 300));
+        for i in 0..400 * 300 {
+            let stripe = i / 10 % (colours + 64) % colours;
+            raster.set(i % 400, i / 400, [7, (stripe / 8) as u8, (stripe % 8 * 3) as u8]);
+        }
+        raster
+    }
+
+    fn read(raster: &Raster) -> (Vec<u8>, usize) {
+        let bytes = raster.png().expect("a picture");
+        let read = image::load_from_memory(&bytes).expect("a PNG").into_rgb8();
+        assert_eq!(read.dimensions(), raster.size_px);
+        (read.into_raw(), bytes.len())
+    }
+
+    #[test]
+    fn pictures_of_few_colours_are_numbered_and_exact() {
+        let raster = striped(256);
+        let (rgb, bytes) = read(&raster);
+        assert_eq!(rgb, raster.rgb);
+        assert!(raster.png().expect("a picture")[25] == 3 && bytes < 20_000, "{bytes} bytes");
+    }
+
+    #[test]
+    fn rare_colours_become_near_ones_and_many_stay_what_they_are() {
+        let raster = striped(280);
+        let (rgb, _) = read(&raster);
+        let moved = rgb.iter().zip(&raster.rgb).map(|(a, b)| a.abs_diff(*b));
+        assert!(moved.clone().any(|by| by > 0) && moved.clone().all(|by| by <= NEAREST));
+        // Colours far from each other are more than can be numbered.
+        let raster = striped(2040);
+        assert_eq!(read(&raster).0, raster.rgb);
+        assert_eq!(raster.png().expect("a picture")[25], 2);
     }
 }

@@ -10,6 +10,7 @@ use crate::output::mesh_stl::write_stl;
 use crate::output::progress::Progress;
 use crate::scene::model::{Picture, PictureColour, PictureView};
 use crate::steps::gear_surfaces;
+use crate::surface::decimated::decimated;
 use crate::surface::gear_solid::gear_solid;
 use crate::surface::outline::{BODY_MM, Outline, flank_name};
 use crate::surface::{BlankMesh, Mesh, SurfaceGrid};
@@ -58,7 +59,7 @@ pub fn write_flank(
 ) -> Result<()> {
     let name = flank_name(tooth, side);
     let title = format!("{}: tooth {tooth}, {} flank", job.scene().name, side.name());
-    let mesh = surface.mesh(&name);
+    let mesh = decimated(&surface.mesh(&name), BODY_MM);
     let file = MeshFile { mesh: &mesh, title: &title, colour: colour(job, &mesh), notes: &[] };
     write_ply(&folder.path(format!("mesh/flanks/{name}.ply"))?, &file)
 }
@@ -117,7 +118,7 @@ pub fn gear(
 /// The file cannot be written.
 pub fn write_blank(job: &dyn GearJob, cut: &CutBlank, folder: &OutputFolder) -> Result<()> {
     let title = format!("gear of {}, from rays through the blank", job.scene().name);
-    let mesh = BlankMesh::new(&cut.field, None).mesh;
+    let mesh = decimated(&BlankMesh::new(&cut.field, None).mesh, BODY_MM);
     let file = MeshFile { mesh: &mesh, title: &title, colour: colour(job, &mesh), notes: &[] };
     write_ply(&folder.path("mesh/blank.ply")?, &file)
 }
@@ -135,6 +136,7 @@ pub fn write_gear(
 ) -> Result<()> {
     let step = progress.step("meshes", 3, "files");
     let title = format!("gear of {}", job.scene().name);
+    let mesh = &decimated(mesh, BODY_MM);
     let file = MeshFile { mesh, title: &title, colour: colour(job, mesh), notes };
     write_stl(&folder.path("mesh/gear.stl")?, &file)?;
     step.advance(1);

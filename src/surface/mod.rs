@@ -11,9 +11,11 @@
 //! | all of them in one closed chain of columns | [`outline`] |
 //! | the gear as one closed body | [`gear_solid`] |
 //! | end faces of both bodies | [`plane_area`] |
+//! | fewer triangles within a distance | [`decimated`] |
 //! | pictures of meshes | [`render`] |
 
 pub mod blank_mesh;
+pub mod decimated;
 mod dual_cells;
 pub mod flanks;
 pub mod gear_solid;

@@ -74,32 +74,44 @@ def main(folder):
         kind = {5123: np.uint16, 5125: np.uint32, 5126: np.float32}[accessor.componentType]
         width = {"SCALAR": 1, "VEC3": 3, "VEC4": 4}[accessor.type]
         start = (view.byteOffset or 0) + (accessor.byteOffset or 0)
-        return np.frombuffer(buffer, kind, accessor.count * width, start).reshape(accessor.count, width)
+        size = np.dtype(kind).itemsize
+        stride = view.byteStride or width * size
+        check_quietly(start % size == 0 and stride % size == 0, "aligned", index)
+        return np.ndarray((accessor.count, width), kind, buffer, start, (stride, size))
 
     low, high = np.full(3, np.inf), np.full(3, -np.inf)
     with_heights = 0
-    pairs = zip(read.points.astype(np.float32), heights.astype(np.float32))
-    height_at = {place.tobytes(): height for place, height in pairs}
-    for part in gltf.meshes:
+    whole = "KHR_mesh_quantization"
+    check("glTF: places of 16 bits are told", gltf.extensionsRequired == [whole] == gltf.extensionsUsed)
+    nodes = {node.mesh: node for node in gltf.nodes if node.mesh is not None}
+    nearest_vertex = cKDTree(read.points)
+    worst_steps = 0.0
+    for number, part in enumerate(gltf.meshes):
         attributes = part.primitives[0].attributes
-        places = values(attributes.POSITION)
+        steps = values(attributes.POSITION)
         accessor = gltf.accessors[attributes.POSITION]
-        inside = np.allclose(places.min(0), accessor.min) and np.allclose(places.max(0), accessor.max)
+        inside = np.array_equal(steps.min(0), accessor.min) and np.array_equal(steps.max(0), accessor.max)
         check_quietly(inside, part.name, "box")
+        step = nodes[number].scale[0]
+        places = np.array(nodes[number].translation) + step * steps.astype(float)
+        off, vertex = nearest_vertex.query(places)
+        # Half a step along each axis, and what f32 rounds off in the PLY.
+        worst_steps = max(worst_steps, ((off - 1e-5) / step).max())
         lengths = np.linalg.norm(values(attributes.NORMAL).astype(float), axis=1)
         check_quietly(np.allclose(lengths, 1, atol=1e-5), part.name, "unit normals")
         check_quietly((values(part.primitives[0].indices) < len(places)).all(), part.name, "indices")
         check_quietly(np.isfinite(places).all(), part.name, "finite")
         if part.name.startswith("tooth_"):
             # glTF knows no missing values: a flank with a corner that no pass reached goes without heights.
-            expected = np.array([height_at[place.tobytes()] for place in places])
+            expected = heights[vertex].astype(np.float32)
             told = getattr(attributes, "_HEIGHT_UM", None)
             check_quietly((told is not None) == np.isfinite(expected).all(), part.name, "heights where all are known")
             if told is not None:
                 check_quietly(np.array_equal(values(told)[:, 0], expected), part.name, "the heights of the PLY")
                 with_heights += 1
         low, high = np.minimum(low, places.min(0)), np.maximum(high, places.max(0))
-    check("glTF: same box as the STL", np.allclose([low, high], stl.bounds))
+    check("glTF: vertices of the PLY within half a step", worst_steps < 0.87, f"{worst_steps:.3f} steps at most")
+    check("glTF: same box as the STL", np.allclose([low, high], stl.bounds, atol=2e-3))
     counted = f"{len(gltf.meshes)} parts, {with_heights} with heights"
     check("glTF: boxes, normals, indices and heights of all parts", with_heights > 0, counted)
 

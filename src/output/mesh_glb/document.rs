@@ -7,6 +7,8 @@
 use serde::Serialize;
 use serde_json::{Map, Value};
 
+/// Extension that allows whole numbers as places (Khronos, ratified 2020).
+pub const QUANTIZATION: &str = "KHR_mesh_quantization";
 /// Values of an accessor are 16-bit unsigned.
 pub const UNSIGNED_SHORT: u32 = 5123;
 /// Values of an accessor are 32-bit unsigned.
@@ -24,6 +26,8 @@ pub const ELEMENT_ARRAY_BUFFER: u32 = 34963;
 pub struct Document {
     pub accessors: Vec<Accessor>,
     pub asset: Asset,
+    pub extensions_required: [&'static str; 1],
+    pub extensions_used: [&'static str; 1],
     pub buffers: [Buffer; 1],
     pub buffer_views: Vec<GltfView>,
     /// Number of the scene that viewers show first.
@@ -131,7 +135,9 @@ pub struct GltfNode {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rotation: Option<[f32; 4]>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub scale: Option<[f32; 3]>,
+    pub scale: Option<[f64; 3]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub translation: Option<[f64; 3]>,
 }
 
 /// The nodes that viewers show.

@@ -82,8 +82,8 @@ pub(super) static SECTIONS: &[KeySection] = &[
                 unit: "mm",
                 default: Default::Number(0.1),
                 example: "0.1",
-                teach: "Spacing of vertices on meshes; rows along the tooth are left out where the surface is straight \
-                    to 0.1 um.",
+                teach: "Spacing of vertices on meshes; those within 1 um of the triangles between the others are left \
+                    out.",
             },
             Key {
                 name: "folder",
