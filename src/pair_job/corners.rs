@@ -3,15 +3,17 @@
 //! In: the gears in mesh, the outlines of their spaces. Out: for each gear the deepest place at which a tip corner of
 //! the other is in it, in the position that the pitch curves ask for.
 //!
-//! Law: every position names its deepest corner. Between positions a corner goes deeper still; where one is deeper than
-//! at both neighbours, its depth is followed between them, as long as it may yet exceed the deepest that is known. A
-//! corner gains no more there than it has gained from the lower neighbour.
+//! Law: every corner has its own way through the mate's space, and is looked at in every position. Where it is deeper
+//! than in the positions before and after, its depth is followed between them, as long as it may yet exceed the deepest
+//! that is known: it gains no more there than it has gained from the lower neighbour. Cut fillets have a wave for each
+//! stroke, so that it is looked at in many places before the deepest is followed.
 //!
 //! Teeth that are thinner than nominal leave the driven gear a play in which it evades; the depth tells what it has to
 //! evade, and the transmission error tells whether it did.
 
 use rayon::prelude::*;
 use std::cmp::Ordering;
+use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 
 use glam::DVec2;
@@ -26,8 +28,9 @@ use gearcut_core::error::Result;
 use gearcut_core::math::extremum::maximum;
 use gearcut_core::terms::Side;
 
-/// Cells between two positions in which a corner's depth is looked at before it is followed to its largest value.
-const FOLLOWED_CELLS: usize = 4;
+/// Cells from the position before to the one after in which a corner's depth is looked at before it is followed to its
+/// largest value: with eight positions to a tooth these are a quarter of a pitch, in which fine cuts have 25 strokes.
+const FOLLOWED_CELLS: usize = 64;
 
 /// The deepest corner in a gear.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -45,7 +48,7 @@ pub struct DeepestCorner {
 }
 
 /// A tip corner of the mate that is looked at: the section, the label of the pair of flanks, and the side of the tooth.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 struct ToothCorner {
     section: usize,
     label: i64,
@@ -83,15 +86,14 @@ impl InGear<'_> {
         own.spaces.get(corner.label.rem_euclid(teeth) as usize)?.corner(own_mm)
     }
 
-    /// The deepest corner of a position.
-    fn deepest(&self, pitch: &PitchPoint) -> Option<(ToothCorner, DeepestCorner)> {
+    /// Depths of all corners in a position, mm.
+    fn depths_mm(&self, pitch: &PitchPoint) -> Vec<(ToothCorner, f64)> {
         let pitch_mm = self.meshing.pitch.pitch_mm();
         let corners = self.meshing.sections.iter().enumerate().flat_map(|(section, gears)| {
             let labels = gears.near(pitch, pitch_mm);
             labels.flat_map(move |label| [Side::Right, Side::Left].map(|tip| ToothCorner { section, label, tip }))
         });
-        let found = corners.filter_map(|corner| Some((corner, self.named(pitch, corner)?)));
-        found.max_by(|a, b| deeper(&a.1, &b.1))
+        corners.filter_map(|corner| Some((corner, self.depth(pitch, corner)?.depth_mm))).collect()
     }
 
     /// A corner with its place in words of the pair.
@@ -122,32 +124,63 @@ pub fn deepest(
     let gear = InGear { flanks, meshing, member };
     let of = |moment: &Moment| {
         stage.count()?;
-        Ok(gear.deepest(&moment.pitch))
+        Ok((moment.pitch.phi_1_rad, gear.depths_mm(&moment.pitch)))
     };
-    let found: Vec<Option<(ToothCorner, DeepestCorner)>> = moments.par_iter().map(of).collect::<Result<_>>()?;
-    let n = found.len();
-    let depth_mm = |i: usize| found[i % n].as_ref().map_or(f64::NEG_INFINITY, |(_, corner)| corner.depth_mm);
-    let phi_rad = |i: usize| moments[i % n].pitch.phi_1_rad;
-    let period_rad = TAU * f64::from(turns_of_period(meshing.pitch.teeth().count));
-    // How deep a corner may come between the neighbours of a position at which it is deeper than at both.
-    let mut humps: Vec<(f64, usize)> = (0..n)
-        .filter_map(|i| {
-            let [before, here, after] = [i + n - 1, i, i + 1].map(depth_mm);
-            (here >= before && here >= after && here.is_finite()).then(|| (2.0 * here - before.min(after), i))
-        })
-        .collect();
-    humps.sort_by(|a, b| b.0.total_cmp(&a.0));
-    let mut deepest = found.iter().flatten().map(|(_, corner)| *corner).max_by(deeper);
-    for (at_most_mm, i) in humps {
-        if deepest.is_some_and(|deepest| at_most_mm <= deepest.depth_mm) {
-            break;
+    let found: Vec<(f64, Vec<(ToothCorner, f64)>)> = moments.par_iter().map(of).collect::<Result<_>>()?;
+    let count = meshing.pitch.teeth().count;
+    let turns = turns_of_period(count);
+    let labels = i64::from(turns * count[0]);
+    let period_rad = TAU * f64::from(turns);
+    // Every corner's way: the driver's angles with the depths there. A label of the next period is the first one's.
+    let mut ways: BTreeMap<ToothCorner, Vec<(f64, f64)>> = BTreeMap::new();
+    for (phi, corners) in found {
+        for (corner, depth_mm) in corners {
+            let first = ToothCorner { label: corner.label.rem_euclid(labels), ..corner };
+            let periods = corner.label.div_euclid(labels) as f64;
+            ways.entry(first).or_default().push((phi - periods * period_rad, depth_mm));
         }
-        let before_rad = if i == 0 { phi_rad(n - 1) - period_rad } else { phi_rad(i - 1) };
-        let after_rad = if i + 1 == n { phi_rad(0) + period_rad } else { phi_rad(i + 1) };
-        let followed = found[i].and_then(|(corner, _)| gear.followed(corner, [before_rad, after_rad]));
+    }
+    let mut humps = Vec::new();
+    for (corner, mut way) in ways {
+        way.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
+        humps.extend((0..way.len()).filter_map(|i| Some((corner, hump(&way, i)?))));
+    }
+    // The deepest positions first: what they become leaves little to be followed.
+    humps.sort_by(|a, b| b.1.here_mm.total_cmp(&a.1.here_mm));
+    let mut deepest: Option<DeepestCorner> = None;
+    for (corner, Hump { between_rad, at_most_mm, .. }) in humps {
+        if deepest.is_some_and(|deepest| at_most_mm <= deepest.depth_mm) {
+            continue;
+        }
+        let followed = gear.followed(corner, between_rad);
         deepest = deepest.into_iter().chain(followed).max_by(deeper);
     }
-    Ok(deepest)
+    Ok(deepest.map(|deepest| DeepestCorner { phi_1_rad: deepest.phi_1_rad.rem_euclid(period_rad), ..deepest }))
+}
+
+/// A position in which a corner is deeper than before and after.
+struct Hump {
+    here_mm: f64,
+    /// The driver's angles before and after.
+    between_rad: [f64; 2],
+    /// How deep it may come between them; without end where it comes from outside its space.
+    at_most_mm: f64,
+}
+
+/// The hump of a corner's way at one of its positions, if there is one.
+fn hump(way: &[(f64, f64)], i: usize) -> Option<Hump> {
+    let (phi, here_mm) = way[i];
+    let outside = (f64::NAN, f64::NEG_INFINITY);
+    let before = i.checked_sub(1).map_or(outside, |before| way[before]);
+    let after = way.get(i + 1).copied().unwrap_or(outside);
+    if here_mm < before.1 || here_mm < after.1 {
+        return None;
+    }
+    // One step is as wide as the other where only one is known.
+    let step_rad = (after.0 - phi).max(phi - before.0);
+    let between_rad = [before.0.max(phi - step_rad), after.0.min(phi + step_rad)];
+    let at_most_mm = 2.0 * here_mm - before.1.min(after.1);
+    between_rad[0].is_finite().then_some(Hump { here_mm, between_rad, at_most_mm })
 }
 
 fn deeper(a: &DeepestCorner, b: &DeepestCorner) -> Ordering {

@@ -9,13 +9,18 @@
 
 use super::*;
 use crate::job::GearJob;
+use crate::pair::assembly::AssemblyErrors;
 use crate::pair::flank_chain::FlankChain;
 use crate::pair::penetration::SpaceOutline;
 use crate::pair::pitch_pair::{Member, PitchPair};
+use crate::pair::rolling::roll;
+use crate::pair_job::corners::deepest;
 use crate::pair_job::fit::Fit;
+use crate::pair_job::flanks::{FlankSource, PairFlanks};
 use crate::pair_job::member;
 use crate::pair_job::outline::{ToothOutline, joined};
 use crate::scene::Mate;
+use gearcut_core::cut::cpu::Cpu;
 use gearcut_core::gear::GearKind;
 use gearcut_core::terms::Side;
 use gearcut_core::units::UM_PER_MM;
@@ -124,4 +129,27 @@ fn tip_corners_in_fillets() {
         assert!((file_um - defined_um - short_um).abs() < 0.1 * tolerance_um + CHORDS_UM, "{name}: {defined_um}");
         assert!((depth_um - (file_um - short_um)).abs() <= tolerance_um, "{name}: {depth_um}");
     }
+}
+
+/// The deepest place does not hang on the positions that are rolled: eight and forty to a tooth find what 200 to a
+/// tooth find, whose spacing alone leaves less than a hundredth of a micrometre.
+#[test]
+fn depths_are_followed_between_positions() {
+    let a = third_order(20, 4200, 0.0);
+    let b = member::mate(&a, Mate { teeth: 42, kind: GearKind::External }, &[]).expect("a mate");
+    let fit = Fit::new(&a.scene, &b.scene, 0).expect("they belong together");
+    let scenes = [&a.scene, &b.scene];
+    let flanks = unwatched(|watch| PairFlanks::new(&fit, scenes, FlankSource::Cut, 1, &Cpu::default(), watch));
+    let flanks = flanks.expect("flanks");
+    let meshing = flanks.meshing(&fit, &a.scene.gear, &AssemblyErrors::default());
+    let found = [336, 1680, 8400].map(|positions| {
+        let moments = roll(&meshing, positions, || Ok(())).expect("a period").moments;
+        unwatched(|watch| {
+            let stage = watch.stage("tip corners", positions, "positions").expect("a stage");
+            deepest(&flanks, &meshing, &moments, Member::Driver, &stage).expect("depths").expect("outlines")
+        })
+    });
+    let um = found.map(|corner| UM_PER_MM * corner.depth_mm);
+    println!("deepest corner {um:?} um by 336, 1,680 and 8,400 positions");
+    assert!((um[0] - um[2]).abs() < 1e-5 && (um[1] - um[2]).abs() < 1e-5, "{um:?} um");
 }
