@@ -9,7 +9,7 @@ use gearcut::pair_job::flanks::FlankSource;
 use gearcut::pair_job::options::PairOptions;
 use gearcut::pair_job::page::PairRecord;
 use gearcut::pair_job::watch::Watch;
-use gearcut::pair_job::{findings, member, rolled, write};
+use gearcut::pair_job::{findings, member, rolled, spline, write};
 use gearcut::scene::{LoadedScene, Mate};
 use gearcut::{Error, Findings};
 use serde_json::json;
@@ -26,16 +26,22 @@ pub fn run(arguments: &PairArguments) -> Result<(), Failure> {
     let name = format!("{}_with_{}", a.scene.name, b.scene.name);
     let out = arguments.out.clone().unwrap_or_else(|| PathBuf::from("out").join(&name));
     let words = std::env::args().skip(1).collect::<Vec<_>>();
-    let (choice, progress) = backend::of_few_places(&arguments.run, arguments.json)?;
-    let (path, found) = folder::fill(&out, "pair", |folder, interrupt| {
+    let (choice, progress) = backend::of_few_places_with_events(&arguments.few_places, arguments.json)?;
+    let (path, (found, interference)) = folder::fill(&out, "pair", |folder, interrupt| {
         let watch = Watch::new(&progress, interrupt);
-        let rolled = rolled::roll_pair(scenes, &options, choice.backend.as_ref(), &watch)?;
-        let found = findings::findings(&name, scenes, &options, &rolled);
         let [scene_a, scene_b] = [&a, &b].map(LoadedScene::resolved_toml);
         let run = PairRecord { backend: choice.backend.name_in_files(), scenes: [scene_a.clone(), scene_b.clone()] };
+        let record = [("arguments", json!(words)), ("scene_A", json!(scene_a)), ("scene_B", json!(scene_b))].to_vec();
+        if spline::is_spline(scenes) {
+            let fit = spline::fit(scenes, &options, choice.backend.as_ref(), &watch)?;
+            let found = spline::report::findings(&name, scenes, &fit);
+            spline::report::write(scenes, &fit, &found, folder, &run)?;
+            return Ok((record, (found, spline::report::interference(&fit).into_iter().collect())));
+        }
+        let rolled = rolled::roll_pair(scenes, &options, choice.backend.as_ref(), &watch)?;
+        let found = findings::findings(&name, scenes, &options, &rolled);
         write::write(scenes, &options, &rolled, &found, folder, &run, &watch)?;
-        let record = [("arguments", json!(words)), ("scene_A", json!(scene_a)), ("scene_B", json!(scene_b))];
-        Ok((record.to_vec(), found))
+        Ok((record, (found, findings::interference(&rolled))))
     })
     .map_err(|error| in_place(&a, error))?;
     if arguments.json {
@@ -49,14 +55,17 @@ pub fn run(arguments: &PairArguments) -> Result<(), Failure> {
         print::sheet(&format!("{}\neverything is in {}\n", sheet.into_text(), path.display()))?;
     }
     // Everything is written all the same.
-    Failure::verdict(&found.warnings, &arguments.run.verdict.rules())
+    if interference.is_empty() { Ok(()) } else { Err(Failure::bad_verdict(&interference.join("; "))) }
 }
 
 fn heading(found: &Findings, teeth: [u32; 2], module_mm: f64, sheet: &mut Sheet) {
     let [a, b] = teeth;
-    let apart_mm = found.find("pair").and_then(|pair| pair.number("center_distance")).unwrap_or(f64::NAN);
-    let [module, apart] = [module_mm, apart_mm].map(plain);
-    sheet.heading(&format!("{}: {a} and {b} teeth, module {module} mm, axes {apart} mm apart", found.scene));
+    let module = plain(module_mm);
+    let axes = match found.find("pair").and_then(|pair| pair.number("center_distance")) {
+        Some(apart_mm) => format!("axes {} mm apart", plain(apart_mm)),
+        None => "a splined shaft in its hub".to_owned(),
+    };
+    sheet.heading(&format!("{}: {a} and {b} teeth, module {module} mm, {axes}", found.scene));
 }
 
 /// Both gears.

@@ -277,7 +277,7 @@ fn kinds(a: &Gear, b: &Gear) -> Result<(), Refusal> {
     }
 }
 
-fn teeth_alike(a: &Gear, b: &Gear) -> Result<(), Refusal> {
+pub(super) fn teeth_alike(a: &Gear, b: &Gear) -> Result<(), Refusal> {
     let differ = |x: f64, y: f64| (x - y).abs() > EQUAL_SHARE * x.abs().max(y.abs());
     let [module, angle] =
         [[a.module_mm, b.module_mm], [a.pressure_angle_rad.to_degrees(), b.pressure_angle_rad.to_degrees()]];

@@ -17,6 +17,7 @@
 //! | [`teeth`] | contact tooth by tooth, edges and fillets that carry |
 //! | [`corners`] | tip corners in the mate's material |
 //! | [`double_flank`] | the centre distance without play, against the mate and against masters |
+//! | [`spline`] | a splined shaft in its hub, which do not roll |
 //! | [`findings`] | the tree of findings |
 //! | [`charts`], [`pictures`], [`view`], [`page`] | what is drawn |
 //! | [`write`] | the files |
@@ -32,12 +33,12 @@ pub mod fit;
 pub mod flanks;
 pub mod generated;
 pub mod member;
-pub(crate) mod notices;
 pub mod options;
 pub mod outline;
 pub mod page;
 pub mod pictures;
 pub mod rolled;
+pub mod spline;
 pub mod teeth;
 #[cfg(test)]
 mod tests;

@@ -10,7 +10,7 @@ use super::options::PairOptions;
 use super::rolled::RolledPair;
 use super::teeth::ToothContact;
 use super::view;
-use crate::findings::{Findings, Notice};
+use crate::findings::{Findings, Warning};
 use crate::output::range_chart::{RangeChart, RangeSeries};
 use crate::output::report::{Block, Page, PageSection, PageTable};
 use crate::output::text::plain;
@@ -59,6 +59,10 @@ pub fn page(
     let mut contact = part(vec![chart("contact_ratio"), Some(Block::Ranges(by_tooth(rolled)))]);
     contact.extend(patterns.flatten());
     contact.extend(part(vec![table("contact.right"), table("contact.left")]));
+    let flanks = match options.source {
+        FlankSource::Cut => format!("cut by {}", record.backend),
+        FlankSource::Nominal => "nominal, not cut".to_owned(),
+    };
     let sections = vec![
         PageSection::new(
             "ratio",
@@ -117,7 +121,7 @@ pub fn page(
             part(vec![table("center_distance"), table("pair")]),
         ),
         parts.files,
-        run_record(options, record),
+        run_record(&flanks, record),
     ];
     let gears = scenes.iter().zip(["A drives", "B is driven"]);
     Page {
@@ -134,23 +138,19 @@ pub fn page(
         done: "rolled over a whole period",
         program: format!("gearcut {}", found.program_version),
         key_numbers: found.headline.iter().map(quantities::key_number).collect(),
-        warnings: found.warnings.iter().map(Notice::with_signs).collect(),
+        warnings: found.warnings.iter().map(Warning::with_signs).collect(),
         viewer,
         sections: sections.into_iter().map(|section| with_marking(section, options)).collect(),
     }
 }
 
-/// What is needed to repeat the work.
-fn run_record(options: &PairOptions, record: &PairRecord) -> PageSection {
-    let cut_by = match options.source {
-        FlankSource::Cut => format!("cut by {}", record.backend),
-        FlankSource::Nominal => "nominal, not cut".to_owned(),
-    };
+/// What is needed to repeat the work; `flanks` says where they come from.
+pub(super) fn run_record(flanks: &str, record: &PairRecord) -> PageSection {
     let row = |name: &str, value: String| vec![name.to_owned(), value];
     let table = PageTable {
         caption: "Run".to_owned(),
         columns: Vec::new(),
-        rows: vec![row("Program", format!("gearcut {}", env!("CARGO_PKG_VERSION"))), row("Flanks", cut_by)],
+        rows: vec![row("Program", format!("gearcut {}", env!("CARGO_PKG_VERSION"))), row("Flanks", flanks.to_owned())],
     };
     let scenes = record.scenes.iter().zip(["A", "B"]).map(|(scene, gear)| {
         let words = format!("The scene of gear {gear}, every value written out");

@@ -7,6 +7,7 @@ mod mounted;
 mod parallelism;
 mod refusals;
 mod scallops;
+mod spline;
 mod working;
 
 use serde_json::Value;
