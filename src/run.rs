@@ -10,7 +10,7 @@
 use crate::backend::Choice;
 use crate::findings::Findings;
 use crate::interrupt::Interrupt;
-use crate::output::folder::OutputFolder;
+use crate::output::folder::{NamedResult, OutputFolder};
 use crate::output::progress::{Progress, ProgressMode};
 use crate::process::{CutDone, ProcessJob};
 use crate::scene::LoadedScene;
@@ -18,13 +18,14 @@ use crate::steps::parts::Parts;
 use crate::steps::summary::Summary;
 use crate::steps::{Tools, record};
 use gearcut_core::error::Result;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// A finished run.
 #[derive(Debug)]
 pub struct Done {
-    /// Where the files are: the folder that was asked for, or the partial one beside it.
-    pub folder: PathBuf,
+    /// Where the files are: the folder that was asked for, or the partial one beside it. An earlier result of that name
+    /// is removed with this at the latest.
+    pub folder: NamedResult,
     /// Summary for the terminal.
     pub summary: Summary,
     /// What was found; `results.json` is the same tree.
@@ -118,7 +119,7 @@ impl<'a> Run<'a> {
         for incident in backend.incidents() {
             progress.note(&incident);
         }
-        let folder = if findings.complete { folder.finish()? } else { folder.finish_partial()? };
+        let folder = if findings.complete { folder.take_name()? } else { folder.take_partial_name()? };
         Ok(Done { folder, summary, findings, interrupted: work.interrupted })
     }
 }

@@ -9,6 +9,7 @@
 //!   whole. What Ctrl-C leaves of a run goes to `NAME.partial`; the next complete run removes it.
 //! - What gearcut did not write is never replaced: `run.json` proves what it wrote, file by file. Whatever else has the
 //!   name is refused before any work is done, and so is a folder of gearcut's with a file of somebody else in it.
+//! - What a result has replaced is removed when everything is said: see [`OutputFolder::take_name`].
 //! - One run at a time writes to a name; a second one is refused.
 //! - A run that fails or is killed leaves the names as they were. What a killed run leaves under its hidden name is
 //!   removed by the next run to the same name.
@@ -180,12 +181,30 @@ impl OutputFolder {
     /// Gives the complete folder its final name; an earlier result there and a partial one beside it are removed
     /// afterwards.
     ///
+    /// # Errors
+    /// As for [`take_name`](Self::take_name); what was there before cannot be removed.
+    pub fn finish(self) -> Result<PathBuf> {
+        self.take_name()?.cleared()
+    }
+
+    /// Gives the folder of a run that was ended early the partial name, in place of an earlier one of that kind. What
+    /// has the final name stays there.
+    ///
+    /// # Errors
+    /// As for [`take_partial_name`](Self::take_partial_name); what was there before cannot be removed.
+    pub fn finish_partial(self) -> Result<PathBuf> {
+        self.take_partial_name()?.cleared()
+    }
+
+    /// Gives the complete folder its final name. An earlier result there and a partial one beside it are out of sight
+    /// then: a thousand files take a second to remove, and what was found can be said before.
+    ///
     /// The folder must hold its own `run.json`, or the next run could not replace it.
     ///
     /// # Errors
     /// There is no `run.json`, somebody else's folder has appeared at the final name, or the system refuses to rename:
     /// then the new results are kept under the name that the error tells.
-    pub fn finish(self) -> Result<PathBuf> {
+    pub fn take_name(self) -> Result<NamedResult> {
         self.check_record()?;
         let name = self.final_path.clone();
         let published = check_replaceable(&name).and_then(|()| self.publish(&name));
@@ -201,18 +220,16 @@ impl OutputFolder {
                 source,
             })?;
         }
-        self.clear(&self.final_path)?;
-        Ok(self.final_path)
+        Ok(NamedResult { path: self.final_path, workplace: self.workplace })
     }
 
-    /// Gives the folder of a run that was ended early the partial name, in place of an earlier one of that kind. What
-    /// has the final name stays there.
+    /// Gives the folder of a run that was ended early the partial name.
     ///
     /// Its `run.json` must say `"complete": false`, or the next run could not replace it.
     ///
     /// # Errors
-    /// As for [`finish`](Self::finish).
-    pub fn finish_partial(self) -> Result<PathBuf> {
+    /// As for [`take_name`](Self::take_name).
+    pub fn take_partial_name(self) -> Result<NamedResult> {
         self.check_record()?;
         let partial = self.results_path(false);
         let published = check_partial(&partial).and_then(|()| self.publish(&partial));
@@ -220,8 +237,7 @@ impl OutputFolder {
             return Err(self.keep(error));
         }
         self.settle(&partial)?;
-        self.clear(&partial)?;
-        Ok(partial)
+        Ok(NamedResult { path: partial, workplace: self.workplace })
     }
 
     /// Forces everything that is written to the disk, as [`finish`](Self::finish) does with what is not there yet: a
@@ -257,15 +273,6 @@ impl OutputFolder {
         })
     }
 
-    /// Removes what had the name before.
-    fn clear(&self, name: &Path) -> Result<()> {
-        self.workplace.clear().map_err(|source| Error::Io {
-            action: "the new results are in place, but the earlier ones cannot be removed from beside",
-            path: name.to_owned(),
-            source,
-        })
-    }
-
     /// Keeps results that cannot have their name under another one, and says so with the reason.
     fn keep(mut self, error: Error) -> Error {
         let where_kept = match self.workplace.keep(&self.name) {
@@ -283,6 +290,29 @@ impl OutputFolder {
             Error::Output { path, reason } => Error::Output { path, reason: format!("{reason}; {where_kept}") },
             other => other,
         }
+    }
+}
+
+/// Results under their name. What had it before is removed with this, at the latest by the next run to the name.
+#[derive(Debug)]
+pub struct NamedResult {
+    /// Their folder.
+    pub path: PathBuf,
+    workplace: Workplace,
+}
+
+impl NamedResult {
+    /// Removes what had the name before.
+    ///
+    /// # Errors
+    /// It cannot be removed.
+    pub fn cleared(self) -> Result<PathBuf> {
+        self.workplace.clear().map_err(|source| Error::Io {
+            action: "the new results are in place, but the earlier ones cannot be removed from beside",
+            path: self.path.clone(),
+            source,
+        })?;
+        Ok(self.path)
     }
 }
 

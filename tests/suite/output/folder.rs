@@ -56,6 +56,29 @@ fn an_earlier_run_is_replaced_whole() {
     assert_eq!(names_in(place.path()), ["first_cut"]);
 }
 
+/// What was found can be said before the files of an earlier run are removed, which takes a second for a thousand.
+#[test]
+fn a_result_has_its_name_before_the_earlier_one_is_removed() {
+    let place = tempfile::tempdir().expect("a folder for the test");
+    let path = place.path().join("gear");
+    for cleared in [true, false] {
+        run_into(&path, "old").expect("free name");
+        let folder = OutputFolder::create(&path).expect("ours, so replaced");
+        fs::write(folder.path("tables/result.txt").expect("made"), "new").expect("writable");
+        folder.write_json("run.json", &json!({"program": "gearcut"})).expect("writable");
+        let named = folder.take_name().expect("nothing in the way");
+        let read = |path: &Path| fs::read_to_string(path.join("tables/result.txt")).expect("whole");
+        assert_eq!([named.path.as_path(), &place.path().join(".gear.gearcut/new")].map(read), ["new", "old"]);
+        // With a word or without: nothing is left.
+        if cleared {
+            assert_eq!(named.cleared().expect("removed"), path);
+        } else {
+            drop(named);
+        }
+        assert_eq!(names_in(place.path()), ["gear"]);
+    }
+}
+
 /// Numbers alone, or a draft, do not take the place of a whole result; nor does another command.
 #[test]
 fn a_complete_result_is_not_replaced_by_less() {
