@@ -14,11 +14,16 @@ const SCENE: &str = "[gear]\nmodule_mm = 1.0\nteeth = 20\nface_width_mm = 1.0\nb
 
 /// What a run of the scene with this setting finds.
 fn cut(setting: &str) -> Value {
+    cut_with(&[setting])
+}
+
+fn cut_with(settings: &[&str]) -> Value {
     let folder = tempfile::tempdir().expect("a folder");
     let path = |name: &str| folder.path().join(name).to_str().expect("a path").to_owned();
     fs::write(path("gear.toml"), SCENE).expect("a scene");
     let (scene, out) = (path("gear.toml"), path("out"));
-    let words = ["cut", &scene, "--out", &out, "--only", "numbers", "--quiet", "--backend", "cpu", "--set", setting];
+    let mut words = vec!["cut", &scene, "--out", &out, "--only", "numbers", "--quiet", "--backend", "cpu"];
+    words.extend(settings.iter().flat_map(|setting| ["--set", setting]));
     let outcome = gearcut(&words);
     assert!([0, 3].contains(&outcome.code), "{}", outcome.err);
     read_json(&folder.path().join("out/results.json"))
@@ -58,4 +63,21 @@ fn a_drift_leaves_its_step_where_the_turn_closes() {
     }
     let none = cut("machine.errors.center_distance.drift_um_per_h=0");
     assert!(headline_um(&none, "witness_mark").abs() < 0.05 && !none["warnings"].to_string().contains("closes"));
+}
+
+/// A cutter r off its axis has turned by 20 / 30 of a turn more when the turn closes: its axis stands 2 r sin(120 deg)
+/// from where it stood, and a flank sees no more of that, and on one of 40 flanks nearly all. A draft sees it, too: the
+/// facets are as far apart whatever the dexels.
+#[test]
+fn a_cutter_off_its_axis_leaves_its_step_where_the_turn_closes() {
+    let most_um = 2.0 * 5.0 * 120_f64.to_radians().sin();
+    let off = "tool.shaper_cutter.runout_um=5";
+    let results = [cut(off), cut_with(&[off, "fields.flank.profile_spacing_um=10"])];
+    let steps_um = results.each_ref().map(|results| headline_um(results, "witness_mark"));
+    for (step_um, results) in steps_um.iter().zip(&results) {
+        assert!(step_um.abs() > 0.1 * most_um && step_um.abs() < most_um, "{step_um} um of {most_um} um");
+        let warnings = results["warnings"].to_string();
+        assert!(warnings.contains("runout_um and pitch_errors_um of the cutter"), "{warnings}");
+    }
+    assert!((steps_um[0] - steps_um[1]).abs() < 0.1, "{steps_um:?} um");
 }
