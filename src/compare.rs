@@ -21,7 +21,6 @@
 mod charts;
 mod lines;
 mod maps;
-pub(crate) mod notices;
 mod page;
 mod ranked;
 mod surfaces;

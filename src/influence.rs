@@ -22,5 +22,4 @@ pub mod interval;
 pub mod known_cuts;
 pub mod measured;
 pub mod measured_table;
-pub(crate) mod notices;
 pub mod numbers;

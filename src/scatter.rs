@@ -14,7 +14,6 @@
 mod findings;
 pub mod folder;
 pub mod layers;
-pub(crate) mod notices;
 pub mod numbers;
 pub mod page;
 pub mod rows;
@@ -26,7 +25,7 @@ pub mod tolerance;
 #[cfg(test)]
 mod tests;
 
-use crate::findings::Notice;
+use crate::findings::Warning;
 use gearcut_core::terms::Side;
 use layers::LayerCase;
 use numbers::{NUMBERS, Values};
@@ -58,7 +57,7 @@ pub struct Scatter {
     /// What differs from gear to gear within limits.
     pub tolerances: Vec<Tolerance>,
     /// What the gears do not follow of their errors.
-    pub unfollowed: Vec<Notice>,
+    pub unfollowed: Vec<Warning>,
     /// Numbers by seed; those beyond the gears that were asked for stay from an earlier run.
     pub rows: Rows,
 }

@@ -15,7 +15,7 @@ pub fn run(arguments: &MateArguments) -> Result<(), Failure> {
     let kind = if arguments.internal { GearKind::Internal } else { GearKind::External };
     let wanted = Mate { teeth: arguments.teeth, kind };
     // The refusal blames keys of the mate's scene, which does not exist yet: it is no place in the driver's file.
-    let mate = print::waiting("mate", || loaded.mate(wanted)).map_err(|refusal| {
+    let mate = print::waiting("mate", "scene", || loaded.mate(wanted)).map_err(|refusal| {
         let words = if arguments.internal { "internal" } else { "external" };
         Failure::without_place(&format!("no {words} mate with {} teeth", wanted.teeth), &refusal)
     })?;

@@ -40,9 +40,9 @@ pub fn run(arguments: &TextureArguments) -> Result<(), Failure> {
         interrupt.check()?;
     }
     let chain = Chain {
-        form: arguments.filters.form.form(),
-        s_filter_um: arguments.filters.s_filter_um,
-        l_filter_um: arguments.filters.l_filter_um,
+        form: arguments.form.form(),
+        s_filter_um: arguments.s_filter_um,
+        l_filter_um: arguments.l_filter_um,
         robust: arguments.robust,
         crop_um: arguments.crop_um,
     };
@@ -53,13 +53,17 @@ pub fn run(arguments: &TextureArguments) -> Result<(), Failure> {
             "use another form, other nesting indices or a smaller crop",
         )
     };
-    let (surface, words) = chain.apply(&file.surface).map_err(unsuited)?;
-    interrupt.check()?;
     let more =
         Arguments { heights_um: arguments.at_height_um.clone(), ratios_percent: arguments.at_ratio_percent.clone() };
-    let evaluation = Evaluation::of(&surface, &more);
-    let lines = lines::evaluated(arguments, &file.surface)?;
-    interrupt.check()?;
+    let evaluated = || -> Result<_, Failure> {
+        let (surface, words) = chain.apply(&file.surface).map_err(unsuited)?;
+        interrupt.check()?;
+        let evaluation = Evaluation::of(&surface, &more);
+        let lines = lines::evaluated(arguments, &file.surface)?;
+        interrupt.check()?;
+        Ok((surface, words, evaluation, lines))
+    };
+    let (surface, words, evaluation, lines) = print::waiting("texture", "surface", evaluated)?;
     if arguments.json {
         let document = document(&arguments.file, &file, &surface, &words, &evaluation, &lines);
         return Ok(print::to_stdout(&format!("{document:#}\n"))?);
@@ -103,8 +107,8 @@ fn check(arguments: &TextureArguments) -> Result<(), Refusal> {
         None => Ok(()),
     };
     positive("--spacing-um", &arguments.reading.spacing_um)?;
-    positive("--s-filter-um", arguments.filters.s_filter_um.as_slice())?;
-    positive("--l-filter-um", arguments.filters.l_filter_um.as_slice())?;
+    positive("--s-filter-um", arguments.s_filter_um.as_slice())?;
+    positive("--l-filter-um", arguments.l_filter_um.as_slice())?;
     lines::check(arguments)?;
     if !(arguments.crop_um.is_finite() && arguments.crop_um >= 0.0) {
         let problem = format!("{} um is not a margin", arguments.crop_um);

@@ -18,9 +18,8 @@
 mod page;
 
 use super::maps::grid_of;
-use super::notices::{Inverted, PoorCorrelation};
 use crate::colormap::ColourScale;
-use crate::findings::{Datum, Notice};
+use crate::findings::Datum;
 use crate::measure::topography::align::{self, Aligned, SurfaceMarks};
 use crate::measure::topography::{Arguments, Chain, Evaluation, Surface};
 use crate::output::atomic::file_error;
@@ -111,7 +110,7 @@ impl SurfaceComparison {
             sheet.line(&name, value);
         }
         for doubt in self.doubts() {
-            sheet.line("doubt", doubt.text);
+            sheet.line("doubt", doubt);
         }
         sheet.heading("Parameters on the points that both have");
         sheet.table(&self.table());
@@ -213,14 +212,21 @@ impl SurfaceComparison {
     }
 
     /// What is hardly right about the pair.
-    fn doubts(&self) -> Vec<Notice> {
+    fn doubts(&self) -> Vec<String> {
         let a = &self.aligned.alignment;
         let mut doubts = Vec::new();
         if a.correlation < POOR {
-            doubts.push(PoorCorrelation { correlation: correlation_text(a.correlation) }.notice());
+            doubts.push(format!(
+                "a correlation of {} is poor: are these surfaces of one place?",
+                correlation_text(a.correlation)
+            ));
         }
         if align::fits_better(a.inverted, a.by_mirror[0].max(a.correlation)) {
-            doubts.push(Inverted { correlation: correlation_text(a.inverted) }.notice());
+            doubts.push(format!(
+                "with its heights inverted the second correlates with {}: is one of them a replica? \
+                 `gearcut texture FILE --invert --save ...` turns it back",
+                correlation_text(a.inverted)
+            ));
         }
         doubts
     }

@@ -15,7 +15,6 @@ mod gpu;
 mod hobbing;
 mod influence;
 mod library;
-mod notices;
 mod output;
 mod posts;
 mod program;

@@ -1,9 +1,20 @@
 //! What can be typed behind the commands that ask what errors of machine and tool do.
 
-use super::{RunArguments, SceneArguments};
+use super::{BackendChoice, SceneArguments};
 use clap::{Args, ValueEnum};
 use gearcut::scatter::tolerance::Tolerance;
 use std::path::PathBuf;
+
+/// How gears are cut that are looked at on few places.
+#[derive(Debug, Args)]
+pub struct FewPlacesArguments {
+    /// What computes: for few places at a time the processor is the fastest.
+    #[arg(long, value_enum, default_value_t = BackendChoice::Cpu)]
+    pub backend: BackendChoice,
+    /// Show no progress.
+    #[arg(long)]
+    pub quiet: bool,
+}
 
 /// Arguments of `scatter`.
 #[derive(Debug, Args)]
@@ -27,9 +38,9 @@ pub struct ScatterArguments {
     /// Folder to write or to go on with [default: out/<scene>_scatter].
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
-    /// Backend, progress and verdict.
+    /// Backend and progress.
     #[command(flatten)]
-    pub run: RunArguments,
+    pub few_places: FewPlacesArguments,
 }
 
 /// A flank of a tooth.
@@ -65,9 +76,9 @@ pub struct CalibrateArguments {
     /// Folder to write [default: out/<scene>_calibration].
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
-    /// Backend, progress and verdict.
+    /// Backend and progress.
     #[command(flatten)]
-    pub run: RunArguments,
+    pub few_places: FewPlacesArguments,
 }
 
 /// Arguments of `diagnose`.
@@ -85,9 +96,9 @@ pub struct DiagnoseArguments {
     /// Folder to write [default: out/<scene>_diagnosis].
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
-    /// Backend, progress and verdict.
+    /// Backend and progress.
     #[command(flatten)]
-    pub run: RunArguments,
+    pub few_places: FewPlacesArguments,
     /// Errors to try, by key, section or whole name [default: all; the first entry of lists].
     #[arg(long, value_name = "KEYS", value_delimiter = ',')]
     pub parameters: Vec<String>,
@@ -113,7 +124,7 @@ pub struct BudgetArguments {
     /// Make whole cuts as well, and write the influence on every number that they report to tables/numbers.csv.
     #[arg(long)]
     pub numbers: bool,
-    /// Backend, progress and verdict.
+    /// Backend and progress.
     #[command(flatten)]
-    pub run: RunArguments,
+    pub few_places: FewPlacesArguments,
 }

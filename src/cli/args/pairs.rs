@@ -3,7 +3,7 @@
 use clap::{ArgGroup, Args, ValueEnum};
 use std::path::PathBuf;
 
-use super::{RunArguments, VerdictArguments};
+use super::FewPlacesArguments;
 
 /// Arguments of `contact`.
 #[derive(Debug, Args)]
@@ -39,9 +39,6 @@ pub struct ContactArguments {
     /// Print results.json instead of the summary.
     #[arg(long)]
     pub json: bool,
-    /// What makes the verdict bad.
-    #[command(flatten)]
-    pub verdict: VerdictArguments,
 }
 
 /// Arguments of `pair`.
@@ -105,9 +102,9 @@ pub struct PairArguments {
     /// Thickness of the marking compound of contact patterns.
     #[arg(long, value_name = "UM", default_value_t = 6.0)]
     pub marking_um: f64,
-    /// Backend, progress and verdict.
+    /// Backend and progress.
     #[command(flatten)]
-    pub run: RunArguments,
+    pub few_places: FewPlacesArguments,
     /// Folder to write [default: out/<A>_with_<B>].
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,

@@ -4,7 +4,7 @@
 //! maps, curves, profiles, parameters.
 
 use super::{SurfaceComparison, correlation_text};
-use crate::findings::unit;
+use crate::findings::{Warning, unit};
 use crate::output::line_chart::LineChart;
 use crate::output::report::{Block, KeyNumber, Page, PageSection, PageTable};
 
@@ -70,7 +70,7 @@ impl SurfaceComparison {
             complete: true,
             program: format!("gearcut {}", env!("CARGO_PKG_VERSION")),
             key_numbers: numbers,
-            warnings: self.doubts(),
+            warnings: self.doubts().into_iter().map(Warning::warn).collect(),
             viewer: None,
             sections,
         }

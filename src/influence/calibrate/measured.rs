@@ -2,7 +2,6 @@
 //!
 //! In: values with their uncertainties. Out: [`MeasuredGear`]. Files fill it (`files.rs`).
 
-use crate::findings::Notice;
 use crate::influence::charts::MeasuredLine;
 use crate::influence::numbers::of_window;
 use std::collections::BTreeMap;
@@ -39,7 +38,7 @@ pub struct MeasuredGear {
     /// Standard uncertainty of every value on them, um.
     pub noise_um: f64,
     /// What a reader must know of files that are not quite what the scene cuts.
-    pub notes: Vec<Notice>,
+    pub notes: Vec<String>,
 }
 
 impl MeasuredGear {

@@ -20,7 +20,6 @@ pub mod job;
 pub mod measure;
 pub mod motion;
 pub mod net;
-pub(crate) mod notices;
 pub mod operation;
 pub mod pair;
 mod report;
@@ -32,7 +31,7 @@ mod stage_costs;
 mod surfaces;
 
 use super::{CutDone, Process};
-use crate::findings::Notice;
+use crate::findings::Warning;
 use crate::interrupt::Interrupt;
 use crate::job::GearJob;
 use crate::output::folder::OutputFolder;
@@ -44,8 +43,7 @@ use gearcut_core::error::Result;
 pub use job::BevelJob;
 
 /// The process.
-pub static PROCESS: Process =
-    Process { scene: &scene::SCENE, notices: notices::NOTICES, prepare: |scene| Ok(Box::new(BevelJob::new(scene)?)) };
+pub static PROCESS: Process = Process { scene: &scene::SCENE, prepare: |scene| Ok(Box::new(BevelJob::new(scene)?)) };
 
 impl super::ProcessJob for BevelJob {
     fn cut(&self, tools: &Tools, frames: Option<u32>) -> Result<CutDone> {
@@ -55,7 +53,7 @@ impl super::ProcessJob for BevelJob {
         run::run(self, tools)
     }
 
-    fn check(&self, sheet: &mut Sheet) -> Result<Vec<Notice>> {
+    fn check(&self, sheet: &mut Sheet) -> Result<Vec<Warning>> {
         check::print(sheet, self)
     }
 
@@ -63,7 +61,7 @@ impl super::ProcessJob for BevelJob {
         visit(self)
     }
 
-    fn axes(&self, folder: &OutputFolder, interrupt: &Interrupt, sheet: &mut Sheet) -> Result<Vec<Notice>> {
+    fn axes(&self, folder: &OutputFolder, interrupt: &Interrupt, sheet: &mut Sheet) -> Result<Vec<Warning>> {
         let motion = BevelAxesReport::of_job(self);
         axes::command(&motion, findings::foresee(self, &motion)?.warnings, folder, interrupt, sheet)
     }

@@ -18,8 +18,7 @@
 
 use super::ShapingJob;
 use super::linkage::dynamics::AXES;
-use super::notices::FastNoise;
-use crate::findings::Notice;
+use crate::findings::Warning;
 use crate::machine_errors::NoiseLaw;
 use crate::output::text::significant;
 use gearcut_core::math::roots::bisect;
@@ -75,7 +74,7 @@ impl Face {
 }
 
 /// Noise that strokes do not follow, operation by operation.
-pub fn warnings(job: &ShapingJob) -> Vec<Notice> {
+pub fn warnings(job: &ShapingJob) -> Vec<Warning> {
     let width_mm = job.scene.gear.face_width_mm;
     let crank = job.machine.crank(width_mm);
     let mut warnings = Vec::new();
@@ -89,15 +88,17 @@ pub fn warnings(job: &ShapingJob) -> Vec<Notice> {
                     continue;
                 }
                 let most_hz = bisect(|hz| face.apart(hz, PLACES) < MOST_APART, BANDWIDTHS_HZ[0], BANDWIDTHS_HZ[1]);
-                let fast = FastNoise {
-                    operation: &operation.spec.name,
-                    axis: axis.name,
-                    bandwidth_hz: significant(bandwidth_hz, 3),
-                    apart: significant(apart, 2),
-                    most_hz: significant(most_hz, 2),
-                    most_apart: MOST_APART,
-                };
-                warnings.push(fast.notice());
+                warnings.push(Warning::warn(format!(
+                    "operation {}: noise of the {} up to {} Hz is faster than strokes follow along the tooth: between \
+                     four places of the face they leave it by {} of its standard deviation, up to {} Hz by {} at most; \
+                     helices are smoother than it",
+                    operation.spec.name,
+                    axis.name,
+                    significant(bandwidth_hz, 3),
+                    significant(apart, 2),
+                    significant(most_hz, 2),
+                    MOST_APART
+                )));
             }
         }
     }

@@ -65,3 +65,19 @@ fn full_depth_on_the_first_stroke_is_cut_where_it_is_asked_for() {
     assert!(!warned(&results, "the first stroke comes at full depth"), "{}", results["warnings"]);
     assert!(forces(folder.path(), "finish")[0][1] < 100.0);
 }
+
+/// The sentence of the key: a round tangent to flank and tip circle fits as far as the tip is wide.
+#[test]
+fn tip_rounds_have_the_room_that_their_key_says() {
+    let fits = |teeth: u32, modules: f64| {
+        let text = format!(
+            "[gear]\nmodule_mm = 1.0\nteeth = 24\n[tool.shaper_cutter]\nteeth = {teeth}\naddendum_coefficient = 1.25\n\
+             [tool.shaper_cutter.tip.round]\nradius_mm = {modules}\n"
+        );
+        let scene = gearcut::process::parse(&text, "round.toml", Path::new(""), &[]);
+        scene.is_ok_and(|scene| gearcut::process::prepare(&scene.scene).is_ok())
+    };
+    for (teeth, room, too_much) in [(14, 0.25, 0.3), (20, 0.34, 0.35), (26, 0.37, 0.38), (27, 0.38, 0.4)] {
+        assert!(fits(teeth, room) && !fits(teeth, too_much), "{teeth} teeth: {room} and not {too_much} modules");
+    }
+}
