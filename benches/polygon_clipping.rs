@@ -99,7 +99,11 @@ fn gearcut_flanks(backend: Cpu, rows: usize) -> Cut {
     let mut heights_mm: Vec<Vec<f64>> = fields
         .into_par_iter()
         .map(|field| {
-            job.planar().cut_rows(&backend, &field).expect("native").0[0].heights_mm.iter().map(|&h| h.into()).collect()
+            job.planar().cut_rows(&backend, &field).expect("native").layers[0]
+                .heights_mm
+                .iter()
+                .map(|&h| h.into())
+                .collect()
         })
         .collect();
     heights_mm.truncate(flanks().count());

@@ -33,6 +33,14 @@ const CONVERGED_MM: f32 = 2e-5;
 const REACH_MM: f32 = 200.0;
 const LARGEST_T: f32 = 1.0;
 
+// Coefficients of the cells in which the lanes are.
+struct LaneCells {
+    c0: Lanes,
+    c1: Lanes,
+    c2: Lanes,
+    c3: Lanes,
+}
+
 // A value that depends on height and moment, with its rates over both.
 struct Varied {
     value: Lanes,

@@ -1,5 +1,7 @@
-//! Which machine cuts: a real GPU if there is one, else the processor; anything else only when asked for.
+//! Which machine cuts: a real GPU if there is one and it is faster, else the processor; anything else only when asked
+//! for.
 //!
+//! Whether a GPU is faster depends on the scene: a run tries it on tiles of its own ([`Choice::on_trial`]).
 //! The native backend is faster than a software adapter on the same cores, so llvmpipe and its like are for checking
 //! the shaders. A build without the feature `gpu` has the native backend alone, and says so wherever a GPU could be
 //! asked for.
@@ -22,7 +24,7 @@ pub use build::{Devices, devices, driver_hangs};
 /// What `--backend` says.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum BackendWish {
-    /// A real GPU, else the processor.
+    /// A real GPU if it is faster on the scene's own tiles, else the processor.
     #[default]
     Auto,
     /// A real GPU, else a software adapter, else an error.
@@ -47,6 +49,8 @@ pub struct Choice {
     pub backend: Box<dyn Backend>,
     /// One line.
     pub why: String,
+    /// A GPU that nobody asked for by name: a run takes it if it is faster than the processor on the scene's own tiles.
+    pub on_trial: bool,
 }
 
 /// The backend for a wish.
@@ -62,5 +66,5 @@ pub fn choose(wish: BackendWish, on_failure: OnFailure) -> Result<Choice> {
 }
 
 fn native(why: String) -> Choice {
-    Choice { backend: Box::new(Cpu::default()), why }
+    Choice { backend: Box::new(Cpu::default()), why, on_trial: false }
 }

@@ -14,9 +14,12 @@ use crate::output::folder::{NamedResult, OutputFolder};
 use crate::output::progress::{Progress, ProgressMode};
 use crate::process::{CutDone, ProcessJob};
 use crate::scene::LoadedScene;
+use crate::steps::backend_trial::BackendTrial;
 use crate::steps::parts::Parts;
 use crate::steps::summary::Summary;
 use crate::steps::{Tools, record};
+use gearcut_core::cut::Backend;
+use gearcut_core::cut::cpu::Cpu;
 use gearcut_core::error::Result;
 use std::path::Path;
 
@@ -85,7 +88,22 @@ impl<'a> Run<'a> {
         let Self { scene, prepared, choice, progress, interrupt, parts, frames } = self;
         let quiet = Progress::new(ProgressMode::Quiet);
         let progress = progress.unwrap_or(&quiet);
-        let backend = choice.backend.as_ref();
+        let mut trial = None;
+        if choice.on_trial {
+            prepared.with_gear(&mut |gear| {
+                trial = Some(BackendTrial::new(gear, choice.backend.as_ref(), &interrupt)?);
+                Ok(())
+            })?;
+        }
+        let native = Cpu::default();
+        let backend: &dyn Backend = match &trial {
+            Some(trial) if !trial.takes_gpu() => &native,
+            _ => choice.backend.as_ref(),
+        };
+        let backend_why = trial.map_or_else(|| choice.why.clone(), |trial| format!("{}, {}", choice.why, trial.why()));
+        if choice.on_trial {
+            progress.note(&format!("backend: {} ({backend_why})", backend.name()));
+        }
         let folder = OutputFolder::create_of(out, "cut", &parts.names())?;
         let resolved = scene.resolved_toml();
         // Times and threads stand in the run record alone: the same scene gives the same bytes.
@@ -98,7 +116,7 @@ impl<'a> Run<'a> {
         let tools = Tools {
             resolved: &resolved,
             backend,
-            backend_why: &choice.why,
+            backend_why: &backend_why,
             progress,
             interrupt: &interrupt,
             folder: &folder,

@@ -8,14 +8,6 @@ fn counted(lanes: LaneCounts) -> u32 {
     return lanes;
 }
 
-// Coefficients of the cells in which the lanes are.
-struct LaneCells {
-    c0: Lanes,
-    c1: Lanes,
-    c2: Lanes,
-    c3: Lanes,
-}
-
 // Cells by their distance from a base cell.
 fn lane_cells(base: i32, cell: Lanes) -> LaneCells {
     let c = cells[u32(base + i32(cell))];

@@ -8,14 +8,6 @@ fn counted(lanes: LaneCounts) -> u32 {
     return lanes.x + lanes.y + lanes.z + lanes.w;
 }
 
-// Coefficients of the cells in which the lanes are.
-struct LaneCells {
-    c0: Lanes,
-    c1: Lanes,
-    c2: Lanes,
-    c3: Lanes,
-}
-
 // Cells by their distance from a base cell.
 fn lane_cells(base: i32, cell: Lanes) -> LaneCells {
     let index = vec4<u32>(vec4<i32>(cell) + vec4<i32>(base));

@@ -96,6 +96,22 @@ pub const PLANAR_UNCUT: Stage = Stage {
     variants: &[&[]],
 };
 
+/// Dexels of a field once more, for the next plan.
+pub const PLANAR_AGAIN: Stage = Stage {
+    name: "planar_again",
+    text: concat!(include_str!("../shared/records.wgsl"), include_str!("../planar_again.wgsl")),
+    bindings: &["launch", "before_mm", "before_passes", "heights_mm", "passes"],
+    variants: &[&[]],
+};
+
+/// Figures of the columns of a field.
+pub const FLANK_FIGURES: Stage = Stage {
+    name: "flank_figures",
+    text: concat!(include_str!("../shared/figure_records.wgsl"), include_str!("../flank_figures.wgsl")),
+    bindings: &["launch", "low_mm", "heights_mm", "passes", "last_heights_mm", "last_passes", "figures"],
+    variants: &[&[]],
+};
+
 /// Place in the variants of [`planar_flank`].
 pub fn planar_variant(frozen: bool, arcs: bool) -> usize {
     2 * usize::from(frozen) + usize::from(arcs)
@@ -165,6 +181,8 @@ pub const STAGES: &[Stage] = &[
     planar_flank(Rows::Many),
     planar_flank(Rows::Few),
     PLANAR_UNCUT,
+    PLANAR_AGAIN,
+    FLANK_FIGURES,
     spatial_flank(Rows::Many),
     spatial_flank(Rows::Few),
     BLANK_RAYS,

@@ -31,7 +31,7 @@ pub(super) fn gpu(on_failure: OnFailure) -> gearcut_core::error::Result<Choice> 
     } else {
         format!("asked for; no real GPU is there, {} stands in", found.facts.name)
     };
-    Ok(Choice { backend: Box::new(Gpu::on(&found, options(on_failure))?), why })
+    Ok(Choice { backend: Box::new(Gpu::on(&found, options(on_failure))?), why, on_trial: false })
 }
 
 /// How long the drivers of all adapters may take to say what they are and to open the one that is taken: ten times what
@@ -82,7 +82,7 @@ fn answered(on_failure: OnFailure) -> Choice {
 /// A real GPU that does not open, because of its driver, is no reason to fail when anything will do.
 fn on_real_gpu(found: &FoundAdapter, options: GpuOptions, why: String) -> Choice {
     match Gpu::on(found, options) {
-        Ok(gpu) => Choice { backend: Box::new(gpu), why },
+        Ok(gpu) => Choice { backend: Box::new(gpu), why, on_trial: true },
         Err(problem) => native(format!("auto: {problem}")),
     }
 }
@@ -127,8 +127,11 @@ impl fmt::Display for Devices {
             writeln!(f, "gpu   {}", GpuProblem::NoAdapter { seen: Vec::new() })?;
         }
         writeln!(f, "cpu   {}", self.native)?;
-        let taken = self.auto_takes.map_or(&self.native, |index| &self.adapters[index].name);
-        write!(f, "--backend auto takes {taken}: {}", self.auto_why.trim_start_matches("auto: "))
+        let why = self.auto_why.trim_start_matches("auto: ");
+        match self.auto_takes {
+            Some(_) => write!(f, "--backend auto takes {why} if it is faster than the processor on tiles of the scene"),
+            None => write!(f, "--backend auto takes {}: {why}", self.native),
+        }
     }
 }
 

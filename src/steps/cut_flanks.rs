@@ -1,13 +1,13 @@
 //! All flanks of a gear, cut and measured in parallel, each written and thinned out as soon as it is done.
 //!
-//! In: the job; how the process cuts and measures one flank. Out: [`CutFlanks`]: reports, maps and surfaces at
-//! their own spacings, and what pictures show. The dexels themselves are dropped flank by flank: of a gear they would
-//! fill the memory.
+//! In: the job; how the process cuts and measures the flanks of a [`FlankQueue`], which takes each when it is done.
+//! Out: [`CutFlanks`]: reports, maps and surfaces at their own spacings, and what pictures show. The dexels themselves
+//! are dropped flank by flank: of a gear they would fill the memory.
 
 use super::gear_maps::GearMaps;
 use super::parts::{Part, Parts};
 use super::pictures::flank::PicturedFlanks;
-use super::{FlankFiles, Work, all_flanks, flanks_of, map_operations, meshes, needs_maps, needs_surfaces, pictures};
+use super::{FlankFiles, Work, flanks_of, map_operations, meshes, needs_maps, needs_surfaces, pictures};
 use crate::interrupt::Interrupt;
 use crate::job::GearJob;
 use crate::measure::last_chips::LastChips;
@@ -18,6 +18,9 @@ use gearcut_core::cut::CutStats;
 use gearcut_core::dexel::{Layer, RayGrid};
 use gearcut_core::error::Result;
 use gearcut_core::terms::Side;
+use rayon::prelude::*;
+use std::collections::BTreeMap;
+use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
 
 /// One flank after all operations.
@@ -25,7 +28,7 @@ use std::time::Instant;
 pub struct CutFlank<G, R> {
     /// Rays: all of them where maps, meshes or pictures show the flank.
     pub rays: G,
-    /// What each operation left, in order.
+    /// What each operation left, in order; empty where nothing that is written shows dexels.
     pub layers: Vec<Layer>,
     /// Dexels of all operations.
     pub dexels: u64,
@@ -67,18 +70,55 @@ struct KeptFlank<R> {
     dexels: u64,
 }
 
-/// Cuts all flanks; `cut_one` cuts and measures one, `chips` says what chips left the cells of its maps (nothing where
-/// a process does not follow them). Maps and meshes go to `folder` as soon as a flank is done, if they are among the
-/// parts that it shall hold.
+/// Takes the flank of an index.
+type TakeFlank<'a, G, R> = dyn Fn(usize, CutFlank<G, R>) -> Result<()> + Sync + 'a;
+
+/// Flanks that wait to be cut, and what is done with each that is cut and measured.
+pub struct FlankQueue<'a, G, R> {
+    /// Teeth and sides, in order.
+    pub list: &'a [(u32, Side)],
+    interrupt: &'a Interrupt,
+    take: &'a TakeFlank<'a, G, R>,
+}
+
+impl<G, R> FlankQueue<'_, G, R> {
+    /// Tooth and side of an index, when its turn comes; nothing after Ctrl-C.
+    pub fn next(&self, index: usize) -> Option<(u32, Side)> {
+        (!self.interrupt.is_raised()).then(|| self.list[index])
+    }
+
+    /// Takes the flank of an index.
+    ///
+    /// # Errors
+    /// Files.
+    pub fn take(&self, index: usize, flank: CutFlank<G, R>) -> Result<()> {
+        (self.take)(index, flank)
+    }
+
+    /// Cuts and measures every flank by itself, in parallel; the first failure ends it.
+    ///
+    /// # Errors
+    /// Those of `cut_one`; files.
+    pub fn each(&self, cut_one: impl Fn(u32, Side) -> Result<CutFlank<G, R>> + Sync) -> Result<()> {
+        (0..self.list.len()).into_par_iter().try_for_each(|index| match self.next(index) {
+            Some((tooth, side)) => self.take(index, cut_one(tooth, side)?),
+            None => Ok(()),
+        })
+    }
+}
+
+/// Cuts all flanks; `cut_all` cuts and measures those of a queue, `chips` says what chips left the cells of a flank's
+/// maps (nothing where a process does not follow them). Maps and meshes go to `folder` as soon as a flank is done, if
+/// they are among the parts that it shall hold.
 ///
 /// # Errors
-/// Those of `cut_one`; files. Ctrl-C is no error: what is finished is returned.
+/// Those of `cut_all`; files. Ctrl-C is no error: what is finished is returned.
 pub fn cut_flanks<G: RayGrid, R: Send>(
     job: &dyn GearJob,
     progress: &Progress,
     interrupt: &Interrupt,
     folder: Option<FlankFiles<'_>>,
-    cut_one: impl Fn(u32, Side) -> Result<CutFlank<G, R>> + Sync,
+    cut_all: impl FnOnce(&FlankQueue<G, R>) -> Result<()>,
     chips: impl Fn(&G, &[Layer], &FlankMaps) -> Vec<LastChips> + Sync,
 ) -> Result<CutFlanks<R>> {
     let parts = folder.map_or(Parts::all(), |(.., parts)| parts);
@@ -87,11 +127,10 @@ pub fn cut_flanks<G: RayGrid, R: Send>(
     let operations = map_operations(job);
     let flanks = flanks_of(job);
     let step = progress.step("cut", flanks.len() as u64, "flanks");
-    let finished = all_flanks(&flanks, |&(tooth, side)| {
-        if interrupt.is_raised() {
-            return Ok(None);
-        }
-        let CutFlank { rays, layers, dexels, stats, evaluated_mm, report } = cut_one(tooth, side)?;
+    let finished = Mutex::new(BTreeMap::new());
+    let take = |index: usize, flank: CutFlank<G, R>| {
+        let (tooth, side) = flanks[index];
+        let CutFlank { rays, layers, dexels, stats, evaluated_mm, report } = flank;
         let maps = needs_maps(parts).then(|| {
             let arcs_mm = rays.arcs_mm();
             let mut maps = FlankMaps::sample(tooth, side, [&arcs_mm, rays.rows_mm()], &layers, output.map_spacing_mm);
@@ -113,14 +152,18 @@ pub fn cut_flanks<G: RayGrid, R: Send>(
             }
         }
         step.advance(1);
-        Ok(Some(KeptFlank { report, maps, surface, pictured, stats, dexels }))
-    })?;
+        let kept = KeptFlank { report, maps, surface, pictured, stats, dexels };
+        finished.lock().unwrap_or_else(PoisonError::into_inner).insert(index, kept);
+        Ok(())
+    };
+    cut_all(&FlankQueue { list: &flanks, interrupt, take: &take })?;
     step.finish();
-    let interrupted = finished.iter().any(Option::is_none);
+    let finished = finished.into_inner().unwrap_or_else(PoisonError::into_inner);
+    let interrupted = finished.len() < flanks.len();
     let mut work = Work { stats: CutStats::default(), dexels: 0, elapsed: started.elapsed(), interrupted };
     let (mut reports, mut maps, mut surfaces) = (Vec::new(), Vec::new(), Vec::new());
     let mut pictured = PicturedFlanks::new();
-    for flank in finished.into_iter().flatten() {
+    for flank in finished.into_values() {
         reports.push(flank.report);
         maps.extend(flank.maps);
         surfaces.extend(flank.surface);

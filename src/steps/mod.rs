@@ -6,6 +6,7 @@
 
 pub mod attempts;
 pub mod axes;
+pub mod backend_trial;
 pub mod check_cost;
 pub mod check_curve;
 pub mod computer_speed;
@@ -43,8 +44,6 @@ use gearcut_core::terms::Side;
 use meshes::ClosedBodies;
 use parts::{Part, Parts};
 use pictures::flank::PicturedFlanks;
-use rayon::prelude::*;
-use std::sync::Mutex;
 use std::time::Duration;
 
 /// How much work a run was.
@@ -123,35 +122,6 @@ pub struct Tools<'a> {
     pub parts: Parts,
     /// Scene and program, for the heads of files.
     pub notes: &'a [(String, String)],
-}
-
-/// Runs something over all flanks in parallel; nothing for those that were left out.
-///
-/// # Errors
-/// The first failure stops the rest; what it was is kept, not the flanks' order of arrival.
-pub fn all_flanks<T: Send>(
-    flanks: &[(u32, Side)],
-    cut_one: impl Fn(&(u32, Side)) -> Result<Option<T>> + Sync,
-) -> Result<Vec<Option<T>>> {
-    let failure = Mutex::new(None);
-    let finished = flanks
-        .par_iter()
-        .map(|flank| {
-            if failure.lock().is_ok_and(|f: std::sync::MutexGuard<Option<Error>>| f.is_some()) {
-                return None;
-            }
-            cut_one(flank).unwrap_or_else(|error| {
-                if let Ok(mut first) = failure.lock() {
-                    first.get_or_insert(error);
-                }
-                None
-            })
-        })
-        .collect();
-    match failure.into_inner().unwrap_or_default() {
-        Some(error) => Err(error),
-        None => Ok(finished),
-    }
 }
 
 /// Both flanks of every tooth, in order.

@@ -15,7 +15,8 @@ mod rows_between;
 
 use crate::job::{RAY_DEPTH_MODULES, RAY_HEIGHT_MODULES, ROOT_SPACING_MM, TIP_SPACING_MM, rows_z_mm};
 use crate::scene::Scene;
-use gearcut_core::cut::{Backend, CutJob, CutLayers, CutStats};
+use gearcut_core::cut::{Backend, CutLayers, CutStats, PlannedField, cut_alone, cut_in_turn};
+use gearcut_core::dexel::figures::{Columns, FieldFigures, LinesAt};
 use gearcut_core::dexel::{Column, Field, Layer};
 use gearcut_core::error::Result;
 use gearcut_core::gear::blank::Blank;
@@ -23,7 +24,6 @@ use gearcut_core::passes::planar::strokes::StrokeLaw;
 use gearcut_core::passes::{CutPlan, StrokeSet};
 use gearcut_core::tool::PlanarTool;
 use glam::DVec2;
-use rayon::prelude::*;
 
 /// Rays of a fillet stay within this share of its radius: further out they would cross each other.
 const FILLET_SHARE: f64 = 0.8;
@@ -68,8 +68,10 @@ pub struct PlanarGear<'a> {
 pub struct CutField {
     /// Rays.
     pub field: Field,
-    /// What each operation left, in order.
+    /// What each operation left, in order; empty where figures of the columns were enough.
     pub layers: Vec<Layer>,
+    /// Those figures.
+    pub figures: Option<FieldFigures>,
     /// What the backend met.
     pub stats: CutStats,
 }
@@ -90,6 +92,58 @@ impl CutField {
         let layers = self.layers.iter().map(|layer| layer.repeated(copies)).collect();
         Self { field: Field { rows_z_mm, ..self.field }, layers, ..self }
     }
+
+    /// Columns as figures ask for them. Where a device has made figures, the lines are those that it was asked for.
+    pub fn columns(&self, lines: LinesAt) -> Columns<'_> {
+        match &self.figures {
+            Some(figures) => Columns::Figures(figures),
+            None => Columns::Dexels { field: &self.field, layers: &self.layers, lines },
+        }
+    }
+}
+
+/// A field on its way to the backend.
+pub enum PreparedField {
+    /// With the plans that run over it.
+    Planned(PlannedField),
+    /// Cut already, since its plans alone do not say what is left.
+    Cut(CutField),
+}
+
+impl PreparedField {
+    /// Cuts it.
+    ///
+    /// # Errors
+    /// The backend's.
+    pub fn cut(self, backend: &dyn Backend) -> Result<CutField> {
+        match self {
+            Self::Planned(planned) => Ok(with_left(cut_alone(backend, &planned)?, planned)),
+            Self::Cut(cut) => Ok(cut),
+        }
+    }
+}
+
+fn with_left(left: CutLayers, planned: PlannedField) -> CutField {
+    CutField { field: planned.field, layers: left.layers, figures: left.figures, stats: left.stats }
+}
+
+/// Cuts so many fields, several at once: `make` gives the field of an index (`None`: it is left out), `take` gets it
+/// when it is cut.
+///
+/// # Errors
+/// The backend's, those of `make` and `take`.
+pub fn cut_fields(
+    backend: &dyn Backend,
+    count: usize,
+    make: impl Fn(usize) -> Result<Option<PreparedField>> + Sync,
+    take: impl Fn(usize, CutField) -> Result<()> + Sync,
+) -> Result<()> {
+    let planned = |index| match make(index)? {
+        Some(PreparedField::Planned(planned)) => Ok(Some(planned)),
+        Some(PreparedField::Cut(cut)) => take(index, cut).map(|()| None),
+        None => Ok(None),
+    };
+    backend.cut_fields(count, &planned, &|index, planned, left| take(index, with_left(left, planned)))
 }
 
 impl PlanarGear<'_> {
@@ -139,7 +193,12 @@ impl PlanarGear<'_> {
                 self.column(point, self.blank.exit_mm(point.point_mm, point.normal, point.phi_rad, limit_mm, limit_mm))
             })
             .collect();
-        Field { columns, rows_z_mm: self.rows_z_mm(self.scene.fields.lead_spacing_mm.max(ROOT_SPACING_MM[1])) }
+        Field { columns, rows_z_mm: self.root_rows_z_mm() }
+    }
+
+    /// Rows of [`Self::root_field`].
+    pub fn root_rows_z_mm(&self) -> Vec<f64> {
+        self.rows_z_mm(self.scene.fields.lead_spacing_mm.max(ROOT_SPACING_MM[1]))
     }
 
     fn column(&self, point: &ProfilePoint, blank_mm: f64) -> Column {
@@ -187,29 +246,30 @@ impl PlanarGear<'_> {
         self.operations.iter().all(|operation| operation.strokes.law.rests())
     }
 
-    /// Runs all operations over those rows of a field that differ: over the first one where all are alike, since every
-    /// height and pass id is what cutting each of them would give. [`CutField::over_rows`] has them all. While the axes
-    /// rest, rows that differ follow from a few of them ([`rows_between`]).
+    /// Makes those rows of a field ready that differ: the first one where all are alike, since every height and pass id
+    /// is what cutting each of them would give. [`CutField::over_rows`] has them all. While the axes rest, rows that
+    /// differ follow from a few of them ([`rows_between`]), which are cut here. Where `lines` are given, figures of the
+    /// columns and these lines are enough.
     ///
     /// # Errors
     /// The backend's.
-    pub fn cut_distinct_rows(&self, backend: &dyn Backend, mut field: Field) -> Result<CutField> {
+    pub fn prepare(&self, backend: &dyn Backend, mut field: Field, lines: Option<LinesAt>) -> Result<PreparedField> {
         if self.rows_are_alike() {
             field.rows_z_mm.truncate(1);
+        } else if self.rests() {
+            return self.cut_resting(backend, field).map(PreparedField::Cut);
         }
-        if self.rests() {
-            return self.cut_resting(backend, field);
-        }
-        let (layers, stats) = self.cut_rows(backend, &field)?;
-        Ok(CutField { field, layers, stats })
+        let plans = self.plans(&field);
+        self.prepare_planned(backend, PlannedField { field, plans, lines })
     }
 
     /// Runs all operations over every row of a field.
     ///
     /// # Errors
     /// The backend's.
-    pub fn cut_rows(&self, backend: &dyn Backend, field: &Field) -> Result<(Vec<Layer>, CutStats)> {
-        self.cut_planned(backend, field, &self.plans(field))
+    pub fn cut_rows(&self, backend: &dyn Backend, field: &Field) -> Result<CutField> {
+        let planned = PlannedField { field: field.clone(), plans: self.plans(field), lines: None };
+        self.prepare_planned(backend, planned)?.cut(backend)
     }
 
     /// The passes that every operation visits on a field.
@@ -217,61 +277,16 @@ impl PlanarGear<'_> {
         self.operations.iter().map(|operation| CutPlan::new(field, operation.strokes, self.tool)).collect()
     }
 
-    /// Runs all operations over a field, each as its plan says.
-    fn cut_planned(&self, backend: &dyn Backend, field: &Field, plans: &[CutPlan]) -> Result<(Vec<Layer>, CutStats)> {
-        let cut = backend.cut_jobs(&[CutJob { field, start: None, plans }])?;
-        self.covered(backend, field, plans, cut.into_iter().next().unwrap_or_default())
-    }
-
-    /// Layers as the kernels leave them, with the rays that strokes cover as a whole at their lowest. Such rays are
-    /// rare; where there are any, what follows is cut again from there.
-    fn covered(
-        &self,
-        backend: &dyn Backend,
-        field: &Field,
-        plans: &[CutPlan],
-        cut: CutLayers,
-    ) -> Result<(Vec<Layer>, CutStats)> {
-        let mut layers: Vec<Layer> = Vec::with_capacity(self.operations.len());
-        let mut stats = CutStats::default();
-        let mut cut = cut.into_iter();
-        while let Some((mut layer, met)) = cut.next() {
-            stats += met;
-            let is_lowered = covered::lower(field, self.operations[layers.len()].strokes, self.tool, &mut layer);
-            layers.push(layer);
-            let rest = &plans[layers.len()..];
-            if is_lowered && !rest.is_empty() {
-                let again = backend.cut_jobs(&[CutJob { field, start: layers.last(), plans: rest }])?;
-                cut = again.into_iter().next().unwrap_or_default().into_iter();
-            }
+    /// A planned field as it is; cut already, if strokes cover some of its rays as a whole: these go to their lowest
+    /// before the next operation. Such rays are rare.
+    fn prepare_planned(&self, backend: &dyn Backend, planned: PlannedField) -> Result<PreparedField> {
+        let covered: Vec<_> =
+            self.operations.iter().map(|of| covered::columns(&planned.field, of.strokes, self.tool)).collect();
+        if covered.iter().all(Vec::is_empty) {
+            return Ok(PreparedField::Planned(planned));
         }
-        Ok((layers, stats))
-    }
-
-    /// Runs all operations over those rows of some fields that differ, as [`Self::cut_distinct_rows`], all fields as
-    /// one job of the backend.
-    ///
-    /// # Errors
-    /// The backend's.
-    pub fn cut_fields(&self, backend: &dyn Backend, mut fields: Vec<Field>) -> Result<Vec<CutField>> {
-        if self.rests() && !self.rows_are_alike() {
-            // Most rows follow from a few, field by field.
-            return fields.into_par_iter().map(|field| self.cut_distinct_rows(backend, field)).collect();
-        }
-        if self.rows_are_alike() {
-            for field in &mut fields {
-                field.rows_z_mm.truncate(1);
-            }
-        }
-        let plans: Vec<Vec<CutPlan>> = fields.par_iter().map(|field| self.plans(field)).collect();
-        let jobs: Vec<CutJob> =
-            fields.iter().zip(&plans).map(|(field, plans)| CutJob { field, start: None, plans }).collect();
-        let cut = backend.cut_jobs(&jobs)?;
-        let cut: Vec<(Vec<Layer>, CutStats)> = (&fields, &plans, cut)
-            .into_par_iter()
-            .map(|(field, plans, cut)| self.covered(backend, field, plans, cut))
-            .collect::<Result<_>>()?;
-        let with = |(field, (layers, stats))| CutField { field, layers, stats };
-        Ok(fields.into_iter().zip(cut).map(with).collect())
+        let lower = |operation: usize, layer: &mut Layer| covered::lower(&planned.field, &covered[operation], layer);
+        let left = cut_in_turn(backend, &planned, lower)?;
+        Ok(PreparedField::Cut(with_left(left, planned)))
     }
 }

@@ -1,11 +1,10 @@
 //! The backend as the program sees it.
 
 use crate::adapter::AdapterFacts;
-use crate::context::{Gpu, OnGpuFailure};
-use crate::problem::GpuProblem;
+use crate::context::Gpu;
 use crate::spatial;
 use gearcut_core::cut::sweep_chips::SweepsCut;
-use gearcut_core::cut::{Backend, BlankCut, BlankOperation, CutJob, CutLayers, CutStats, StageTime, cut_in_turn};
+use gearcut_core::cut::{Backend, BlankCut, BlankOperation, CutStats, MakeField, StageTime, TakeField};
 use gearcut_core::dexel::{BlankField, Field, Layer, SpatialField};
 use gearcut_core::error::Error;
 use gearcut_core::passes::sections::swept_sections::SweptSections;
@@ -27,22 +26,8 @@ impl Backend for Gpu {
         )
     }
 
-    fn cut_jobs(&self, jobs: &[CutJob]) -> Result<Vec<CutLayers>, Error> {
-        let whole: Result<Vec<bool>, GpuProblem> = jobs.iter().map(|job| self.takes_whole(job)).collect();
-        let cut = match whole {
-            Ok(whole) if whole.iter().all(|whole| *whole) => self.cut_jobs_on_device(jobs),
-            // Field by field and plan by plan, in batches.
-            Ok(_) => return cut_in_turn(self, jobs),
-            Err(problem) => Err(problem),
-        };
-        match cut {
-            Ok(cut) => Ok(cut),
-            Err(problem) if self.options.on_failure == OnGpuFailure::Stop => Err(problem.into()),
-            Err(problem) => {
-                self.log().incidents.push(format!("{problem}; cut again on {}", self.native.name()));
-                self.native.cut_jobs(jobs)
-            }
-        }
+    fn cut_fields(&self, count: usize, make: &MakeField, take: &TakeField) -> Result<(), Error> {
+        self.cut_in_flight(count, make, take)
     }
 
     fn cut_blank(

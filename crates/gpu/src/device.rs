@@ -79,6 +79,12 @@ impl Device {
         }
     }
 
+    /// A buffer that holds nothing yet.
+    pub fn empty(&self, label: &str, size: u64, usage: wgpu::BufferUsages) -> wgpu::Buffer {
+        let label = Some(label);
+        self.handle.create_buffer(&wgpu::BufferDescriptor { label, size, usage, mapped_at_creation: false })
+    }
+
     /// Whether the device still works.
     ///
     /// # Errors

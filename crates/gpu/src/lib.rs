@@ -12,8 +12,9 @@
 //! - [`adapter`]: which adapters are there, and which one serves
 //! - `device`: a device that reports its problems
 //! - `pipeline`: pipelines of the stages that the crate `gearcut-shaders` holds
+//! - `stamps`: when launches begin and end
+//! - [`records`]: what the shaders of shaping read and write, byte for byte
 //! - `readback`: a batch sent, cut and brought back
-//! - [`records`]: what the shaders of shaping read, byte for byte
 //! - [`sweep_records`]: what the shader of hobbed flanks reads
 //! - [`near_edge`]: the piece of an edge that a tile can meet, as one polynomial
 //! - [`compose`]: from the plan's f64 records to f32 records
@@ -47,6 +48,7 @@ mod problem;
 mod readback;
 pub mod records;
 mod spatial;
+mod stamps;
 pub mod stroke_records;
 pub mod sweep_records;
 

@@ -1,95 +1,112 @@
 //! Flanks cut by strokes: plans in turn over whole fields, or batches of columns where a field is too large for that.
 //!
-//! In: fields with their plans. Out: what each plan leaves. Dexels of a job are made on the device, all its plans run
-//! over them there, and small jobs share a submission. The next submission is composed while the device works on the
-//! one before.
+//! In: fields with their plans. Out: what each plan leaves, or figures of it. Dexels of a field are made on the device,
+//! all its plans run over them there, and several fields share a submission. Two submissions are on their way while the
+//! next is made ready.
 
-use crate::batches::{self, Batch, Round};
-use crate::context::{Gpu, IN_FLIGHT};
+use crate::batches::{self, Allowance, Batch, Round};
+use crate::context::{Gpu, IN_FLIGHT, OnGpuFailure};
 use crate::problem::GpuProblem;
-use crate::readback::{self, Before, InFlight, Input, ReadbackJob, ReadbackStep, Returned, Shipment, StageLaunch};
+use crate::readback::{
+    self, Before, FigureInputs, InFlight, Input, ReadbackJob, ReadbackStep, Returned, Shipment, StageLaunch, Wanted,
+};
+use crate::records::FigureColumn;
 use crate::{compose, records};
-use gearcut_core::cut::{CutJob, CutLayers, CutStats};
+use gearcut_core::cut::{Backend, CutLayers, CutStats, MakeField, PlannedField, TakeField, cut_in_turn};
+use gearcut_core::dexel::figures::{FieldFigures, LinesAt};
 use gearcut_core::dexel::{Field, Layer};
+use gearcut_core::error::Error;
 use gearcut_core::passes::CutPlan;
 use gearcut_shaders::{QUAD_ROWS, Rows, WORKGROUP_THREADS, planar_flank};
-use std::ops::Range;
+use rayon::prelude::*;
+use std::collections::VecDeque;
 use wgpu::BufferUsages as Use;
 
+/// Bytes of a dexel: height and pass.
+const DEXEL_BYTES: usize = 8;
 /// Name of the stage.
 const NAME: &str = planar_flank(Rows::Many).name;
-/// Bytes that a submission of some jobs brings back at most: enough that waiting for it costs little.
-const SUBMISSION_BYTES: u64 = 32 << 20;
-/// Columns of an uncut field on the device at most: workgroups in one dimension.
-const UNCUT_COLUMNS: usize = 65_535;
+/// Fields that are made ready together: enough that waiting for them costs little.
+const FIELDS_AT_ONCE: usize = 12;
+/// Bytes of dexels that a submission of some fields keeps on the device at most.
+const SUBMISSION_BYTES: u64 = 192 << 20;
+/// Columns of a field that is made on the device at most: workgroups in one dimension.
+const MOST_COLUMNS: usize = 65_535;
+
+/// Fields that go to the device together, each with its index.
+type Group = Vec<(usize, PlannedField)>;
+/// A group on its way.
+type SentGroup = (Group, Result<InFlight, GpuProblem>);
 
 impl Gpu {
-    /// Whether the dexels of a job fit the device together through all its plans, with what comes back.
-    pub(crate) fn takes_whole(&self, job: &CutJob) -> Result<bool, GpuProblem> {
-        let allowance = self.allowance();
-        let bytes = back_bytes(job);
-        let one_batch = |plan| Ok(batches::batches(plan, allowance, self.rows)?.len() == 1);
-        let fits = job.start.is_none()
-            && job.field.columns.len() <= UNCUT_COLUMNS
-            && bytes <= allowance.buffer_bytes
-            && 2 * bytes <= allowance.batch_bytes;
-        Ok(fits && job.plans.iter().map(one_batch).collect::<Result<Vec<bool>, GpuProblem>>()?.iter().all(|one| *one))
-    }
-
-    /// What the plans of jobs leave that the device [takes whole](Self::takes_whole).
-    pub(crate) fn cut_jobs_on_device(&self, jobs: &[CutJob]) -> Result<Vec<CutLayers>, GpuProblem> {
-        self.device.alive()?;
-        let mut cut = Vec::with_capacity(jobs.len());
-        let mut waiting: Vec<(&[CutJob], InFlight)> = Vec::new();
-        let mut collect = |(jobs, in_flight): (&[CutJob], InFlight)| -> Result<(), GpuProblem> {
-            let (left, device_ns) = in_flight.collect(&self.device)?;
-            self.log().count(NAME, device_ns);
-            cut.extend(jobs.iter().zip(left).map(|(job, left)| {
-                let of_plan = |(plan, left): (&CutPlan, Returned)| {
-                    let stats = CutStats {
-                        dexels: job.field.len() as u64,
-                        dexel_passes: plan.dexel_passes(),
-                        unconverged: u64::from(left.unconverged),
-                    };
-                    (unpadded(left, job.field.rows()), stats)
-                };
-                job.plans.iter().zip(left).map(of_plan).collect()
-            }));
-            Ok(())
-        };
-        for some in submissions(jobs) {
-            if waiting.len() == IN_FLIGHT {
-                collect(waiting.remove(0))?;
+    /// Cuts fields as a backend does: while some are on the device, the next ones are made ready, and what is left of
+    /// those before is taken. A field that does not fit the device goes plan by plan in batches.
+    pub(crate) fn cut_in_flight(&self, count: usize, make: &MakeField, take: &TakeField) -> Result<(), Error> {
+        let mut waiting: VecDeque<SentGroup> = VecDeque::new();
+        for first in (0..count).step_by(FIELDS_AT_ONCE) {
+            let make_some = || -> Result<Group, Error> {
+                let indices = (first..count.min(first + FIELDS_AT_ONCE)).into_par_iter();
+                let made = indices.map(|index| Ok(make(index)?.map(|planned| (index, planned))));
+                Ok(made.collect::<Result<Vec<_>, Error>>()?.into_iter().flatten().collect())
+            };
+            let oldest = if waiting.len() == IN_FLIGHT { waiting.pop_front() } else { None };
+            let take_oldest = || oldest.map_or(Ok(()), |sent| self.take_group(sent, take));
+            let (made, taken) = rayon::join(make_some, take_oldest);
+            taken?;
+            let (whole, large): (Group, Group) = made?.into_iter().partition(|(_, planned)| self.takes_whole(planned));
+            for (index, planned) in large {
+                let left = cut_in_turn(self, &planned, |_, _| ())?;
+                take(index, planned, left)?;
             }
-            waiting.push((some, self.send_jobs(some)?));
+            for group in groups(whole) {
+                if waiting.len() == IN_FLIGHT {
+                    waiting.pop_front().map_or(Ok(()), |sent| self.take_group(sent, take))?;
+                }
+                let sent = self.send_group(&group);
+                waiting.push_back((group, sent));
+            }
         }
-        waiting.into_iter().try_for_each(collect)?;
-        Ok(cut)
+        waiting.into_iter().try_for_each(|sent| self.take_group(sent, take))
     }
 
-    fn send_jobs(&self, jobs: &[CutJob]) -> Result<InFlight, GpuProblem> {
-        let uncut: Vec<UncutInputs> = jobs.iter().map(|job| UncutInputs::new(self, job.field)).collect();
-        let mut composed = Vec::new();
-        for job in jobs {
-            let of_job: Result<Vec<StepInputs>, GpuProblem> = job
-                .plans
-                .iter()
-                .map(|plan| {
-                    let whole = batches::batches(plan, self.allowance(), self.rows)?;
-                    Ok(StepInputs::compose(self, job.field, plan, &whole[0]))
-                })
-                .collect();
-            composed.push(of_job?);
-        }
-        let jobs: Vec<ReadbackJob> = uncut
-            .iter()
-            .zip(&composed)
-            .map(|(uncut, steps)| ReadbackJob {
-                before: uncut.before(self),
-                steps: steps.iter().map(|step| step.step(self)).collect(),
-            })
-            .collect();
+    /// Whether the dexels of a field fit the device together through all its plans.
+    fn takes_whole(&self, planned: &PlannedField) -> bool {
+        let Allowance { buffer_bytes, batch_bytes } = self.allowance();
+        let one_batch = |plan| batches::batches(plan, self.allowance(), self.rows).is_ok_and(|all| all.len() == 1);
+        let bytes = held_bytes(planned);
+        let fits = planned.field.columns.len() <= MOST_COLUMNS && bytes <= buffer_bytes && 2 * bytes <= batch_bytes;
+        fits && planned.plans.iter().all(one_batch)
+    }
+
+    fn send_group(&self, group: &Group) -> Result<InFlight, GpuProblem> {
+        self.device.alive()?;
+        let composed: Vec<FieldInputs> = group
+            .par_iter()
+            .map(|(_, planned)| FieldInputs::compose(self, planned))
+            .collect::<Result<_, GpuProblem>>()?;
+        let jobs: Vec<ReadbackJob> = composed.iter().map(|inputs| inputs.job(self)).collect();
         self.send_planar(&jobs)
+    }
+
+    /// Waits for a group; cuts it natively if that is what a failure asks for.
+    fn take_group(&self, (group, sent): SentGroup, take: &TakeField) -> Result<(), Error> {
+        match sent.and_then(|in_flight| in_flight.collect(&self.device)) {
+            Ok((left, device_ns)) => {
+                self.log().count(NAME, device_ns);
+                group.into_par_iter().zip(left).try_for_each(|((index, planned), left)| {
+                    let left = cut_layers(&planned, left);
+                    take(index, planned, left)
+                })
+            }
+            Err(problem) if self.options.on_failure == OnGpuFailure::Stop => Err(problem.into()),
+            Err(problem) => {
+                self.log().incidents.push(format!("{problem}; cut again on {}", self.native.name()));
+                group.into_par_iter().try_for_each(|(index, planned)| {
+                    let left = cut_in_turn(&self.native, &planned, |_, _| ())?;
+                    take(index, planned, left)
+                })
+            }
+        }
     }
 
     fn send_planar(&self, jobs: &[ReadbackJob]) -> Result<InFlight, GpuProblem> {
@@ -113,13 +130,14 @@ impl Gpu {
         let mut waiting: Vec<(Batch, InFlight)> = Vec::new();
         let mut collect = |(batch, in_flight): (Batch, InFlight)| -> Result<(), GpuProblem> {
             let (jobs, device_ns) = in_flight.collect(&self.device)?;
-            let Returned { heights_mm, passes, unconverged: short } = &jobs[0][0];
+            let Returned { layers, unconverged: short, .. } = &jobs[0];
+            let Layer { heights_mm, passes } = &layers[0];
             for (index, column) in batch.columns.enumerate() {
                 let (dexels, there) = (column * rows..(column + 1) * rows, index * padded..index * padded + rows);
                 result.heights_mm[dexels.clone()].copy_from_slice(&heights_mm[there.clone()]);
                 result.passes[dexels].copy_from_slice(&passes[there]);
             }
-            unconverged += u64::from(*short);
+            unconverged += u64::from(short[0]);
             self.log().count(NAME, device_ns);
             Ok(())
         };
@@ -131,8 +149,11 @@ impl Gpu {
             let dexels = batch.columns.start * rows..batch.columns.end * rows;
             let heights_mm = padded_columns(&layer.heights_mm[dexels.clone()], rows);
             let passes = padded_columns(&layer.passes[dexels], rows);
-            let job = ReadbackJob { before: Before::Layer(&heights_mm, &passes), steps: vec![composed.step(self)] };
-            let in_flight = self.send_planar(&[job])?;
+            let in_flight = self.send_planar(&[ReadbackJob {
+                before: Before::Layer(&heights_mm, &passes),
+                steps: vec![composed.step(self)],
+                wanted: Wanted::Dexels,
+            }])?;
             waiting.push((batch, in_flight));
         }
         waiting.into_iter().try_for_each(collect)?;
@@ -140,26 +161,60 @@ impl Gpu {
     }
 }
 
-/// Bytes that a job brings back: heights and passes after every plan.
-fn back_bytes(job: &CutJob) -> u64 {
-    (8 * batches::padded(job.field.rows()) * job.field.columns.len() * job.plans.len()) as u64
+/// Lines of a field of which figures come back, where these are fewer bytes than the dexels.
+fn figures_at(planned: &PlannedField) -> Option<LinesAt> {
+    planned.lines.filter(|_| DEXEL_BYTES * planned.field.rows() > size_of::<FigureColumn>())
 }
 
-/// Jobs in runs that share a submission.
-fn submissions<'a, 'b>(jobs: &'a [CutJob<'b>]) -> Vec<&'a [CutJob<'b>]> {
-    let mut runs: Vec<Range<usize>> = Vec::new();
-    let mut bytes = 0;
-    for (index, job) in jobs.iter().enumerate() {
-        bytes += back_bytes(job);
-        match runs.last_mut().filter(|_| bytes <= SUBMISSION_BYTES) {
-            Some(run) => run.end = index + 1,
+/// Bytes of the dexels of a field that are kept on the device.
+fn held_bytes(planned: &PlannedField) -> u64 {
+    let PlannedField { field, plans, .. } = planned;
+    let layers = if figures_at(planned).is_some() { plans.len() } else { plans.len() + 1 };
+    (DEXEL_BYTES * batches::padded(field.rows()) * field.columns.len() * layers) as u64
+}
+
+/// Fields in runs that share a submission.
+fn groups(fields: Group) -> Vec<Group> {
+    let (mut groups, mut bytes): (Vec<Group>, u64) = (Vec::new(), 0);
+    for field in fields {
+        let own = held_bytes(&field.1);
+        bytes += own;
+        match groups.last_mut().filter(|_| bytes <= SUBMISSION_BYTES) {
+            Some(group) => group.push(field),
             None => {
-                runs.push(index..index + 1);
-                bytes = back_bytes(job);
+                groups.push(vec![field]);
+                bytes = own;
             }
         }
     }
-    runs.into_iter().map(|run| &jobs[run]).collect()
+    groups
+}
+
+/// What is left of a field.
+fn cut_layers(planned: &PlannedField, left: Returned) -> CutLayers {
+    let PlannedField { field, plans, .. } = planned;
+    let stats = CutStats {
+        dexels: (field.len() * plans.len()) as u64,
+        dexel_passes: plans.iter().map(CutPlan::dexel_passes).sum(),
+        unconverged: left.unconverged.iter().map(|&of_step| u64::from(of_step)).sum(),
+    };
+    let rows = field.rows();
+    if left.figures.is_empty() {
+        let layers = left.layers.into_iter().map(|layer| unpadded(layer, rows)).collect();
+        return CutLayers { layers, figures: None, stats };
+    }
+    let last = left.figures.len() - 1;
+    let profile = Layer {
+        heights_mm: left.figures[last].iter().map(|column| column.profile_mm).collect(),
+        passes: left.figures[last].iter().map(|column| column.profile_pass).collect(),
+    };
+    let figures = FieldFigures {
+        heights: left.figures.iter().map(|columns| columns.iter().map(|of| of.heights(rows)).collect()).collect(),
+        stock: left.figures[..last].iter().map(|columns| columns.iter().map(|of| of.stock(rows)).collect()).collect(),
+        profile,
+        along: unpadded(left.along, rows),
+    };
+    CutLayers { layers: Vec::new(), figures: Some(figures), stats }
 }
 
 /// Phases of a column's rows as the shader reads them, in quads, the last one filled up with the last phase.
@@ -180,10 +235,10 @@ fn padded_columns<T: Copy>(values: &[T], rows: usize) -> Vec<T> {
 }
 
 /// A layer without the rows that fill up quads.
-fn unpadded(left: Returned, rows: usize) -> Layer {
+fn unpadded(left: Layer, rows: usize) -> Layer {
     let padded = batches::padded(rows);
     if padded == rows {
-        return Layer { heights_mm: left.heights_mm, passes: left.passes };
+        return left;
     }
     Layer {
         heights_mm: left.heights_mm.chunks_exact(padded).flat_map(|column| &column[..rows]).copied().collect(),
@@ -199,29 +254,67 @@ fn launch(gpu: &Gpu, rows: usize) -> records::Launch {
     }
 }
 
-/// What says how a field is uncut.
-struct UncutInputs {
+/// What a field needs that the device takes whole, composed.
+struct FieldInputs {
     launch: records::Launch,
-    /// Height of every column.
+    /// Height of every column before the first plan.
     blank_mm: Vec<f32>,
+    /// Lowest height that every column records.
+    low_mm: Vec<f32>,
+    steps: Vec<StepInputs>,
+    /// Lines of which figures come back; nothing: all dexels do.
+    figures: Option<(records::FigureLaunch, LinesAt)>,
 }
 
-impl UncutInputs {
-    fn new(gpu: &Gpu, field: &Field) -> Self {
-        let blank_mm = field.columns.iter().map(|column| column.blank_mm as f32).collect();
-        Self { launch: launch(gpu, field.rows()), blank_mm }
+impl FieldInputs {
+    fn compose(gpu: &Gpu, planned: &PlannedField) -> Result<Self, GpuProblem> {
+        let PlannedField { field, plans, .. } = planned;
+        let launch = launch(gpu, field.rows());
+        let step = |plan| {
+            let whole = batches::batches(plan, gpu.allowance(), gpu.rows)?;
+            Ok(StepInputs::compose(gpu, field, plan, &whole[0]))
+        };
+        let figures = figures_at(planned).map(|lines| {
+            let records::Launch { rows, quads, .. } = launch;
+            (records::FigureLaunch { rows, quads, profile_row: lines.row as u32 }, lines)
+        });
+        Ok(Self {
+            launch,
+            blank_mm: field.columns.iter().map(|column| column.blank_mm as f32).collect(),
+            low_mm: field.columns.iter().map(|column| column.low_mm as f32).collect(),
+            steps: plans.iter().map(step).collect::<Result<_, GpuProblem>>()?,
+            figures,
+        })
     }
 
-    fn before<'a>(&'a self, gpu: &'a Gpu) -> Before<'a> {
-        let quads = self.launch.quads;
-        Before::Uncut {
-            pipeline: &gpu.planar_uncut[0],
-            inputs: [
-                Input::Shared { label: "launch", bytes: bytemuck::bytes_of(&self.launch), usage: Use::UNIFORM },
-                Input::Shared { label: "blank", bytes: bytemuck::cast_slice(&self.blank_mm), usage: Use::STORAGE },
-            ],
-            workgroups: [quads.div_ceil(WORKGROUP_THREADS), self.blank_mm.len() as u32],
-            bytes: self.blank_mm.len() * quads as usize * QUAD_ROWS * size_of::<f32>(),
+    fn job<'a>(&'a self, gpu: &'a Gpu) -> ReadbackJob<'a> {
+        let columns = self.blank_mm.len() as u32;
+        let column_bytes = self.launch.quads as usize * QUAD_ROWS * size_of::<f32>();
+        let workgroups = [self.launch.quads.div_ceil(WORKGROUP_THREADS), columns];
+        let launch = || Input::Shared { label: "launch", bytes: bytemuck::bytes_of(&self.launch), usage: Use::UNIFORM };
+        let of_columns =
+            |label, mm: &'a [f32]| Input::Shared { label, bytes: bytemuck::cast_slice(mm), usage: Use::STORAGE };
+        ReadbackJob {
+            before: Before::Uncut {
+                pipeline: &gpu.planar_uncut[0],
+                inputs: [launch(), of_columns("blank", &self.blank_mm)],
+                workgroups,
+                bytes: column_bytes * self.blank_mm.len(),
+            },
+            steps: self.steps.iter().map(|step| step.step(gpu)).collect(),
+            wanted: self.figures.as_ref().map_or(Wanted::Dexels, |(figure_launch, lines)| {
+                let bytes = bytemuck::bytes_of(figure_launch);
+                Wanted::Figures(FigureInputs {
+                    again: (&gpu.planar_again[0], launch(), workgroups),
+                    pipeline: &gpu.flank_figures[0],
+                    inputs: [
+                        Input::Shared { label: "figure launch", bytes, usage: Use::UNIFORM },
+                        of_columns("low", &self.low_mm),
+                    ],
+                    columns,
+                    along: lines.column * column_bytes..(lines.column + 1) * column_bytes,
+                })
+            }),
         }
     }
 }

@@ -4,6 +4,7 @@
 //! offsets and sizes and compares.
 
 use bytemuck::{Pod, Zeroable};
+use gearcut_core::dexel::figures::{ColumnHeights, ColumnStock, NO_HEIGHTS, RowHeight};
 
 /// Rows of one launch.
 #[repr(C)]
@@ -78,6 +79,83 @@ pub struct FlankPass {
     pub padding_1: u32,
     /// Nothing.
     pub padding_2: u32,
+}
+
+/// A field whose columns are looked at.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
+pub struct FigureLaunch {
+    /// Rows of the field.
+    pub rows: u32,
+    /// Quads of rows in a column, the last one filled up.
+    pub quads: u32,
+    /// Row whose dexels come back.
+    pub profile_row: u32,
+}
+
+/// Figures of one column after an operation; rows count from its first one.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
+pub struct FigureColumn {
+    /// Lowest height, mm.
+    pub lowest_mm: f32,
+    /// Its row.
+    pub lowest_row: u32,
+    /// Lowest height of the dexels that a pass has reached, mm.
+    pub reached_low_mm: f32,
+    /// Its row; the number of rows if there is none.
+    pub reached_low_row: u32,
+    /// Highest of them, mm.
+    pub reached_high_mm: f32,
+    /// Its row.
+    pub reached_high_row: u32,
+    /// Dexels that no pass has reached.
+    pub untouched: u32,
+    /// Dexels as low as their rays record.
+    pub at_bottom: u32,
+    /// Smallest stock over the last operation, mm.
+    pub stock_low_mm: f32,
+    /// Its row.
+    pub stock_low_row: u32,
+    /// Largest, mm.
+    pub stock_high_mm: f32,
+    /// Its row.
+    pub stock_high_row: u32,
+    /// Sum, mm.
+    pub stock_sum_mm: f32,
+    /// Height of the profile's dexel, mm.
+    pub profile_mm: f32,
+    /// Its pass.
+    pub profile_pass: u32,
+}
+
+impl FigureColumn {
+    /// Heights of a column of so many rows.
+    pub fn heights(&self, rows: usize) -> ColumnHeights {
+        let reached = [(self.reached_low_mm, self.reached_low_row), (self.reached_high_mm, self.reached_high_row)]
+            .map(row_height);
+        ColumnHeights {
+            lowest: row_height((self.lowest_mm, self.lowest_row)),
+            reached: if self.untouched as usize == rows { NO_HEIGHTS } else { reached },
+            untouched: self.untouched,
+            at_bottom: self.at_bottom,
+        }
+    }
+
+    /// Its stock.
+    pub fn stock(&self, rows: usize) -> ColumnStock {
+        let range =
+            [(self.stock_low_mm, self.stock_low_row), (self.stock_high_mm, self.stock_high_row)].map(row_height);
+        ColumnStock {
+            range: if self.untouched as usize == rows { NO_HEIGHTS } else { range },
+            sum_mm: f64::from(self.stock_sum_mm),
+            untouched: self.untouched,
+        }
+    }
+}
+
+fn row_height((height_mm, row): (f32, u32)) -> RowHeight {
+    RowHeight { height_mm, row }
 }
 
 /// What holds for a whole launch over the blank field.

@@ -12,7 +12,9 @@ use super::batches::Allowance;
 use super::context::{Gpu, IN_FLIGHT};
 use super::edge_cells::EdgeCells;
 use super::problem::GpuProblem;
-use super::readback::{self, Before, InFlight, Input, ReadbackJob, ReadbackStep, Returned, Shipment, StageLaunch};
+use super::readback::{
+    self, Before, InFlight, Input, ReadbackJob, ReadbackStep, Returned, Shipment, StageLaunch, Wanted,
+};
 use super::sweep_records::{SpatialPass, SpatialTile};
 use gearcut_core::dexel::{Layer, SpatialField};
 use gearcut_core::passes::SweepPlan;
@@ -49,13 +51,14 @@ pub fn cut_on_device(
     let mut waiting: Vec<(Range<usize>, InFlight)> = Vec::new();
     let mut collect = |(tiles, in_flight): (Range<usize>, InFlight)| -> Result<(), GpuProblem> {
         let (jobs, device_ns) = in_flight.collect(&gpu.device)?;
-        let Returned { heights_mm, passes, unconverged: short } = &jobs[0][0];
+        let Returned { layers, unconverged: short, .. } = &jobs[0];
+        let Layer { heights_mm, passes } = &layers[0];
         for (at, dexel) in lanes(field, &plan.tiles[tiles], gpu.rows.lanes()).enumerate() {
             // Lanes beyond the last row repeat it, values and all.
             result.heights_mm[dexel] = heights_mm[at];
             result.passes[dexel] = passes[at];
         }
-        unconverged += u64::from(*short);
+        unconverged += u64::from(short[0]);
         gpu.log().count(NAME, device_ns);
         Ok(())
     };
@@ -197,8 +200,11 @@ fn send(
         shared("cells", bytemuck::cast_slice(&cells.cells)),
         shared("rays", bytemuck::cast_slice(&rays)),
     ];
-    let job =
-        ReadbackJob { before: Before::Layer(&heights_mm, &passes), steps: vec![ReadbackStep { inputs, launches }] };
+    let job = ReadbackJob {
+        before: Before::Layer(&heights_mm, &passes),
+        steps: vec![ReadbackStep { inputs, launches }],
+        wanted: Wanted::Dexels,
+    };
     readback::send(
         &gpu.device,
         &Shipment {

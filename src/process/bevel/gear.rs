@@ -48,7 +48,7 @@ pub fn cut_gear(
         let evaluated_mm = vec![report.evaluated_mm; layers.len()];
         Ok(CutFlank { dexels: dexels_of(&layers), rays, layers, stats, evaluated_mm, report })
     };
-    let cut = cut_flanks(job, progress, interrupt, folder, cut_one, |_, _, _| Vec::new())?;
+    let cut = cut_flanks(job, progress, interrupt, folder, |flanks| flanks.each(cut_one), |_, _, _| Vec::new())?;
     if cut.reports.is_empty() {
         return Err(Error::Interrupted);
     }

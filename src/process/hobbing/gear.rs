@@ -50,21 +50,15 @@ pub fn cut_gear(
     interrupt: &Interrupt,
     folder: Option<FlankFiles<'_>>,
 ) -> Result<HobbedGear> {
-    let cut = cut_flanks(
-        cutter,
-        progress,
-        interrupt,
-        folder,
-        |tooth, side| {
-            let flank = cutter.cut(backend, tooth, side)?;
-            let report = flank_report::measure(tooth, side, &flank);
-            let points = offset_curves::measure(cutter, backend, tooth, side)?;
-            let HobbedFlank { rays, layers, stats, .. } = flank;
-            let evaluated_mm = vec![report.evaluated_mm; layers.len()];
-            Ok(CutFlank { dexels: dexels_of(&layers), rays, layers, stats, evaluated_mm, report: (report, points) })
-        },
-        |_, _, _| Vec::new(),
-    )?;
+    let cut_one = |tooth, side| {
+        let flank = cutter.cut(backend, tooth, side)?;
+        let report = flank_report::measure(tooth, side, &flank);
+        let points = offset_curves::measure(cutter, backend, tooth, side)?;
+        let HobbedFlank { rays, layers, stats, .. } = flank;
+        let evaluated_mm = vec![report.evaluated_mm; layers.len()];
+        Ok(CutFlank { dexels: dexels_of(&layers), rays, layers, stats, evaluated_mm, report: (report, points) })
+    };
+    let cut = cut_flanks(cutter, progress, interrupt, folder, |flanks| flanks.each(cut_one), |_, _, _| Vec::new())?;
     if cut.reports.is_empty() {
         return Err(Error::Interrupted);
     }

@@ -7,12 +7,12 @@
 
 use super::ShapingJob;
 use super::chips::ploughed_layers;
-use crate::steps::planar::CutField;
+use crate::steps::planar::{CutField, PreparedField};
 use gearcut_core::cut::Backend;
 use gearcut_core::dexel::Field;
+use gearcut_core::dexel::figures::LinesAt;
 use gearcut_core::error::Result;
 use gearcut_core::terms::Side;
-use rayon::prelude::*;
 
 impl ShapingJob {
     /// Runs all operations over a field.
@@ -21,29 +21,20 @@ impl ShapingJob {
     /// The backend's.
     pub fn cut(&self, backend: &dyn Backend, field: Field) -> Result<CutField> {
         let rows_z_mm = field.rows_z_mm.clone();
-        Ok(self.cut_distinct_rows(backend, field)?.over_rows(rows_z_mm))
+        Ok(self.prepare(backend, field, None)?.cut(backend)?.over_rows(rows_z_mm))
     }
 
-    /// Runs all operations over some fields, all of them as one job of the backend.
+    /// Makes those rows of a field ready that differ, or all of them; where `lines` are given, figures of the columns
+    /// and these lines are enough.
     ///
     /// # Errors
     /// The backend's.
-    pub fn cut_fields(&self, backend: &dyn Backend, fields: Vec<Field>) -> Result<Vec<CutField>> {
-        if self.cutter_spec.edge_rounding.is_some() {
-            return fields.into_par_iter().map(|field| self.cut(backend, field)).collect();
-        }
-        let rows_z_mm: Vec<Vec<f64>> = fields.iter().map(|field| field.rows_z_mm.clone()).collect();
-        let cut = self.planar().cut_fields(backend, fields)?;
-        Ok(cut.into_iter().zip(rows_z_mm).map(|(cut, rows_z_mm)| cut.over_rows(rows_z_mm)).collect())
-    }
-
-    /// The same over those rows alone that differ, or over all of them.
-    fn cut_distinct_rows(&self, backend: &dyn Backend, field: Field) -> Result<CutField> {
+    pub fn prepare(&self, backend: &dyn Backend, field: Field, lines: Option<LinesAt>) -> Result<PreparedField> {
         match &self.cutter_spec.edge_rounding {
-            None => self.planar().cut_distinct_rows(backend, field),
+            None => self.planar().prepare(backend, field, lines),
             Some(rounding) => {
                 let (layers, stats) = ploughed_layers(self, &field, rounding);
-                Ok(CutField { field, layers, stats })
+                Ok(PreparedField::Cut(CutField { field, layers, figures: None, stats }))
             }
         }
     }
@@ -54,22 +45,23 @@ impl ShapingJob {
     /// The backend's.
     pub fn cut_on_flank(&self, backend: &dyn Backend, flank: (u32, Side), field: Field) -> Result<CutField> {
         let rows_z_mm = field.rows_z_mm.clone();
-        Ok(self.cut_distinct_rows_on_flank(backend, flank, field)?.over_rows(rows_z_mm))
+        Ok(self.prepare_on_flank(backend, flank, field, None)?.cut(backend)?.over_rows(rows_z_mm))
     }
 
-    /// The same over those rows alone that differ, or over all of them.
+    /// Makes a field on a flank ready as [`Self::prepare`] does.
     ///
     /// # Errors
     /// The backend's.
-    pub(super) fn cut_distinct_rows_on_flank(
+    pub(super) fn prepare_on_flank(
         &self,
         backend: &dyn Backend,
         flank: (u32, Side),
         field: Field,
-    ) -> Result<CutField> {
-        let Some(edge) = &self.cutter_spec.built_up_edge else { return self.cut_distinct_rows(backend, field) };
+        lines: Option<LinesAt>,
+    ) -> Result<PreparedField> {
+        let Some(edge) = &self.cutter_spec.built_up_edge else { return self.prepare(backend, field, lines) };
         let mut cut = self.cut(backend, field)?;
         self.tear(edge, flank, &mut cut);
-        Ok(cut)
+        Ok(PreparedField::Cut(cut))
     }
 }

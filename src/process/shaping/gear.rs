@@ -1,21 +1,25 @@
 //! A shaped gear, cut and measured: flank by flank, root by root, chip by chip.
 
 use crate::interrupt::Interrupt;
+use crate::output::flank_maps::FlankMaps;
 use crate::output::progress::Progress;
 use crate::process::shaping::ShapingJob;
 use crate::process::shaping::chips::{ChipLedger, last_chips_on_map};
+use crate::process::shaping::measure::flank_report::FlankReport;
 use crate::process::shaping::measure::gear_report::{RootReport, root_stock};
 use crate::process::shaping::measure::{GearReport, flank_report, gear_report};
-use crate::steps::cut_flanks::{CutFlank, cut_flanks, dexels_of};
+use crate::steps::cut_flanks::{CutFlank, FlankQueue, cut_flanks};
 use crate::steps::gear_maps::GearMaps;
 use crate::steps::parts::Parts;
 use crate::steps::pictures::flank::PicturedFlanks;
-use crate::steps::planar::CutField;
+use crate::steps::planar::{CutField, cut_fields};
 use crate::steps::{FlankFiles, Work, needs_maps, needs_surfaces};
 use crate::surface::SurfaceGrid;
 use gearcut_core::cut::Backend;
+use gearcut_core::dexel::figures::LinesAt;
+use gearcut_core::dexel::{Field, Layer};
 use gearcut_core::error::{Error, Result};
-use rayon::prelude::*;
+use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
 
 /// A cut and measured gear, before anything is written about it as a whole.
@@ -53,56 +57,59 @@ pub fn cut_gear(
     let chips = follow_chips(job, progress, interrupt)?;
     let parts = folder.map_or(Parts::all(), |(.., parts)| parts);
     let are_shown = needs_maps(parts) || needs_surfaces(job, parts);
-    let cut = cut_flanks(
-        job,
-        progress,
-        interrupt,
-        folder,
-        |tooth, side| {
+    let cut_all = |flanks: &FlankQueue<Field, FlankReport>| {
+        let make = |index: usize| {
+            let Some((tooth, side)) = flanks.next(index) else { return Ok(None) };
             let target = job.target_flank(tooth, side);
             let field = job.flank_field(target);
-            let rows_z_mm = field.rows_z_mm.clone();
-            let cut = job.cut_distinct_rows_on_flank(backend, (tooth, side), field)?;
-            let report = flank_report::measure(job, target, &cut, &rows_z_mm);
+            let lines = (!are_shown).then(|| flank_report::lines(job, target, &field));
+            job.prepare_on_flank(backend, (tooth, side), field, lines).map(Some)
+        };
+        let rows_z_mm = job.planar().rows_z_mm(job.scene.fields.lead_spacing_mm);
+        let take = |index: usize, cut: CutField| {
+            let (tooth, side) = flanks.list[index];
+            let report = flank_report::measure(job, job.target_flank(tooth, side), &cut, &rows_z_mm);
             let evaluated_mm = report.own.active_mm.iter().copied().chain([report.evaluated_mm]).collect();
-            let dexels = dexels_of(&cut.layers) * cut.copies(&rows_z_mm) as u64;
-            let CutField { field, layers, stats } = if are_shown { cut.over_rows(rows_z_mm) } else { cut };
-            Ok(CutFlank { rays: field, layers, dexels, stats, evaluated_mm, report })
-        },
-        |field, layers, maps| last_chips_on_map(job, field, &maps.chip_places(layers, field.rows())),
-    )?;
-    let roots = cut_roots(job, backend, needs_surfaces(job, parts) && !cut.work.interrupted)?;
-    let (root_reports, roots): (Vec<RootReport>, Vec<Option<SurfaceGrid>>) = roots.into_iter().unzip();
+            let dexels = (cut.field.len() * job.operations.len() * cut.copies(&rows_z_mm)) as u64;
+            let cut = if are_shown { cut.over_rows(rows_z_mm.clone()) } else { cut };
+            let CutField { field: rays, layers, stats, .. } = cut;
+            flanks.take(index, CutFlank { rays, layers, dexels, stats, evaluated_mm, report })
+        };
+        cut_fields(backend, flanks.list.len(), make, take)
+    };
+    let chips_of = |field: &Field, layers: &[Layer], maps: &FlankMaps| {
+        last_chips_on_map(job, field, &maps.chip_places(layers, field.rows()))
+    };
+    let cut = cut_flanks(job, progress, interrupt, folder, cut_all, chips_of)?;
+    let (root_reports, roots) = cut_roots(job, backend, needs_surfaces(job, parts) && !cut.work.interrupted)?;
     let report = gear_report::measure(job, cut.reports, root_reports);
-    let roots = roots.into_iter().flatten().collect();
     let work = Work { elapsed: started.elapsed(), ..cut.work };
     Ok(CutGear { report, chips, maps: cut.maps, surfaces: cut.surfaces, pictured: cut.pictured, roots, work })
 }
 
-/// Roots of one job of the backend: their fields are small, and so are their layers.
-const ROOTS_AT_ONCE: usize = 64;
-
 /// Cuts every root once, for the stock that operations find in it and, if meshes need it, for its surface; nothing
 /// where neither is asked for.
-fn cut_roots(
-    job: &ShapingJob,
-    backend: &dyn Backend,
-    surfaces: bool,
-) -> Result<Vec<(RootReport, Option<SurfaceGrid>)>> {
+fn cut_roots(job: &ShapingJob, backend: &dyn Backend, surfaces: bool) -> Result<(Vec<RootReport>, Vec<SurfaceGrid>)> {
     if job.operations.len() < 2 && !surfaces {
-        return Ok(Vec::new());
+        return Ok((Vec::new(), Vec::new()));
     }
-    let spaces: Vec<u32> = (1..=job.scene.gear.teeth).collect();
-    let mut roots = Vec::with_capacity(spaces.len());
-    for spaces in spaces.chunks(ROOTS_AT_ONCE) {
-        let fields = spaces.par_iter().map(|&space| job.root_field(space)).collect();
-        let cut = job.cut_fields(backend, fields)?;
-        roots.par_extend(spaces.par_iter().zip(cut).map(|(&space, cut)| {
-            let surface = || SurfaceGrid::new(&cut.field, &cut.layers, job.scene.output.mesh_spacing_mm);
-            (root_stock(space, &cut), surfaces.then(surface))
-        }));
-    }
-    Ok(roots)
+    let space = |index: usize| index as u32 + 1;
+    let lines = (!surfaces).then(LinesAt::default);
+    let make = |index| job.prepare(backend, job.root_field(space(index)), lines).map(Some);
+    let rows_z_mm = job.planar().root_rows_z_mm();
+    let done = Mutex::new(Vec::new());
+    let take = |index, cut: CutField| {
+        let cut = cut.over_rows(rows_z_mm.clone());
+        let surface = || SurfaceGrid::new(&cut.field, &cut.layers, job.scene.output.mesh_spacing_mm);
+        let root = (root_stock(space(index), &cut), surfaces.then(surface));
+        done.lock().unwrap_or_else(PoisonError::into_inner).push(root);
+        Ok(())
+    };
+    cut_fields(backend, job.scene.gear.teeth as usize, make, take)?;
+    let mut roots = done.into_inner().unwrap_or_else(PoisonError::into_inner);
+    roots.sort_by_key(|(report, _)| report.space);
+    let (reports, surfaces): (_, Vec<Option<SurfaceGrid>>) = roots.into_iter().unzip();
+    Ok((reports, surfaces.into_iter().flatten().collect()))
 }
 
 /// All strokes in order of time, space by space.

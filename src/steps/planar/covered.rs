@@ -1,11 +1,11 @@
 //! Rays that a stroke covers as a whole: the tool's body, or a blade that passes right through a tooth.
 //!
-//! In: a field, an operation's strokes, the tool. Out: the layer, with these rays at their lowest height. Law: kernels
-//! look for the place where a ray enters an edge, within the depth that it records; where the tool has come over the
-//! whole record there is no such place, and the target would seem untouched. A ray is covered if its low end and a
-//! place close under the target lie in the tool at the same stroke, in one blade closed through the tool's body; or if
-//! its low end lies in the body alone, which comes nowhere near it while the tool cuts as it should: what still stands
-//! above is cut off from the gear.
+//! In: a field, an operation's strokes, the tool. Out: these rays; a layer with them at their lowest height. Law:
+//! kernels look for the place where a ray enters an edge, within the depth that it records; where the tool has come
+//! over the whole record there is no such place, and the target would seem untouched. A ray is covered if its low end
+//! and a place close under the target lie in the tool at the same stroke, in one blade closed through the tool's body;
+//! or if its low end lies in the body alone, which comes nowhere near it while the tool cuts as it should: what still
+//! stands above is cut off from the gear.
 //!
 //! No stroke of a sound program does that, so a few rays of a field are asked first, and all of them only where one is
 //! covered. A gouge narrower than the distance of those, deeper than the record and without an entry is not seen.
@@ -46,10 +46,10 @@ impl BladeRegion {
     }
 }
 
-/// Puts rays that strokes cover at their lowest height; gives whether any stood higher.
-pub fn lower(field: &Field, strokes: &StrokeSet, tool: &dyn PlanarTool, layer: &mut Layer) -> bool {
+/// Columns of a field that strokes cover, each with a pass that does.
+pub fn columns(field: &Field, strokes: &StrokeSet, tool: &dyn PlanarTool) -> Vec<(usize, u32)> {
     let columns = &field.columns;
-    let Some(middle) = columns.get(columns.len() / 2) else { return false };
+    let Some(middle) = columns.get(columns.len() / 2) else { return Vec::new() };
     let ends =
         |column: &Column| [UPPER_SHARE * column.low_mm, column.low_mm].map(|h| column.origin_mm + h * column.normal);
     let center_mm = ends(middle)[1];
@@ -93,19 +93,20 @@ pub fn lower(field: &Field, strokes: &StrokeSet, tool: &dyn PlanarTool, layer: &
     };
     let step = (columns.len() / (PROBES - 1)).max(1);
     if !columns.iter().step_by(step).chain(columns.last()).any(|column| by(column).is_some()) {
-        return false;
+        return Vec::new();
     }
+    columns.iter().enumerate().filter_map(|(index, column)| Some((index, by(column)?))).collect()
+}
+
+/// Puts covered columns at their lowest height.
+pub fn lower(field: &Field, covered: &[(usize, u32)], layer: &mut Layer) {
     let rows = field.rows();
-    let mut is_lowered = false;
-    for (index, column) in columns.iter().enumerate() {
-        let Some(pass) = by(column) else { continue };
+    for &(index, pass) in covered {
+        let low_mm = field.columns[index].low_mm as f32;
         for dexel in index * rows..(index + 1) * rows {
-            if layer.heights_mm[dexel] > column.low_mm as f32 {
-                layer.heights_mm[dexel] = column.low_mm as f32;
-                layer.passes[dexel] = pass;
-                is_lowered = true;
+            if layer.heights_mm[dexel] > low_mm {
+                (layer.heights_mm[dexel], layer.passes[dexel]) = (low_mm, pass);
             }
         }
     }
-    is_lowered
 }

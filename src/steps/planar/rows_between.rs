@@ -23,7 +23,7 @@
 //! nodes beside the turning point, and every node was on its cubic.
 
 use super::{CutField, PlanarGear, PlanarOperation};
-use gearcut_core::cut::Backend;
+use gearcut_core::cut::{Backend, PlannedField};
 use gearcut_core::dexel::{Field, Layer, NO_PASS};
 use gearcut_core::error::Result;
 use gearcut_core::passes::CutPlan;
@@ -178,7 +178,7 @@ impl PlanarGear<'_> {
         self.operations.iter().map(|operation| operation.strokes.bend_mm()).fold(0.0, f64::max)
     }
 
-    /// How many of so many rows [`Self::cut_distinct_rows`] cuts, but for columns that ask for all of them.
+    /// How many of so many rows [`Self::prepare`] cuts, but for columns that ask for all of them.
     pub fn distinct_rows(&self, rows: usize) -> usize {
         if self.rows_are_alike() {
             1
@@ -205,13 +205,15 @@ impl PlanarGear<'_> {
         tell: impl Fn(&Nodes, &Layer, usize) -> bool,
     ) -> Result<CutField> {
         let Some(nodes) = Nodes::of(&field, self.bend_mm()) else {
-            let (layers, stats) = self.cut_rows(backend, &field)?;
-            return Ok(CutField { field, layers, stats });
+            return self.cut_rows(backend, &field);
         };
         let columns: Vec<usize> = (0..field.columns.len()).collect();
+        let cut = |field: Field, plans: Vec<CutPlan>| {
+            self.prepare_planned(backend, PlannedField { field, plans, lines: None })?.cut(backend)
+        };
         let at_nodes = field.at([&columns, &nodes.rows]);
         let plans = self.plans(&at_nodes);
-        let (at_nodes, mut stats) = self.cut_planned(backend, &at_nodes, &plans)?;
+        let CutField { layers: at_nodes, mut stats, .. } = cut(at_nodes, plans.clone())?;
         let is_told = |column: &usize| at_nodes.iter().all(|layer| tell(&nodes, layer, *column));
         let untold: Vec<usize> = columns.into_iter().filter(|column| !is_told(column)).collect();
         let mut layers: Vec<Layer> = at_nodes.iter().map(|layer| nodes.filled(layer, &field)).collect();
@@ -223,7 +225,7 @@ impl PlanarGear<'_> {
                 plan.of_columns(&untold, phases.collect())
             };
             let plans: Vec<CutPlan> = plans.iter().zip(&self.operations).map(over_all_rows).collect();
-            let (row_by_row, more) = self.cut_planned(backend, &field.at([&untold, &all_rows]), &plans)?;
+            let CutField { layers: row_by_row, stats: more, .. } = cut(field.at([&untold, &all_rows]), plans)?;
             stats += more;
             let of = |column: usize| column * rows..(column + 1) * rows;
             for (layer, cut) in layers.iter_mut().zip(&row_by_row) {
@@ -233,7 +235,7 @@ impl PlanarGear<'_> {
                 }
             }
         }
-        Ok(CutField { field, layers, stats })
+        Ok(CutField { field, layers, figures: None, stats })
     }
 }
 
@@ -288,7 +290,7 @@ mod tests {
     fn missed(job: &ShapingJob, field: &Field, tell: impl Fn(&Nodes, &Layer, usize) -> bool) -> [f64; 2] {
         let (gear, backend) = (job.planar(), Cpu::default());
         let told = gear.cut_told(&backend, field.clone(), tell).expect("cut");
-        let (all, _) = gear.cut_rows(&backend, field).expect("cut");
+        let all = gear.cut_rows(&backend, field).expect("cut").layers;
         let mut missed = [0.0_f64; 2];
         for (told, all) in told.layers.iter().zip(&all) {
             let off_mm = told.heights_mm.iter().zip(&all.heights_mm).map(|(&a, &b)| f64::from(a - b).abs());

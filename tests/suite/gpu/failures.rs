@@ -124,9 +124,9 @@ fn refused_memory_is_told_and_made_good() {
     assert!(matches!(problem, GpuProblem::OutOfMemory { .. }), "{problem}");
 
     let redoing = software_gpu(redoing(Some(500)));
-    let (cut, _) = job.planar().cut_rows(&redoing, &field(&job, 5)).expect("cut natively");
-    let (native, _) = job.planar().cut_rows(&Cpu::default(), &field(&job, 5)).expect("the native backend");
-    assert!(cut == native);
+    let cut = job.planar().cut_rows(&redoing, &field(&job, 5)).expect("cut natively");
+    let native = job.planar().cut_rows(&Cpu::default(), &field(&job, 5)).expect("the native backend");
+    assert!(cut.layers == native.layers && cut.stats == native.stats);
     assert!(redoing.incidents()[0].contains("out of device memory"), "{:?}", redoing.incidents());
 }
 

@@ -47,7 +47,7 @@ fn the_finishing_stock_scene_has_its_golden_bytes() {
     let gpu = software_gpu(strict());
     let flanks = fields(&job);
     let layers: Vec<Layer> =
-        flanks.iter().flat_map(|field| job.planar().cut_rows(&gpu, field).expect("cuts").0).collect();
+        flanks.iter().flat_map(|field| job.planar().cut_rows(&gpu, field).expect("cuts").layers).collect();
     let dexels: usize = layers.iter().map(|l| l.passes.len()).sum();
     println!("{dexels} dexels, fingerprint {:#018x}", fingerprint(&layers));
     assert_eq!(fingerprint(&layers), GOLDEN, "other bytes than before on {}", gpu.name());

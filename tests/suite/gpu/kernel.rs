@@ -2,17 +2,21 @@
 
 use crate::fixtures::paper::*;
 use crate::fixtures::parity::*;
-use gearcut::cut::{Backend, CutJob, cut_in_turn};
+use gearcut::cut::cpu::Cpu;
+use gearcut::cut::{Backend, CutLayers, PlannedField, cut_in_turn};
+use gearcut::dexel::figures::{Columns, LinesAt};
 use gearcut::dexel::{Column, Field};
-use gearcut::gpu::GpuOptions;
 use gearcut::gpu::shaders::Rows;
+use gearcut::gpu::{GpuOptions, OnGpuFailure};
 use gearcut::passes::planar::strokes::{NODES, cubic_through};
 use gearcut::passes::{CutPlan, PassRecord, Tile};
-use gearcut::process::shaping::ShapingJob;
 use gearcut::process::shaping::scene::model::{Shaping, Tip};
+use gearcut::process::shaping::{PreparedOperation, ShapingJob};
 use gearcut::terms::Side;
 use gearcut::tool::edge::{Edge, Segment, SegmentShape};
 use glam::DVec2;
+use std::collections::BTreeMap;
+use std::sync::Mutex;
 
 /// What the shader may add to a height, nm, as its head says; 0.48 measured.
 const ADDED_NM: f64 = 1.0;
@@ -189,38 +193,114 @@ fn small_batches_give_the_same_bytes() {
     assert!(whole == parts, "batches change the result");
 }
 
+/// Fields through both plans of a job, by so many rows each: those that fill their quads, and those that do not.
+fn planned_fields(job: &ShapingJob, rows: [usize; 4], lines: Option<LinesAt>) -> Vec<PlannedField> {
+    let flank = |tooth| job.flank_field(job.target_flank(tooth, Side::Left));
+    let fields = (5..8).map(flank).chain([job.root_field(2)]);
+    let planned = |(mut field, rows): (Field, usize)| {
+        field.rows_z_mm.truncate(rows);
+        let plan = |prepared: &PreparedOperation| CutPlan::new(&field, &prepared.strokes, &job.cutter);
+        let plans = job.operations.iter().map(plan).collect();
+        PlannedField { field, plans, lines }
+    };
+    fields.zip(rows).map(planned).collect()
+}
+
+/// What is left of fields that go to a backend together.
+fn cut_together(backend: &dyn Backend, fields: &[PlannedField]) -> Vec<CutLayers> {
+    let done = Mutex::new(BTreeMap::new());
+    let take = |index: usize, _: PlannedField, left: CutLayers| {
+        assert!(done.lock().expect("no panic").insert(index, left).is_none(), "field {index} comes twice");
+        Ok(())
+    };
+    backend.cut_fields(fields.len(), &|index| Ok(Some(fields[index].clone())), &take).expect("cuts");
+    let done = done.into_inner().expect("no panic");
+    assert_eq!(done.len(), fields.len());
+    done.into_values().collect()
+}
+
+fn two_cuts() -> ShapingJob {
+    let operations = vec![operation("rough", NORMAL, 2.0, 360), operation("finish", NORMAL, 0.0, 720)];
+    ShapingJob::new(paper_scene(operations)).expect("the paper's gear")
+}
+
 /// Dexels are born on the device, all plans of a field run over them there, and fields share a submission.
 #[test]
 fn plans_in_turn_leave_the_bytes_of_plans_one_by_one() {
-    let operations = vec![operation("rough", NORMAL, 2.0, 360), operation("finish", NORMAL, 0.0, 720)];
-    let job = ShapingJob::new(paper_scene(operations)).expect("the paper's gear");
-    let mut fields: Vec<Field> = (5..8).map(|tooth| job.flank_field(job.target_flank(tooth, Side::Left))).collect();
-    fields.push(job.root_field(2));
-    // Rows that fill their quads, and rows that do not.
-    for (field, rows) in fields.iter_mut().zip([13, 16, 1, 7]) {
-        field.rows_z_mm.truncate(rows);
-    }
-    let plan = |field: &Field| -> Vec<CutPlan> {
-        job.operations.iter().map(|prepared| CutPlan::new(field, &prepared.strokes, &job.cutter)).collect()
-    };
-    let mut plans: Vec<Vec<CutPlan>> = fields.iter().map(plan).collect();
-    let jobs = |plans: &'_ [Vec<CutPlan>]| {
-        let gpu = software_gpu(strict());
-        let jobs: Vec<CutJob> =
-            fields.iter().zip(plans).map(|(field, plans)| CutJob { field, start: None, plans }).collect();
-        let together = gpu.cut_jobs(&jobs).expect("cuts");
-        (together, gpu.stage_times()[0].batches, cut_in_turn(&gpu, &jobs).expect("cuts"))
-    };
-    let (together, submissions, apart) = jobs(&plans);
-    assert!(together == apart, "layers or counts differ");
-    assert_eq!(submissions, 1);
-    // From a layer the plans go one by one, and end the same.
     let gpu = software_gpu(strict());
-    let rest = CutJob { field: &fields[0], start: Some(&together[0][0].0), plans: &plans[0][1..] };
-    assert!(gpu.cut_jobs(&[rest]).expect("cuts")[0][0] == together[0][1]);
+    let mut fields = planned_fields(&two_cuts(), [13, 16, 1, 7], None);
+    let together = cut_together(&gpu, &fields);
+    assert_eq!(gpu.stage_times()[0].batches, 1);
+    let apart: Vec<CutLayers> =
+        fields.iter().map(|planned| cut_in_turn(&gpu, planned, |_, _| ()).expect("cuts")).collect();
+    assert!(together == apart, "layers or counts differ");
+    // More fields than go together: three submissions, two of them on their way at once.
+    let many: Vec<PlannedField> = fields.iter().cycle().take(30).cloned().collect();
+    let before = gpu.stage_times()[0].batches;
+    assert!(cut_together(&gpu, &many).iter().zip(together.iter().cycle()).all(|(left, of)| left == of));
+    assert_eq!(gpu.stage_times()[0].batches, before + 3);
     // Alive: a pass less in the first plan of the last field.
-    plans[3][0].tiles.iter_mut().for_each(|tile| tile.records.end = tile.records.start);
-    assert!(jobs(&plans).0 != together);
+    fields[3].plans[0].tiles.iter_mut().for_each(|tile| tile.records.end = tile.records.start);
+    assert!(cut_together(&gpu, &fields) != together);
+}
+
+/// Where lines alone are wanted, the figures of the columns are made on the device: to the last bit those of the dexels
+/// that it brings back otherwise, and for the sums, which it adds up in f32, to a millionth.
+#[test]
+fn figures_made_on_the_device_are_those_of_its_dexels() {
+    let job = two_cuts();
+    let lines = LinesAt { row: 6, column: 40 };
+    // More rows than threads, and a field whose dexels are fewer bytes than figures.
+    let rows = [13, 200, 4, 31];
+    let dexels = planned_fields(&job, rows, None);
+    let mut fields = planned_fields(&job, rows, Some(lines));
+    // Columns of which nothing is reached, and some of whose dexels are.
+    for plan in fields.iter_mut().flat_map(|planned| &mut planned.plans) {
+        plan.tiles[1].records.end = plan.tiles[1].records.start;
+    }
+    let dexels: Vec<PlannedField> =
+        dexels.into_iter().zip(&fields).map(|(of, cut)| PlannedField { plans: cut.plans.clone(), ..of }).collect();
+    let gpu = software_gpu(strict());
+    let [left, figures] = [&dexels, &fields].map(|fields| cut_together(&gpu, fields));
+    let native = cut_together(&Cpu::default(), &fields);
+    assert!(cut_together(&gpu, &fields) == figures, "other figures the second time");
+    assert!(figures[2].figures.is_none() && figures[2] == left[2]);
+    let mut untouched = 0;
+    for index in [0, 1, 3] {
+        let (field, made) = (&fields[index].field, figures[index].figures.as_ref().expect("figures"));
+        assert!(figures[index].layers.is_empty() && figures[index].stats == left[index].stats);
+        let made = Columns::Figures(made);
+        let [own, native] = [&left, &native].map(|of| Columns::Dexels { field, layers: &of[index].layers, lines });
+        assert!(made.profile() == own.profile() && made.along() == own.along(), "field {index}: lines");
+        for column in 0..field.columns.len() {
+            for operation in 0..2 {
+                let [made, own, native] = [made, own, native].map(|columns| columns.heights(operation, column));
+                assert_eq!(made, own, "{index}, {column}");
+                let off_mm = f64::from(made.lowest.height_mm - native.lowest.height_mm).abs();
+                assert!(off_mm < 1e-6 * ADDED_NM, "{index}, {column}: {made:?} for {native:?}");
+            }
+            let [made, own, native] = [made, own, native].map(|columns| columns.stock(0, column, 0.0));
+            assert_eq!((made.range, made.untouched), (own.range, own.untouched), "{index}, {column}");
+            let off_mm = (made.sum_mm - native.sum_mm).abs();
+            assert!(off_mm < 1e-6 * ADDED_NM * rows[index] as f64, "{index}, {column}: {made:?} for {native:?}");
+            assert!((made.sum_mm - own.sum_mm).abs() <= 1e-6 * own.sum_mm.abs(), "{made:?} for {own:?}");
+            untouched += own.untouched;
+        }
+    }
+    assert!(untouched > 0, "no column was left alone");
+    // Planted: passes of finishing 50 nm off.
+    fields[1].plans[1].records.iter_mut().for_each(|record| record.x_mm[0] += 5e-5);
+    assert!(cut_together(&gpu, &fields)[1] != figures[1]);
+}
+
+/// Figures of a device that is lost are the native ones, and no field is lost with it.
+#[test]
+fn fields_after_the_loss_are_cut_natively() {
+    let gpu = software_gpu(GpuOptions { on_failure: OnGpuFailure::RedoNatively, ..strict() });
+    gpu.lose_device();
+    let fields = planned_fields(&two_cuts(), [13, 16, 1, 7], Some(LinesAt::default()));
+    assert!(cut_together(&gpu, &fields) == cut_together(&Cpu::default(), &fields));
+    assert_eq!(gpu.incidents().len(), 1, "{:?}", gpu.incidents());
 }
 
 #[test]

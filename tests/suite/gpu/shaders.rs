@@ -110,6 +110,27 @@ fn records_have_the_same_members_on_both_sides() {
                 padding_2,
             }
         ),
+        layout!("flank_figures", records::FigureLaunch { rows, quads, profile_row }),
+        layout!(
+            "flank_figures",
+            records::FigureColumn {
+                lowest_mm,
+                lowest_row,
+                reached_low_mm,
+                reached_low_row,
+                reached_high_mm,
+                reached_high_row,
+                untouched,
+                at_bottom,
+                stock_low_mm,
+                stock_low_row,
+                stock_high_mm,
+                stock_high_row,
+                stock_sum_mm,
+                profile_mm,
+                profile_pass,
+            }
+        ),
         layout!("blank_rays", records::BlankLaunch { spacing_mm, units_per_mm, capacity, piece_room, rays }),
         layout!("blank_rays", records::BlankTile { first_pass, pass_count, first_ray, ray_count }),
         layout!("blank_rays", records::BlankPass { first_part, part_count, pass_id }),

@@ -80,7 +80,7 @@ fn a_fit_that_is_stopped_keeps_its_rounds() {
     let fit = |cuts: usize| {
         let interrupt = Interrupt::default();
         let backend = Stopping { cuts_left: AtomicUsize::new(cuts), interrupt: interrupt.clone() };
-        let choice = Choice { backend: Box::new(backend), why: String::new() };
+        let choice = Choice { backend: Box::new(backend), why: String::new(), on_trial: false };
         let quiet = Progress::new(ProgressMode::Quiet);
         Calibration::new(&loaded, &parameters, &measured, &choice, &quiet, &interrupt, &KnownCuts::default())
     };

@@ -1,5 +1,6 @@
 //! The program as a user starts it.
 
+mod auto;
 mod axes;
 mod check;
 mod check_cost;

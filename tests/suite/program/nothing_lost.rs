@@ -80,7 +80,7 @@ fn a_texture_that_cannot_be_cut_costs_nothing_else() {
     let settings: Vec<String> = settings.map(|&setting| setting.to_owned()).collect();
     let scene = gearcut::load(Path::new(ROUND), &settings).unwrap_or_else(|problems| panic!("{problems}"));
     let job = Job::new(scene).expect("a scene that cuts");
-    let job = job.on(Choice { backend: Box::new(Failing::default()), why: "it fails".to_owned() });
+    let job = job.on(Choice { backend: Box::new(Failing::default()), why: "it fails".to_owned(), on_trial: false });
     let found = job.run().into_folder(&out).expect("the gear is cut and measured").findings;
     let faults: Vec<&str> =
         found.warnings.iter().filter(|of| of.severity == Severity::Fault).map(|of| of.text.as_str()).collect();
@@ -128,7 +128,7 @@ fn a_blank_that_cannot_be_cut_costs_nothing_else() {
     let scene = gearcut::load(Path::new(ROUND), &settings).unwrap_or_else(|problems| panic!("{problems}"));
     let job = Job::new(scene).expect("a scene that cuts");
     let failing = Failing { blank: true, ..Failing::default() };
-    let job = job.on(Choice { backend: Box::new(failing), why: "it fails".to_owned() });
+    let job = job.on(Choice { backend: Box::new(failing), why: "it fails".to_owned(), on_trial: false });
     let found = job.run().into_folder(&out).expect("the gear is cut and measured").findings;
     let faults: Vec<&str> =
         found.warnings.iter().filter(|of| of.severity == Severity::Fault).map(|of| of.text.as_str()).collect();

@@ -112,7 +112,11 @@ fn logged(scene: &str, settings: &[&str], cut: impl Fn(&Job)) -> Log {
     let backend = Logging::default();
     let log = Arc::clone(&backend.log);
     let job = Job::new(scene).expect("a scene that cuts");
-    let job = job.on(Choice { backend: Box::new(backend), why: "it writes down what it is asked for".to_owned() });
+    let job = job.on(Choice {
+        backend: Box::new(backend),
+        why: "it writes down what it is asked for".to_owned(),
+        on_trial: false,
+    });
     cut(&job);
     drop(job);
     let log = Arc::into_inner(log).expect("the backend is gone");

@@ -8,7 +8,7 @@ use gearcut::frame::Rigid2;
 use gearcut::passes::planar::strokes::StrokeLaw;
 use gearcut::passes::{CutPlan, StrokeSet};
 use gearcut::process::shaping::ShapingJob;
-use gearcut::steps::planar::{PlanarGear, PlanarOperation};
+use gearcut::steps::planar::{CutField, PlanarGear, PlanarOperation};
 use gearcut::terms::Side;
 use gearcut::tool::closed_tooth::{ClosedTooth, PlacedScratch};
 use gearcut::tool::{CuttingTool, PlanarTool};
@@ -48,7 +48,7 @@ fn rays_inside_of_the_cutter_are_those_of_brute_force() {
         for side in [Side::Left, Side::Right] {
             let mut field = job.flank_field(job.target_flank(tooth, side));
             field.rows_z_mm.truncate(1);
-            let (layers, _) = gear.cut_rows(&Cpu::default(), &field).expect("the native backend");
+            let CutField { layers, .. } = gear.cut_rows(&Cpu::default(), &field).expect("the native backend");
             let mut expected = field.blank_layer();
             let plan = CutPlan::new(&field, &strokes, cutter);
             Cpu::default().cut(&field, &plan, &mut expected).expect("the native backend");

@@ -7,6 +7,7 @@ use gearcut::dexel::Field;
 use gearcut::passes::CutPlan;
 use gearcut::process::shaping::ShapingJob;
 use gearcut::scene::model::*;
+use gearcut::steps::planar::CutField;
 use gearcut::terms::Side;
 
 fn coarse_rows(mut scene: Scene) -> Scene {
@@ -125,7 +126,7 @@ fn rows_that_are_alike_are_what_cutting_each_of_them_gives() {
     let operations = vec![operation("rough", TRADITIONAL, 2.0, 360), operation("finish", NORMAL, 0.0, 360)];
     let job = ShapingJob::new(coarse_rows(paper_scene(operations))).expect("the paper's gear");
     let field = job.flank_field(job.target_flank(5, Side::Left));
-    let (layers, stats) = job.planar().cut_rows(&Cpu::default(), &field).expect("native");
+    let CutField { layers, stats, .. } = job.planar().cut_rows(&Cpu::default(), &field).expect("native");
     let once = job.cut(&Cpu::default(), field).expect("native");
     assert!(once.layers == layers);
     assert_eq!(stats.dexels, 9 * once.stats.dexels);

@@ -185,7 +185,7 @@ fn cut(job: &ConicalJob, tools: Option<&Tools>) -> CutFlanks<()> {
         })
     };
     let folder = tools.map(|tools| (tools.folder, tools.notes, tools.parts));
-    cut_flanks(job, &progress, &interrupt, folder, cut_one, |_, _, _| Vec::new()).expect("cuts")
+    cut_flanks(job, &progress, &interrupt, folder, |flanks| flanks.each(cut_one), |_, _, _| Vec::new()).expect("cuts")
 }
 
 #[test]

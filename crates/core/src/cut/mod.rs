@@ -9,12 +9,14 @@ pub mod blank;
 pub mod cpu;
 pub mod sweep_chips;
 
+use crate::dexel::figures::{FieldFigures, LinesAt};
 use crate::dexel::{BlankField, Field, Layer, SpatialField};
 use crate::error::Error;
 use crate::passes::sections::swept_sections::SweptSections;
 use crate::passes::{CutPlan, SweepPlan};
 use rayon::prelude::*;
 use std::ops::Range;
+use std::sync::OnceLock;
 use sweep_chips::SweepsCut;
 
 pub use blank::{BlankCut, BlankOperation, BlankStats, CutBlank, Rub};
@@ -57,31 +59,67 @@ pub struct StageTime {
     pub device_s: f64,
 }
 
-/// A field with the plans that run over it in turn.
-#[derive(Debug, Clone, Copy)]
-pub struct CutJob<'a> {
+/// A field with the plans that run over it in turn, from the uncut blank on.
+#[derive(Debug, Clone)]
+pub struct PlannedField {
     /// Rays.
-    pub field: &'a Field,
-    /// What is left on them before; `None`: they are uncut.
-    pub start: Option<&'a Layer>,
-    /// Plans in order.
-    pub plans: &'a [CutPlan],
+    pub field: Field,
+    /// Plans in order, one for each operation.
+    pub plans: Vec<CutPlan>,
+    /// Lines whose dexels are wanted beside figures of the columns; `None`: all dexels are wanted.
+    pub lines: Option<LinesAt>,
 }
 
-/// What each plan of a job leaves, with what was met.
-pub type CutLayers = Vec<(Layer, CutStats)>;
+/// What is left on a field.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct CutLayers {
+    /// What each plan left, in order; empty where figures are given instead.
+    pub layers: Vec<Layer>,
+    /// Figures of the columns, if these are enough and the dexels stay where they are.
+    pub figures: Option<FieldFigures>,
+    /// What was met.
+    pub stats: CutStats,
+}
 
-/// Runs the plans of every job one by one.
+/// Makes the field of an index when its turn comes; `None`: it is left out.
+pub type MakeField<'a> = dyn Fn(usize) -> Result<Option<PlannedField>, Error> + Sync + 'a;
+
+/// Takes the field of an index with what is left on it.
+pub type TakeField<'a> = dyn Fn(usize, PlannedField, CutLayers) -> Result<(), Error> + Sync + 'a;
+
+/// Runs the plans of a field one by one; `and_then` changes what each of them leaves before the next one.
 ///
 /// # Errors
 /// The backend's.
-pub fn cut_in_turn(backend: &(impl Backend + ?Sized), jobs: &[CutJob]) -> Result<Vec<CutLayers>, Error> {
-    let in_turn = |job: &CutJob| {
-        let mut layer = job.start.cloned().unwrap_or_else(|| job.field.blank_layer());
-        let each = |plan| backend.cut(job.field, plan, &mut layer).map(|stats| (layer.clone(), stats));
-        job.plans.iter().map(each).collect()
+pub fn cut_in_turn(
+    backend: &(impl Backend + ?Sized),
+    planned: &PlannedField,
+    and_then: impl Fn(usize, &mut Layer),
+) -> Result<CutLayers, Error> {
+    let PlannedField { field, plans, .. } = planned;
+    let mut layers: Vec<Layer> = Vec::with_capacity(plans.len());
+    let mut stats = CutStats::default();
+    for plan in plans {
+        let mut layer = layers.last().cloned().unwrap_or_else(|| field.blank_layer());
+        stats += backend.cut(field, plan, &mut layer)?;
+        and_then(layers.len(), &mut layer);
+        layers.push(layer);
+    }
+    Ok(CutLayers { layers, figures: None, stats })
+}
+
+/// Cuts one field.
+///
+/// # Errors
+/// The backend's.
+pub fn cut_alone(backend: &dyn Backend, planned: &PlannedField) -> Result<CutLayers, Error> {
+    let done = OnceLock::new();
+    let take = |_, _, left| {
+        let _is_first = done.set(left);
+        Ok(())
     };
-    jobs.par_iter().map(in_turn).collect()
+    backend.cut_fields(1, &|_| Ok(Some(planned.clone())), &take)?;
+    Ok(done.into_inner().unwrap_or_default())
 }
 
 /// A machine that cuts.
@@ -100,12 +138,19 @@ pub trait Backend: Send + Sync {
     /// Whatever keeps the backend from finishing; the layer is then unusable.
     fn cut(&self, field: &Field, plan: &CutPlan, layer: &mut Layer) -> Result<CutStats, Error>;
 
-    /// Runs the plans of every job in turn, each from what the one before has left.
+    /// Runs the plans of so many fields, each from its uncut blank. Several fields are on their way at once: `make` and
+    /// `take` are called from several threads, each once for every field. The first failure ends it.
     ///
     /// # Errors
-    /// As [`Self::cut`].
-    fn cut_jobs(&self, jobs: &[CutJob]) -> Result<Vec<CutLayers>, Error> {
-        cut_in_turn(self, jobs)
+    /// As [`Self::cut`]; those of `make` and `take`.
+    fn cut_fields(&self, count: usize, make: &MakeField, take: &TakeField) -> Result<(), Error> {
+        (0..count).into_par_iter().try_for_each(|index| match make(index)? {
+            Some(planned) => {
+                let left = cut_in_turn(self, &planned, |_, _| ())?;
+                take(index, planned, left)
+            }
+            None => Ok(()),
+        })
     }
 
     /// Takes all strokes of an operation from the blank and checks its return strokes; `advance` is called after every

@@ -3,7 +3,6 @@
 use crate::context::Gpu;
 use crate::device::Device;
 use crate::problem::GpuProblem;
-use crate::readback::empty;
 use gearcut_shaders::BLANK_RAYS;
 use std::time::Duration;
 use wgpu::BufferUsages as Use;
@@ -54,7 +53,7 @@ impl Gpu {
         }
         let device = &self.device;
         let (back, submission) = device.checked(|| {
-            let back = empty(device, "back", bytes as u64, Use::MAP_READ | Use::COPY_DST);
+            let back = device.empty("back", bytes as u64, Use::MAP_READ | Use::COPY_DST);
             if self.options.poison_outputs {
                 device.queue.write_buffer(&back, 0, &vec![0xFF; bytes]);
             }
@@ -87,7 +86,7 @@ pub fn filled(device: &Device, label: &str, bytes: &[u8], usage: Use) -> Result<
 /// A buffer of some size that begins with these bytes; an empty binding is not allowed, so it has sixty-four at least.
 pub fn roomy(device: &Device, label: &str, size: usize, bytes: &[u8], usage: Use) -> Result<wgpu::Buffer, GpuProblem> {
     device.checked(|| {
-        let buffer = empty(device, label, size.max(64) as u64, usage | Use::COPY_DST);
+        let buffer = device.empty(label, size.max(64) as u64, usage | Use::COPY_DST);
         device.queue.write_buffer(&buffer, 0, bytes);
         buffer
     })

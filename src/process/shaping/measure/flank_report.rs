@@ -8,11 +8,12 @@ use super::thin_tips;
 use crate::measure::deviation::Trace;
 use crate::measure::inspection::{InspectedFlank, TracedLines};
 use crate::measure::scallop::{Cusp, cusps, facets, step};
-use crate::measure::stock::{Extreme, RESOLUTION_MM, Stock, extremes, lowest, stock};
+use crate::measure::stock::{Extreme, Stock, extremes, stock};
 use crate::process::shaping::ShapingJob;
 use crate::process::shaping::target::{FlankEnd, TargetFlank};
 use crate::steps::planar::CutField;
-use gearcut_core::dexel::{Layer, NO_PASS};
+use gearcut_core::dexel::figures::{ColumnHeights, LinesAt, RESOLUTION_MM};
+use gearcut_core::dexel::{Field, NO_PASS};
 
 /// Share of the flank left out at either end when the scene does not say where profiles are evaluated, and of the face.
 const DEFAULT_MARGIN: f64 = 0.05;
@@ -118,12 +119,27 @@ fn begins_mm(job: &ShapingJob, operation: usize, flank: &TargetFlank) -> f64 {
     }
 }
 
+/// Lines on which a flank is measured dexel by dexel: its profile in the middle of the face, and the line along the
+/// tooth at the pitch curve, or in the middle of the evaluated profile where the flank does not reach the curve.
+pub fn lines(job: &ShapingJob, flank: &TargetFlank, field: &Field) -> LinesAt {
+    let pitch_arc_mm = flank.at_height(&job.blank, 0.0).map(|(arc, _)| arc);
+    let lead_arc_mm = pitch_arc_mm.unwrap_or_else(|| {
+        let [from_mm, to_mm] = evaluated_profile_mm(job, flank);
+        0.5 * (from_mm + to_mm)
+    });
+    let distance = |column: usize| (field.columns[column].arc_mm - lead_arc_mm).abs();
+    let column = (0..field.columns.len()).min_by(|&a, &b| distance(a).total_cmp(&distance(b))).unwrap_or(0);
+    LinesAt { row: field.rows() / 2, column }
+}
+
 /// Measures a flank with these rows, of which those that differ were cut: what is measured on one that stands for many
 /// is the same on all of them.
 pub fn measure(job: &ShapingJob, flank: &TargetFlank, cut: &CutField, rows_z_mm: &[f64]) -> FlankReport {
-    let CutField { field, layers, .. } = cut;
+    let field = &cut.field;
+    let lines = lines(job, flank, field);
+    let columns = cut.columns(lines);
+    let last = columns.operations() - 1;
     let copies = cut.copies(rows_z_mm) as u64;
-    let finished = layers.last().expect("at least one operation");
     let limit = |arc_mm: f64, end| {
         let contact = flank.at_arc(arc_mm);
         let (height_mm, _) = job.blank.height(contact.point_mm, contact.phi_rad);
@@ -131,21 +147,20 @@ pub fn measure(job: &ShapingJob, flank: &TargetFlank, cut: &CutField, rows_z_mm:
     };
     let length_mm = flank.length_mm();
     let evaluated_mm = evaluated_profile_mm(job, flank);
-    let rows = field.rows();
-    let middle = rows / 2;
     let inside = |arc: f64| arc >= evaluated_mm[0] && arc <= evaluated_mm[1];
-    let tells = thin_tips::tell(job, flank, field, layers);
+    let tells = thin_tips::tell(job, flank, field, columns);
     let is_evaluated = |column: usize| inside(field.columns[column].arc_mm);
     let counts = |column: usize| tells[column] && is_evaluated(column);
+    let all = || 0..field.columns.len();
+    let heights: Vec<ColumnHeights> = all().map(|column| columns.heights(last, column)).collect();
     let evaluated =
-        extremes(field, counts, |index| (finished.passes[index] != NO_PASS).then_some(finished.heights_mm[index]));
-    let deepest = if tells.contains(&false) {
-        extremes(field, |column| tells[column], |index| Some(finished.heights_mm[index])).map(|[lowest, _]| lowest)
-    } else {
-        lowest(field, &finished.heights_mm)
-    };
+        extremes(field, all().filter(|&column| counts(column)).map(|column| (column, heights[column].reached)));
+    let told = all().filter(|&column| tells[column]);
+    let deepest = extremes(field, told.clone().map(|column| (column, [heights[column].lowest; 2]))).map(|[low, _]| low);
 
-    let facets = facets(field, finished, middle);
+    let profile_field = Field { columns: field.columns.clone(), rows_z_mm: vec![field.rows_z_mm[lines.row]] };
+    let profile = columns.profile();
+    let facets = facets(&profile_field, &profile, 0);
     let operation = job.finishing();
     let stroke = |pass: u32| {
         let is_finishing = pass >= operation.strokes.first_pass && pass != NO_PASS;
@@ -168,35 +183,19 @@ pub fn measure(job: &ShapingJob, flank: &TargetFlank, cut: &CutField, rows_z_mm:
 
     // The witness mark: where the end of the operation meets its beginning, or an earlier turn.
     let witness = step(&facets, operation.half_turn(), stroke).filter(|step| inside(step.arc_mm));
-    let profile_trace = Trace::along_profile(field, finished, middle);
-    let lead_arc_mm = pitch_arc_mm.unwrap_or(0.5 * (evaluated_mm[0] + evaluated_mm[1]));
-    let lead_column = (0..field.columns.len())
-        .min_by(|&a, &b| {
-            let distance = |column: usize| (field.columns[column].arc_mm - lead_arc_mm).abs();
-            distance(a).total_cmp(&distance(b))
-        })
-        .unwrap_or(0);
-    let pitch_stroke = pitch_arc_mm.and_then(|_| stroke(finished.passes[lead_column * rows + middle]));
-    let lead_trace = Trace::along_tooth(field, finished, lead_column).over_rows(rows_z_mm);
+    let profile_trace = Trace::along_profile(&profile_field, &profile, 0);
+    let pitch_stroke = pitch_arc_mm.and_then(|_| stroke(profile.passes[lines.column]));
+    let lead_field = Field { columns: vec![field.columns[lines.column]], rows_z_mm: field.rows_z_mm.clone() };
+    let lead_trace = Trace::along_tooth(&lead_field, &columns.along(), 0).over_rows(rows_z_mm);
     let (v_first, v_last) = (rows_z_mm[0], rows_z_mm[rows_z_mm.len() - 1]);
     let v_margin = DEFAULT_MARGIN * (v_last - v_first);
-    let below_in = |layer: &Layer, column: usize| {
-        let low = field.columns[column].low_mm as f32;
-        layer.column(column, rows).iter().filter(|&&h| h <= low).count() as u64
-    };
-    let columns = 0..field.columns.len();
-    let below_range =
-        columns.clone().filter(|&column| tells[column]).map(|column| copies * below_in(finished, column)).sum();
-    let is_lost = columns.clone().any(|column| counts(column) && below_in(finished, column) > 0);
-    let is_told = columns.clone().all(|column| tells[column] || !is_evaluated(column));
+    let below_range = told.map(|column| copies * u64::from(heights[column].at_bottom)).sum();
+    let is_lost = all().any(|column| counts(column) && heights[column].at_bottom > 0);
+    let is_told = all().all(|column| tells[column] || !is_evaluated(column));
     let corner_mm = length_mm - TIP_CORNER_MODULES * job.scene.gear.module_mm;
-    let uncut_in = |column: usize| {
-        let passes = &finished.passes[column * rows..(column + 1) * rows];
-        passes.iter().filter(|&&pass| pass == NO_PASS).count() as u64
-    };
-    let below_corner = columns.filter(|&column| field.columns[column].arc_mm <= corner_mm.max(evaluated_mm[1]));
+    let below_corner = all().filter(|&column| field.columns[column].arc_mm <= corner_mm.max(evaluated_mm[1]));
     let uncut: Vec<(usize, u64)> =
-        below_corner.map(|column| (column, uncut_in(column))).filter(|of| of.1 > 0).collect();
+        below_corner.map(|column| (column, u64::from(heights[column].untouched))).filter(|of| of.1 > 0).collect();
     let uncut = uncut.first().map(|&(lowest, _)| {
         let dexels: u64 = uncut.iter().map(|of| of.1).sum();
         let from_mm = field.columns[lowest].arc_mm;
@@ -204,8 +203,7 @@ pub fn measure(job: &ShapingJob, flank: &TargetFlank, cut: &CutField, rows_z_mm:
     });
     // Where the involute of every earlier operation begins on this flank; its fillet stands below.
     let from_mm = |operation: usize| begins_mm(job, operation, flank).max(evaluated_mm[0]);
-    let active_mm: Vec<[f64; 2]> =
-        (0..layers.len() - 1).map(|operation| [from_mm(operation), evaluated_mm[1]]).collect();
+    let active_mm: Vec<[f64; 2]> = (0..last).map(|operation| [from_mm(operation), evaluated_mm[1]]).collect();
     let arc_mm = |column: usize| field.columns[column].arc_mm;
     let active = |operation: usize| {
         let [from_mm, to_mm] = active_mm[operation];
@@ -215,9 +213,8 @@ pub fn measure(job: &ShapingJob, flank: &TargetFlank, cut: &CutField, rows_z_mm:
         let [from_mm, _] = active_mm[operation];
         move |column: usize| arc_mm(column) < from_mm
     };
-    let earlier = || layers[..layers.len() - 1].iter().enumerate();
-    let stock_in = |layer: &Layer, columns: &dyn Fn(usize) -> bool| {
-        stock(field, layer, finished, |column| tells[column] && columns(column))
+    let stock_in = |operation: usize, counts: &dyn Fn(usize) -> bool| {
+        stock(field, columns, operation, |column| tells[column] && counts(column))
             .filter(|_| !is_lost)
             .map(|stock| stock.of_rows(copies))
     };
@@ -225,8 +222,8 @@ pub fn measure(job: &ShapingJob, flank: &TargetFlank, cut: &CutField, rows_z_mm:
         form: limit(0.0, flank.form_end),
         tip: limit(length_mm, flank.tip_end),
         undercut_mm: flank.undercut.map(|undercut| undercut.depth_mm),
-        stock: earlier().map(|(operation, layer)| stock_in(layer, &active(operation))).collect(),
-        fillet_stock: earlier().map(|(operation, layer)| stock_in(layer, &fillet(operation))).collect(),
+        stock: (0..last).map(|operation| stock_in(operation, &active(operation))).collect(),
+        fillet_stock: (0..last).map(|operation| stock_in(operation, &fillet(operation))).collect(),
         finished: evaluated.filter(|_| !is_lost),
         active_mm,
         below_target: deepest.filter(|low| low.value_mm < -RESOLUTION_MM),
@@ -247,11 +244,11 @@ pub fn measure(job: &ShapingJob, flank: &TargetFlank, cut: &CutField, rows_z_mm:
         lines: TracedLines {
             arcs_mm: profile_trace.places_mm.clone(),
             profile_v_mm: rows_z_mm[rows_z_mm.len() / 2],
-            lead_arc_mm: field.columns[lead_column].arc_mm,
+            lead_arc_mm: field.columns[lines.column].arc_mm,
         },
         profile_trace,
         lead_trace,
-        untouched: copies * finished.passes.iter().filter(|&&pass| pass == NO_PASS).count() as u64,
+        untouched: copies * heights.iter().map(|of| u64::from(of.untouched)).sum::<u64>(),
         own,
     }
 }

@@ -8,6 +8,7 @@ use crate::measure::inspection::GearInspection;
 use crate::measure::stock::{Stock, stock};
 use crate::process::shaping::ShapingJob;
 use crate::steps::planar::CutField;
+use gearcut_core::dexel::figures::LinesAt;
 use gearcut_core::terms::Side;
 use std::collections::BTreeSet;
 
@@ -105,8 +106,9 @@ pub fn measure(job: &ShapingJob, flanks: Vec<FlankReport>, roots: Vec<RootReport
 
 /// Stock in one root, on rays long enough.
 pub fn root_stock(space: u32, cut: &CutField) -> RootReport {
-    let (finished, earlier) = cut.layers.split_last().expect("at least one operation");
-    RootReport { space, stock: earlier.iter().map(|layer| stock(&cut.field, layer, finished, |_| true)).collect() }
+    let columns = cut.columns(LinesAt::default());
+    let earlier = 0..columns.operations() - 1;
+    RootReport { space, stock: earlier.map(|operation| stock(&cut.field, columns, operation, |_| true)).collect() }
 }
 
 #[cfg(test)]

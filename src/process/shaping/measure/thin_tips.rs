@@ -10,7 +10,8 @@
 
 use crate::process::shaping::ShapingJob;
 use crate::process::shaping::target::TargetFlank;
-use gearcut_core::dexel::{Column, Field, Layer};
+use gearcut_core::dexel::figures::Columns;
+use gearcut_core::dexel::{Column, Field};
 use gearcut_core::terms::Side;
 use glam::DVec2;
 
@@ -19,7 +20,7 @@ use glam::DVec2;
 const CHORDS: u32 = 64;
 
 /// Whether the heights of each column are those of its own flank.
-pub fn tell(job: &ShapingJob, flank: &TargetFlank, field: &Field, layers: &[Layer]) -> Vec<bool> {
+pub fn tell(job: &ShapingJob, flank: &TargetFlank, field: &Field, columns: Columns) -> Vec<bool> {
     let other = match flank.side {
         Side::Left => Side::Right,
         Side::Right => Side::Left,
@@ -27,13 +28,12 @@ pub fn tell(job: &ShapingJob, flank: &TargetFlank, field: &Field, layers: &[Laye
     let other = job.target_flank(flank.tooth, other);
     let at = |i: u32| other.at_arc(other.length_mm() * f64::from(i) / f64::from(CHORDS)).point_mm;
     let points_mm: Vec<DVec2> = (0..=CHORDS).map(at).collect();
-    let rows = field.rows();
     let tells = |(index, column): (usize, &Column)| {
         let Some(depth_mm) = through_mm(column, &points_mm).filter(|depth_mm| *depth_mm < -2.0 * column.low_mm) else {
             return true;
         };
         let middle_mm = (-0.5 * depth_mm) as f32;
-        layers.iter().all(|layer| layer.column(index, rows).iter().all(|&height_mm| height_mm > middle_mm))
+        (0..columns.operations()).all(|operation| columns.heights(operation, index).lowest.height_mm > middle_mm)
     };
     field.columns.iter().enumerate().map(tells).collect()
 }
