@@ -212,6 +212,7 @@ fn cut(linkage: &str, settings: &[String]) -> Found<Gear> {
             lead_spacing_mm: Some(0.25),
             form: Form::Poly2,
             filters: TextureFilters::default(),
+            measured: None,
         })
         .collect();
     let mut job = ShapingJob::new(scene)?;

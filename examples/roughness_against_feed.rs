@@ -54,6 +54,7 @@ fn measured(scene: &str, feed: Feed, rows: &mut Vec<Row>) -> Result<(), Box<dyn 
         lead_spacing_mm: Some(0.1),
         form: Form::Poly2,
         filters: TextureFilters::default(),
+        measured: None,
     };
     let probe = ShapingJob::new(scene.clone())?;
     let mut about_pitch_curve = Vec::new();

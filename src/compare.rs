@@ -23,7 +23,7 @@ mod lines;
 mod maps;
 mod page;
 mod ranked;
-mod surfaces;
+pub mod surfaces;
 mod table;
 
 use crate::findings::{Findings, Level};
@@ -33,8 +33,6 @@ use crate::output::text::Sheet;
 use gearcut_core::Result;
 use lines::Line;
 use std::path::PathBuf;
-
-pub use surfaces::SurfaceComparison;
 
 /// Most results that stand side by side: as many as a chart has colours for.
 pub const MOST_RESULTS: usize = 7;

@@ -88,6 +88,7 @@
 //! - [`gcode`]: how programs are written and read
 //! - [`findings`]: what a run found, as one tree of quantities and tables
 //! - [`output`]: files, charts, tables, reports
+//! - [`overlay`]: two surfaces of one place, one laid over the other
 //! - [`job`]: what the shared steps ask of a job, whatever its process
 //! - [`texture`]: texture windows on flanks
 //! - [`steps`]: steps of a run that all processes share
@@ -124,6 +125,8 @@ pub mod material;
 #[doc(hidden)]
 pub mod measure;
 pub mod output;
+#[doc(hidden)]
+pub mod overlay;
 #[doc(hidden)]
 pub mod pair;
 #[doc(hidden)]

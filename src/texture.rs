@@ -8,6 +8,7 @@
 //! | `tooth_03_left.x3p`, `.sdf`, `.npy`, `.csv` | normal deviations, nothing removed |
 //! | `tooth_03_left_relief.png` | heights after the chain, lit from the side, exaggeration stated |
 //! | `tooth_03_left_abbott.svg` | material ratio curve with the construction of Sk |
+//! | `tooth_03_left_first.png` and others | a measured surface over the window (`measured`) |
 //!
 //! A window has its own dexels, cut for it: places uniform in **arc length** along the profile (y) and along the tooth
 //! (x), heights along the target's normals. Its points lie between the rows and columns of the flank's own field, which
@@ -18,13 +19,17 @@
 mod chart;
 mod files;
 mod findings;
+mod laid_over;
+mod measured;
 mod roughness;
 mod sampling;
 mod traces;
 mod window;
 
-pub use files::{NamedWindow, SURFACE_NOTE, named_windows, write};
+pub use files::{NamedWindow, SURFACE_NOTE, named_windows};
 pub use findings::{findings, foreseen, quantities};
+pub use laid_over::{MEASURED, Overlaid};
+pub use measured::MeasuredSurface;
 pub use roughness::{ROUGHNESS, roughness, roughness_path};
 pub use sampling::{SampledWindow, sampled};
 pub use traces::{Direction, Traced, of_surface};
@@ -34,11 +39,13 @@ use crate::findings::{Severity, Warning};
 use crate::interrupt::Interrupt;
 use crate::job::{GearJob, RAY_DEPTH_MODULES};
 use crate::measure::topography::{Arguments, Evaluation, Surface};
+use crate::output::folder::OutputFolder;
 use crate::output::progress::Progress;
 use gearcut_core::cut::Backend;
 use gearcut_core::dexel::{Layer, NO_PASS};
 use gearcut_core::error::Result;
 use gearcut_core::units::UM_PER_MM;
+use laid_over::laid_over;
 use rayon::prelude::*;
 use sampling::{LineMarks, sampled_one};
 
@@ -70,6 +77,9 @@ pub struct WindowTexture {
     pub evaluated: Result<Evaluated, String>,
     /// Lines along profile and tooth; none of windows that are cut for their surface alone.
     pub traces: Vec<Traced>,
+    /// The measured surface over this one, if the scene names one; none of windows that are cut for their surface
+    /// alone.
+    pub overlaid: Option<Overlaid>,
 }
 
 /// A window after its chain.
@@ -176,9 +186,25 @@ impl LineMarks {
     }
 }
 
-/// What a reader must know before trusting the numbers of windows, and what the drawing's limits say of them.
+/// What a reader must know before trusting the numbers of windows, what the drawing's limits say of them, and what is
+/// hardly right about surfaces measured there.
 pub fn warnings(job: &dyn GearJob, textures: &[WindowTexture]) -> Vec<Warning> {
-    findings::noted(job, textures).into_iter().chain(roughness::judged(job, textures)).collect()
+    let lists = [findings::noted(job, textures), roughness::judged(job, textures), laid_over::doubted(job, textures)];
+    lists.concat()
+}
+
+/// Writes files and pictures of all windows, and of surfaces measured there; `notes` are the scene and the run record.
+///
+/// # Errors
+/// Files that cannot be written.
+pub fn write(
+    job: &dyn GearJob,
+    textures: &[WindowTexture],
+    folder: &OutputFolder,
+    notes: &[(String, String)],
+) -> Result<()> {
+    files::write(job, textures, folder, notes)?;
+    laid_over::write(job, textures, folder)
 }
 
 /// Cuts and evaluates windows of a job, as from [`sampled()`].
@@ -198,7 +224,10 @@ pub fn measure(
         .map(|window| {
             let cut = || -> Result<WindowTexture> {
                 let traces = traces::traced(job, backend, &window.window)?;
-                Ok(WindowTexture { traces, ..cut_sampled(job, backend, window)? })
+                let cut = cut_sampled(job, backend, window)?;
+                let measured = window.window.measured.as_ref();
+                let overlaid = measured.map(|of| laid_over(job, &window.window, of, cut.heights.as_ref()));
+                Ok(WindowTexture { traces, overlaid, ..cut })
             };
             let done = if interrupt.is_raised() { Ok(None) } else { cut().map(Some) };
             step.advance(1);
@@ -234,6 +263,7 @@ fn cut_sampled(job: &dyn GearJob, backend: &dyn Backend, sampled: &SampledWindow
         points_per_mark,
         evaluated,
         traces: Vec::new(),
+        overlaid: None,
     })
 }
 

@@ -3,11 +3,12 @@
 use std::path::{Path, PathBuf};
 
 use gearcut::Refusal;
-use gearcut::compare::{Compared, Comparison, SurfaceComparison};
+use gearcut::compare::{Compared, Comparison, surfaces as surface_folder};
 use gearcut::findings::Findings;
 use gearcut::measure::topography::Chain;
 use gearcut::output::surface_files::read_surface;
 use gearcut::output::text::Sheet;
+use gearcut::overlay::SurfaceComparison;
 use serde_json::json;
 
 use super::args::CompareArguments;
@@ -75,11 +76,11 @@ fn surfaces(arguments: &CompareArguments, paths: [&PathBuf; 2]) -> Result<(), Fa
     let comparison = SurfaceComparison::new(names, [&files[0].surface, &files[1].surface], &chain)
         .map_err(|problem| Refusal::new("gearcut compare", problem, "compare two surfaces of one place"))?;
     let (path, ()) = folder::fill(&out, "compare", |output, _| {
-        comparison.write(output)?;
+        surface_folder::write(&comparison, output)?;
         Ok((vec![("surfaces", json!(paths))], ()))
     })?;
     let mut sheet = Sheet::default();
-    comparison.print(&mut sheet);
+    surface_folder::print(&comparison, &mut sheet);
     Ok(print::sheet(&format!("{}\npage, table, maps and charts are in {}\n", sheet.into_text(), path.display()))?)
 }
 

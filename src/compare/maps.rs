@@ -12,11 +12,11 @@ use crate::findings::unit::sentence_with_signs;
 use crate::output::atomic::file_error;
 use crate::output::contact_sheet::{ContactSheet, Thumbnail, write_contact_sheet};
 use crate::output::folder::OutputFolder;
-use crate::output::grid::{MapAxis, MapGrid};
+use crate::output::grid::MapGrid;
 use crate::output::surface_files::read_surface;
 use crate::output::text::significant;
+use crate::overlay::grid_of;
 use gearcut_core::error::{Error, Result};
-use gearcut_core::units::UM_PER_MM;
 use std::collections::BTreeSet;
 use std::path::Path;
 
@@ -113,18 +113,6 @@ fn differences(first: &Path, other: &Path) -> Result<Vec<DifferenceMap>> {
         });
     }
     Ok(maps)
-}
-
-/// The grid of a surface for pictures, y upwards; its axes y and x by name and meaning.
-pub(super) fn grid_of(surface: &gearcut_texture::Surface, [y, x]: [(&str, &str); 2]) -> MapGrid {
-    let axis = |(name, meaning): (&str, &str), step_um: f64, count: usize| MapAxis {
-        name: name.to_owned(),
-        meaning: meaning.to_owned(),
-        start_mm: 0.0,
-        step_mm: step_um / UM_PER_MM,
-        count,
-    };
-    MapGrid { u: axis(y, surface.dy_um(), surface.ny()), v: axis(x, surface.dx_um(), surface.nx()) }
 }
 
 /// Names of the maps in a folder; none where it has no such folder.

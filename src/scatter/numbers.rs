@@ -111,6 +111,7 @@ pub fn measure(scene: &Scene, flank: FlankWish, backend: &dyn Backend) -> Result
         lead_spacing_mm: Some(WINDOW_MM / WINDOW_STEPS[1]),
         form: Form::Poly2,
         filters: TextureFilters::default(),
+        measured: None,
     }];
     let mut values = Values::new();
     process::prepare(&scene)?.with_gear(&mut |gear| {

@@ -37,7 +37,7 @@ pub(super) fn build(name: &str, process: &SceneProcess, base_dir: &Path, values:
             limits: drawn_limits(values.view("measure.limits")),
         },
         textures: (0..values.count("texture"))
-            .map(|index| texture(values.view(&format!("texture.{index}"))))
+            .map(|index| texture(values.view(&format!("texture.{index}")), base_dir))
             .collect::<Option<_>>()?,
         fields: Fields {
             profile_spacing_mm: flank.mm_from_um("profile_spacing_um")?,
@@ -179,7 +179,7 @@ fn pitch_curve(values: &Values, choice: &str, kind: GearKind) -> Option<PitchCur
     })
 }
 
-fn texture(window: View<'_>) -> Option<TextureWindow> {
+fn texture(window: View<'_>, base_dir: &Path) -> Option<TextureWindow> {
     Some(TextureWindow {
         tooth: window.whole("tooth")?,
         sides: match window.text("side")? {
@@ -208,6 +208,7 @@ fn texture(window: View<'_>) -> Option<TextureWindow> {
             robust: window.boolean("robust")?,
             cutoff_um: window.number("cutoff_um"),
         },
+        measured: window.text("measured").map(|name| base_dir.join(name)),
     })
 }
 

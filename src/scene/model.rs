@@ -191,6 +191,8 @@ pub struct TextureWindow {
     pub form: Form,
     /// What follows it.
     pub filters: TextureFilters,
+    /// Surface that was measured there.
+    pub measured: Option<PathBuf>,
 }
 
 /// Filters of a window's surface and of the lines across it; um, `None`: no filter.

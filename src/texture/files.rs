@@ -74,7 +74,7 @@ pub fn named_windows(job: &dyn GearJob) -> Result<Vec<NamedWindow>> {
 }
 
 /// What files say of their surface.
-fn words(job: &dyn GearJob, window: &Window) -> String {
+pub(super) fn words(job: &dyn GearJob, window: &Window) -> String {
     format!("{}: tooth {}, {} flank", job.operations()[window.operation].0, window.tooth, window.side.name())
 }
 
@@ -82,7 +82,7 @@ fn words(job: &dyn GearJob, window: &Window) -> String {
 ///
 /// # Errors
 /// Files that cannot be written.
-pub fn write(
+pub(super) fn write(
     job: &dyn GearJob,
     textures: &[WindowTexture],
     folder: &OutputFolder,
@@ -153,5 +153,6 @@ fn picture_of(texture: &WindowTexture, surface: &Surface) -> (MapGrid, Vec<f32>)
         u: axis("u", "along the profile from the form point", 1, surface.ny()),
         v: axis("v", "along the tooth from the middle of the face", 0, surface.nx()),
     };
-    (grid, surface.centred().heights_um().iter().map(|z| *z as f32).collect())
+    let mean_um = surface.mean_um();
+    (grid, surface.heights_um().iter().map(|z| (z - mean_um) as f32).collect())
 }

@@ -1,7 +1,7 @@
 //! Texture of windows as findings: a section for each operation, in it one for each window.
 
 use super::files::{named, stems, stems_of};
-use super::{SampledWindow, Window, WindowNote, WindowTexture, chart};
+use super::{SampledWindow, Window, WindowNote, WindowTexture, chart, laid_over};
 use crate::findings::{Datum, Quantity, Section, Table, TableColumn, Warning};
 use crate::job::GearJob;
 use crate::measure::topography::{Evaluation, Parameter};
@@ -131,13 +131,14 @@ fn window(texture: &WindowTexture, stem: &str) -> Section {
             ),
         )
         .with("files", Quantity::text(stem, "files of the window without their endings, in the output folder"));
-    match &texture.evaluated {
+    let section = match &texture.evaluated {
         Ok(evaluated) => section
             .with("chain", Quantity::text(evaluated.chain.join("; "), CHAIN))
             .part(parameters(&evaluated.evaluation))
             .part(material_ratio(&evaluated.evaluation)),
         Err(reason) => section.with("chain", Quantity::undefined("1", CHAIN, reason.clone())),
-    }
+    };
+    section.parts(texture.overlaid.as_ref().map(laid_over::section))
 }
 
 fn parameters(evaluation: &Evaluation) -> Section {

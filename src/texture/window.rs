@@ -6,6 +6,7 @@
 //! finished surface: what roughing leaves there is its fillet and its feed, not a texture that anybody measures. A
 //! window of a scene that names another operation shows that one.
 
+use super::measured::MeasuredSurface;
 use crate::job::GearJob;
 use crate::measure::topography::{Chain, Form};
 use crate::output::surface_files::MOST_POINTS;
@@ -13,6 +14,7 @@ use crate::scene::model::{TextureFilters, TextureWindow, WindowSides};
 use gearcut_core::error::{Refusal, Result};
 use gearcut_core::terms::Side;
 use gearcut_core::units::UM_PER_MM;
+use std::sync::Arc;
 
 /// Tooth that the paper measured.
 const PAPER_TOOTH: u32 = 3;
@@ -44,6 +46,8 @@ pub struct Window {
     pub cutoff_um: Option<f64>,
     /// Index of the operation that left what it shows.
     pub operation: usize,
+    /// Surface that was measured there.
+    pub measured: Option<Arc<MeasuredSurface>>,
 }
 
 impl Window {
@@ -116,18 +120,19 @@ impl Window {
 ///
 /// # Errors
 /// A tooth that the gear does not have, a window that does not lie on its flank, or one with too few or too many
-/// points.
+/// points, and a measured surface that cannot be read.
 pub fn windows(job: &dyn GearJob) -> Result<Vec<Window>> {
     let asked = if job.scene().textures.is_empty() { default_windows(job) } else { job.scene().textures.clone() };
     let mut windows = Vec::new();
     for (index, spec) in asked.iter().enumerate() {
+        let measured = MeasuredSurface::of(index, spec)?;
         let sides = match spec.sides {
             WindowSides::Left => &[Side::Left][..],
             WindowSides::Right => &[Side::Right],
             WindowSides::Both => &[Side::Left, Side::Right],
         };
         for &side in sides {
-            windows.push(resolve(job, index, spec, side)?);
+            windows.push(Window { measured: measured.clone(), ..resolve(job, index, spec, side)? });
         }
     }
     Ok(windows)
@@ -151,6 +156,7 @@ fn default_windows(job: &dyn GearJob) -> Vec<TextureWindow> {
         lead_spacing_mm: None,
         form: Form::Poly2,
         filters: TextureFilters::default(),
+        measured: None,
     };
     chosen.into_iter().map(window).collect()
 }
@@ -235,6 +241,7 @@ fn resolve(job: &dyn GearJob, index: usize, spec: &TextureWindow, side: Side) ->
         },
         cutoff_um: spec.filters.cutoff_um,
         operation,
+        measured: None,
     };
     window.lay();
     if let Some(l_um) = spec.filters.l_filter_um {

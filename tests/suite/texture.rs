@@ -161,6 +161,7 @@ fn window(
         lead_spacing_mm: Some(0.1),
         form,
         filters: TextureFilters::default(),
+        measured: None,
     }
 }
 

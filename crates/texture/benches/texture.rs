@@ -59,20 +59,19 @@ fn best_ms<T>(mut work: impl FnMut() -> T) -> f64 {
 fn main() {
     let arguments: Vec<String> = std::env::args().collect();
     let surface = map();
-    let centred = surface.centred();
-    let heights = Heights::of(&centred);
+    let heights = Heights::of(&surface);
     // Every row is what a parameter of the family costs alone, centring and sorting included.
     let rows = [
-        ("height", best_ms(|| Heights::of(&surface.centred()))),
+        ("height", best_ms(|| Heights::of(&surface))),
         ("gradient", best_ms(|| sdq(&surface))),
         ("area", best_ms(|| sdr(&surface))),
-        ("ratio", best_ms(|| MaterialRatio::of(&surface.centred()).smc_um(10.0))),
-        ("core", best_ms(|| Core::of(&MaterialRatio::of(&surface.centred())))),
-        ("volume", best_ms(|| MaterialRatio::of(&surface.centred()).material_um(80.0))),
-        ("correlation", best_ms(|| correlation_lengths(&surface.centred()))),
-        ("direction", best_ms(|| std_deg(&surface.centred()))),
-        ("wavelength", best_ms(|| ssw_um(&surface.centred()))),
-        ("feature", best_ms(|| Features::of(&surface.centred(), heights.sp + heights.sv))),
+        ("ratio", best_ms(|| MaterialRatio::of(&surface).smc_um(10.0))),
+        ("core", best_ms(|| Core::of(&MaterialRatio::of(&surface)))),
+        ("volume", best_ms(|| MaterialRatio::of(&surface).material_um(80.0))),
+        ("correlation", best_ms(|| correlation_lengths(&surface))),
+        ("direction", best_ms(|| std_deg(&surface))),
+        ("wavelength", best_ms(|| ssw_um(&surface))),
+        ("feature", best_ms(|| Features::of(&surface, heights.sp + heights.sv))),
         ("all", best_ms(|| Evaluation::of(&surface, &Arguments::default()))),
     ];
     if let Some(at) = arguments.iter().position(|a| a == "--map") {

@@ -43,66 +43,86 @@ struct Fan<'a> {
 }
 
 impl Fan<'_> {
-    /// Power of the cells of a line, from one end to the other, and how many lie on either side of the axis.
-    fn line(&self, number: usize) -> (Vec<f64>, usize) {
+    /// Power of a cell, counted from the axis.
+    fn power(&self, number: usize, offset: i64) -> f64 {
         let [across, along] = self.steps;
-        let distance = number as f64 * across;
-        let side = ((distance / along) as usize + 1).min(self.cells);
+        let (distance, place) = (number as f64 * across, offset as f64 * along);
+        if distance * distance + place * place > self.reach * self.reach {
+            return 0.0;
+        }
+        // Opposite frequencies are one wave.
+        let (fx, fy) = if self.along_y { (offset, number as i64) } else { (number as i64, offset) };
+        let (fx, fy) = if fx < 0 { (-fx, -fy) } else { (fx, fy) };
+        if fx as usize >= self.half {
+            return 0.0;
+        }
         let ny = self.spectrum.ny;
-        let value = |offset: i64| {
-            let place = offset as f64 * along;
-            if distance * distance + place * place > self.reach * self.reach {
-                return 0.0;
-            }
-            // Opposite frequencies are one wave.
-            let (fx, fy) = if self.along_y { (offset, number as i64) } else { (number as i64, offset) };
-            let (fx, fy) = if fx < 0 { (-fx, -fy) } else { (fx, fy) };
-            if fx as usize >= self.half {
-                return 0.0;
-            }
-            self.spectrum.power[fx as usize * ny + fy.rem_euclid(ny as i64) as usize]
-        };
-        ((-(side as i64)..=side as i64).map(value).collect(), side)
+        self.spectrum.power[fx as usize * ny + if fy < 0 { ny - (-fy) as usize } else { fy as usize }]
     }
 
-    /// Where the directions that part the classes cross a line, in cells from its beginning.
-    fn crossing(&self, number: usize, side: usize, class: usize) -> f64 {
+    /// Cells on either side of the axis that directions up to 45 deg cross.
+    fn side(&self, number: usize) -> usize {
         let [across, along] = self.steps;
-        let tangent = (class as f64 / PER_DEG - 45.0).to_radians().tan();
-        (tangent * number as f64 * across / along + side as f64 + 0.5).clamp(0.0, (2 * side + 1) as f64)
+        ((number as f64 * across / along) as usize + 1).min(self.cells)
     }
 
-    /// Power of all classes.
-    fn classes(&self) -> Vec<f64> {
-        let numbers: Vec<usize> = (1..=self.lines).collect();
-        let parts: Vec<Vec<f64>> = numbers
-            .par_chunks(LINES)
-            .map(|numbers| {
-                let mut sums = vec![0.0; CLASSES];
-                for &number in numbers {
-                    let (line, side) = self.line(number);
-                    let mut below = Vec::with_capacity(line.len() + 1);
-                    below.push(0.0);
-                    line.iter().fold(0.0, |sum, power| {
-                        below.push(sum + power);
-                        sum + power
-                    });
-                    let up_to = |class: usize| {
-                        let place = self.crossing(number, side, class);
-                        let cell = (place as usize).min(line.len() - 1);
-                        below[cell] + (place - cell as f64) * line[cell]
-                    };
-                    let mut before = up_to(0);
-                    for (class, sum) in sums.iter_mut().enumerate() {
-                        let here = up_to(class + 1);
-                        *sum += here - before;
-                        before = here;
-                    }
+    /// Power of the cells of some lines, from one end to the other, each line as long as the last.
+    fn block(&self, numbers: std::ops::Range<usize>) -> Vec<f64> {
+        let side = self.side(numbers.end - 1);
+        let width = 2 * side + 1;
+        let mut block = vec![0.0; numbers.len() * width];
+        let mut take = |number: usize, cell: usize| {
+            block[(number - numbers.start) * width + cell] = self.power(number, cell as i64 - side as i64);
+        };
+        // As the spectrum lies in memory.
+        if self.along_y {
+            (0..width).for_each(|cell| numbers.clone().for_each(|number| take(number, cell)));
+        } else {
+            numbers.clone().for_each(|number| (0..width).for_each(|cell| take(number, cell)));
+        }
+        block
+    }
+
+    /// Where the direction with this tangent to the axis crosses a line, in cells from the axis.
+    fn crossing(&self, number: usize, tangent: f64) -> f64 {
+        let [across, along] = self.steps;
+        let end = self.side(number) as f64 + 0.5;
+        (tangent * number as f64 * across / along).clamp(-end, end)
+    }
+
+    /// Power of all classes, which lie between directions with these tangents.
+    fn classes(&self, tangents: &[f64]) -> Vec<f64> {
+        let starts: Vec<usize> = (1..=self.lines).step_by(LINES).collect();
+        let of_block = |start: usize| {
+            let numbers = start..(start + LINES).min(self.lines + 1);
+            let side = self.side(numbers.end - 1);
+            let block = self.block(numbers.clone());
+            let mut sums = vec![0.0; tangents.len() - 1];
+            let mut below = Vec::with_capacity(2 * side + 2);
+            for (line, number) in block.chunks(2 * side + 1).zip(numbers) {
+                below.clear();
+                below.push(0.0);
+                let mut sum = 0.0;
+                below.extend(line.iter().map(|power| {
+                    sum += power;
+                    sum
+                }));
+                let up_to = |tangent: f64| {
+                    let place = self.crossing(number, tangent) + side as f64 + 0.5;
+                    let cell = (place as usize).min(line.len() - 1);
+                    below[cell] + (place - cell as f64) * line[cell]
+                };
+                let mut before = up_to(tangents[0]);
+                for (sum, &tangent) in sums.iter_mut().zip(&tangents[1..]) {
+                    let here = up_to(tangent);
+                    *sum += here - before;
+                    before = here;
                 }
-                sums
-            })
-            .collect();
-        let mut sums = vec![0.0; CLASSES];
+            }
+            sums
+        };
+        let parts: Vec<Vec<f64>> = starts.into_par_iter().map(of_block).collect();
+        let mut sums = vec![0.0; tangents.len() - 1];
         for part in parts {
             for (sum, part) in sums.iter_mut().zip(part) {
                 *sum += part;
@@ -111,18 +131,17 @@ impl Fan<'_> {
         sums
     }
 
-    /// Mean direction of the cells in a class by the squares of their power, deg.
-    fn mean_deg(&self, class: usize) -> f64 {
+    /// Mean direction of the cells between two tangents by the squares of their power, deg.
+    fn mean_deg(&self, tangents: [f64; 2]) -> f64 {
         let [across, along] = self.steps;
         let (mut power, mut turned) = (0.0, 0.0);
         for number in 1..=self.lines {
-            let (line, side) = self.line(number);
-            let [from, to] = [class, class + 1].map(|class| self.crossing(number, side, class));
-            for (cell, &value) in line.iter().enumerate().take(to.ceil() as usize).skip(from as usize) {
-                let share = (to.min(cell as f64 + 1.0) - from.max(cell as f64)).max(0.0) * value * value;
-                let offset = (cell as f64 - side as f64) * along;
+            let [from, to] = tangents.map(|tangent| self.crossing(number, tangent));
+            for offset in (from + 0.5).floor() as i64..=(to + 0.5).floor() as i64 {
+                let cell = offset as f64;
+                let share = (to.min(cell + 0.5) - from.max(cell - 0.5)).max(0.0) * self.power(number, offset).powi(2);
                 power += share;
-                turned += share * offset.atan2(number as f64 * across).to_degrees();
+                turned += share * (cell * along).atan2(number as f64 * across).to_degrees();
             }
         }
         let angle = turned / power;
@@ -142,7 +161,8 @@ pub(crate) fn direction_deg(spectrum: &PowerSpectrum, surface: &Surface) -> Resu
     let near_x = Fan { spectrum, half, steps: [x, y], lines: half - 1, cells: ny / 2, reach, along_y: false };
     let near_y = Fan { spectrum, half, steps: [y, x], lines: middle.max(1), cells: half - 1, reach, along_y: true };
     let fans = [&near_x, &near_y];
-    let classes = fans.map(Fan::classes);
+    let tangents: Vec<f64> = (0..=CLASSES).map(|class| (class as f64 / PER_DEG - 45.0).to_radians().tan()).collect();
+    let classes = fans.map(|fan| fan.classes(&tangents));
     let mut best = (0.0, None);
     for (fan, sums) in fans.into_iter().zip(&classes) {
         for (class, &sum) in sums.iter().enumerate() {
@@ -151,7 +171,7 @@ pub(crate) fn direction_deg(spectrum: &PowerSpectrum, surface: &Surface) -> Resu
             }
         }
     }
-    best.1.map(|(fan, class)| fan.mean_deg(class)).ok_or_else(|| NO_WAVES.to_owned())
+    best.1.map(|(fan, class)| fan.mean_deg([tangents[class], tangents[class + 1]])).ok_or_else(|| NO_WAVES.to_owned())
 }
 
 #[cfg(test)]
@@ -174,7 +194,7 @@ mod tests {
 
     fn std_deg(size: [usize; 2], spacing: [f64; 2], height: impl Fn(usize, usize) -> f64) -> f64 {
         let heights = (0..size[0] * size[1]).map(|i| height(i % size[0], i / size[0])).collect();
-        let surface = Surface::new(size[0], size[1], spacing[0], spacing[1], heights).expect("a grid").centred();
+        let surface = Surface::new(size[0], size[1], spacing[0], spacing[1], heights).expect("a grid");
         direction_deg(&power(&surface), &surface).expect("waves")
     }
 

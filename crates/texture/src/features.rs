@@ -36,8 +36,8 @@ pub struct Features {
 }
 
 impl Features {
-    /// Of a surface about its mean; `sz_um` is its height.
-    pub fn of(centred: &Surface, sz_um: f64) -> Self {
+    /// Of a surface; `sz_um` is its height.
+    pub fn of(surface: &Surface, sz_um: f64) -> Self {
         if sz_um == 0.0 {
             let none = || Err("the surface is flat".to_owned());
             return Self {
@@ -53,23 +53,25 @@ impl Features {
             };
         }
         let closed = |sign: f64| -> Vec<Hill> {
-            hills(centred, sign, PRUNING * sz_um).into_iter().filter(|hill| !hill.open).collect()
+            hills(surface, sign, PRUNING * sz_um).into_iter().filter(|hill| !hill.open).collect()
         };
         let (peaks, pits) = rayon::join(|| closed(1.0), || closed(-1.0));
-        let measured = centred.heights_um().len() - centred.holes();
-        let point_um2 = centred.dx_um() * centred.dy_um();
+        let measured = surface.heights_um().len() - surface.holes();
+        let point_um2 = surface.dx_um() * surface.dy_um();
         let area_um2 = measured as f64 * point_um2;
         let mean = |values: Vec<f64>, what: &str| match values.len() {
             0 => Err(format!("no {what} lies wholly inside the window")),
             count => Ok(values.iter().sum::<f64>() / count as f64),
         };
         let curvatures = |hills: &[Hill], sign: f64, what: &str| {
-            mean(hills.iter().map(|hill| sign * curvature(centred, hill.peak)).filter(|c| !c.is_nan()).collect(), what)
+            mean(hills.iter().map(|hill| sign * curvature(surface, hill.peak)).filter(|c| !c.is_nan()).collect(), what)
         };
         let area =
             |hills: &[Hill], what: &str| mean(hills.iter().map(|hill| hill.points as f64 * point_um2).collect(), what);
-        let s5p = five(centred, &peaks, 1.0, "peaks");
-        let s5v = five(centred, &pits, -1.0, "pits");
+        let mean_um = surface.mean_um();
+        let over = |hill: &Hill| surface.heights_um()[hill.peak] - mean_um;
+        let s5p = five(peaks.iter().map(over).collect(), "peaks");
+        let s5v = five(pits.iter().map(|pit| -over(pit)).collect(), "pits");
         let s10z = match (&s5p, &s5v) {
             (Ok(p), Ok(v)) => Ok(p + v),
             (Err(why), _) | (_, Err(why)) => Err(why.clone()),
@@ -97,13 +99,15 @@ fn curvature(surface: &Surface, peak: usize) -> f64 {
 }
 
 /// Mean of the five largest.
-fn five(surface: &Surface, hills: &[Hill], sign: f64, what: &str) -> Result<f64, String> {
-    if hills.len() < FIVE {
-        return Err(format!("only {} significant {what} lie wholly inside the window, five are needed", hills.len()));
+fn five(mut heights_um: Vec<f64>, what: &str) -> Result<f64, String> {
+    if heights_um.len() < FIVE {
+        return Err(format!(
+            "only {} significant {what} lie wholly inside the window, five are needed",
+            heights_um.len()
+        ));
     }
-    let mut heights: Vec<f64> = hills.iter().map(|hill| sign * surface.heights_um()[hill.peak]).collect();
-    heights.sort_unstable_by(|a, b| b.total_cmp(a));
-    Ok(heights[..FIVE].iter().sum::<f64>() / FIVE as f64)
+    heights_um.sort_unstable_by(|a, b| b.total_cmp(a));
+    Ok(heights_um[..FIVE].iter().sum::<f64>() / FIVE as f64)
 }
 
 #[cfg(test)]

@@ -21,7 +21,8 @@ use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
 use std::f64::consts::{LN_2, PI};
 use std::sync::Arc;
 
-use super::surface::{Surface, transposed};
+use super::columns::{by_columns, transposed};
+use super::surface::Surface;
 
 /// The weights end at this many nesting indices, where they are 7e-7 of the middle one.
 const REACH: f64 = 1.0;
@@ -121,37 +122,49 @@ impl Filter {
     /// Local planes through `surface` with these weights (`None`: all 1).
     fn apply(&self, surface: &Surface, weights: Option<&[f64]>) -> Vec<f64> {
         let (nx, ny) = (surface.nx(), surface.ny());
-        let weighted: Vec<f64> = match weights {
-            None => surface.heights_um().to_vec(),
-            Some(weights) => {
-                let heights = surface.heights_um().par_iter().zip(weights);
-                heights.map(|(z, w)| if z.is_nan() { 0.0 } else { w * z }).collect()
-            }
-        };
-        let [a, b] = self.x.convolved(&weighted, nx, [0, 1]);
-        let [z, zy] = self.down([0, 1], &a, nx, ny);
-        let [zx] = self.down([0], &b, nx, ny);
+        let weights_of = |y: usize| weights.map(|weights| &weights[y * nx..(y + 1) * nx]);
+        // Along x: sums of the weighted heights, column by column.
+        let [mut z, zx] = by_columns(
+            [nx, ny],
+            || self.x.buffers(),
+            |buffers, y, sums| {
+                let row = surface.row(y).iter().copied();
+                *sums = match weights_of(y) {
+                    None => self.x.sums(buffers, row),
+                    Some(weights) => {
+                        self.x.sums(buffers, row.zip(weights).map(|(z, w)| if z.is_nan() { 0.0 } else { w * z }))
+                    }
+                };
+            },
+        );
         let moments = match weights {
             None => Moments::of_rectangle(self),
-            Some(weights) => Moments::of_weights(self, weights, nx, ny),
+            Some(weights) => Moments::OfWeights(by_columns(
+                [nx, ny],
+                || self.x.buffers(),
+                |buffers, y, sums| {
+                    *sums = self.x.sums(buffers, weights[y * nx..(y + 1) * nx].iter().copied());
+                },
+            )),
         };
-        let mut heights = vec![0.0; nx * ny];
-        heights.par_chunks_mut(nx).enumerate().for_each(|(y, row)| {
-            for (x, value) in row.iter_mut().enumerate() {
-                let i = y * nx + x;
-                *value = if surface.heights_um()[i].is_nan() {
-                    f64::NAN
-                } else {
-                    plane_at_middle(moments.at(x, y, nx), [z[i], zx[i], zy[i]])
-                };
-            }
-        });
+        // Down every column, whose place takes the result.
+        z.par_chunks_mut(ny).zip(zx.par_chunks(ny)).enumerate().for_each_init(
+            || self.y.buffers(),
+            |buffers, (x, (z, zx))| {
+                let [sum, sum_y] = self.y.sums(buffers, z.iter().copied());
+                let [sum_x] = self.y.sums(buffers, zx.iter().copied());
+                let moments = moments.column(&self.y, buffers, x);
+                for (y, value) in z.iter_mut().enumerate() {
+                    *value = plane_at_middle(moments.each_ref().map(|of| of[y]), [sum[y], sum_x[y], sum_y[y]]);
+                }
+            },
+        );
+        drop(zx);
+        let mut heights = transposed(&z, ny, nx);
+        for (value, z) in heights.iter_mut().zip(surface.heights_um()).filter(|(_, z)| z.is_nan()) {
+            *value = *z;
+        }
         heights
-    }
-
-    /// Convolutions along y.
-    fn down<const N: usize>(&self, powers: [usize; N], values: &[f64], nx: usize, ny: usize) -> [Vec<f64>; N] {
-        self.y.convolved(&transposed(values, nx, ny), ny, powers).map(|turned| transposed(&turned, ny, nx))
     }
 }
 
@@ -171,30 +184,31 @@ fn plane_at_middle([m, mx, my, mxx, mxy, myy]: [f64; 6], [z, zx, zy]: [f64; 3]) 
 enum Moments {
     /// All weights are 1: products of moments along the axes.
     Rectangle { x: [Vec<f64>; 3], y: [Vec<f64>; 3] },
-    /// 1, x, y, x^2, x y, y^2.
-    Weights([Vec<f64>; 6]),
+    /// Moments along x, column by column.
+    OfWeights([Vec<f64>; 3]),
 }
 
 impl Moments {
     fn of_rectangle(filter: &Filter) -> Self {
-        let along = |kernels: &LineKernels| kernels.convolved(&vec![1.0; kernels.count], kernels.count, [0, 1, 2]);
+        let along = |of: &LineKernels| of.sums(&mut of.buffers(), std::iter::repeat_n(1.0, of.count));
         Self::Rectangle { x: along(&filter.x), y: along(&filter.y) }
     }
 
-    fn of_weights(filter: &Filter, weights: &[f64], nx: usize, ny: usize) -> Self {
-        let [a, b, c] = filter.x.convolved(weights, nx, [0, 1, 2]);
-        let [m, my, myy] = filter.down([0, 1, 2], &a, nx, ny);
-        let [mx, mxy] = filter.down([0, 1], &b, nx, ny);
-        let [mxx] = filter.down([0], &c, nx, ny);
-        Self::Weights([m, mx, my, mxx, mxy, myy])
-    }
-
-    fn at(&self, x: usize, y: usize, nx: usize) -> [f64; 6] {
+    /// 1, x, y, x^2, x y, y^2 down column `x`.
+    fn column(&self, along_y: &LineKernels, buffers: &mut LineBuffers, x: usize) -> [Vec<f64>; 6] {
         match self {
-            Self::Rectangle { x: [x0, x1, x2], y: [y0, y1, y2] } => {
-                [x0[x] * y0[y], x1[x] * y0[y], x0[x] * y1[y], x2[x] * y0[y], x1[x] * y1[y], x0[x] * y2[y]]
+            Self::Rectangle { x: along_x, y } => {
+                let product = |p: usize, q: usize| y[q].iter().map(|moment| along_x[p][x] * moment).collect();
+                [product(0, 0), product(1, 0), product(0, 1), product(2, 0), product(1, 1), product(0, 2)]
             }
-            Self::Weights(moments) => std::array::from_fn(|k| moments[k][y * nx + x]),
+            Self::OfWeights(along_x) => {
+                let ny = along_y.count;
+                let column = |power: usize| along_x[power][x * ny..(x + 1) * ny].iter().copied();
+                let [m, my, myy] = along_y.sums(buffers, column(0));
+                let [mx, mxy] = along_y.sums(buffers, column(1));
+                let [mxx] = along_y.sums(buffers, column(2));
+                [m, mx, my, mxx, mxy, myy]
+            }
         }
     }
 }
@@ -234,40 +248,52 @@ impl LineKernels {
         Self { count, padded, forward, inverse, kernels }
     }
 
-    /// Sums over the neighbourhood along each line of `count` values, weighted with the given powers of the distance.
-    pub(crate) fn convolved<const N: usize>(&self, values: &[f64], count: usize, powers: [usize; N]) -> [Vec<f64>; N] {
-        debug_assert_eq!(count, self.count);
-        let mut lines: Vec<[Vec<f64>; N]> = Vec::new();
-        values
-            .par_chunks(count)
-            .map_init(
-                || {
-                    let scratch = self.forward.get_scratch_len().max(self.inverse.get_scratch_len());
-                    let spectrum = self.forward.make_output_vec();
-                    (vec![0.0; self.padded], spectrum.clone(), spectrum, vec![Complex::default(); scratch])
-                },
-                |(line, spectrum, product, scratch), row| {
-                    line[..count].copy_from_slice(row);
-                    line[count..].fill(0.0);
-                    self.forward.process_with_scratch(line, spectrum, scratch).expect("lengths are the plan's");
-                    powers.map(|power| {
-                        for ((out, a), b) in product.iter_mut().zip(spectrum.iter()).zip(&self.kernels[power]) {
-                            *out = a * b;
-                        }
-                        // Rounding leaves dust where a real line's transform must be real; the plan refuses it.
-                        product[0].im = 0.0;
-                        if self.padded.is_multiple_of(2) {
-                            let last = product.len() - 1;
-                            product[last].im = 0.0;
-                        }
-                        self.inverse.process_with_scratch(product, line, scratch).expect("lengths are the plan's");
-                        line[..count].to_vec()
-                    })
-                },
-            )
-            .collect_into_vec(&mut lines);
-        std::array::from_fn(|k| lines.iter().flat_map(|line| line[k].iter().copied()).collect())
+    /// What the transforms of a line need.
+    pub(crate) fn buffers(&self) -> LineBuffers {
+        let spectrum = self.forward.make_output_vec();
+        let scratch = self.forward.get_scratch_len().max(self.inverse.get_scratch_len());
+        LineBuffers {
+            line: vec![0.0; self.padded],
+            product: spectrum.clone(),
+            spectrum,
+            scratch: vec![Complex::default(); scratch],
+        }
     }
+
+    /// Sums over the neighbourhood of every value of a line, weighted with the powers 0 to `N` - 1 of the distance.
+    pub(crate) fn sums<const N: usize>(
+        &self,
+        buffers: &mut LineBuffers,
+        values: impl Iterator<Item = f64>,
+    ) -> [Vec<f64>; N] {
+        let LineBuffers { line, spectrum, product, scratch } = buffers;
+        line[self.count..].fill(0.0);
+        for (place, value) in line[..self.count].iter_mut().zip(values) {
+            *place = value;
+        }
+        self.forward.process_with_scratch(line, spectrum, scratch).expect("lengths are the plan's");
+        std::array::from_fn(|power| {
+            for ((out, a), b) in product.iter_mut().zip(spectrum.iter()).zip(&self.kernels[power]) {
+                *out = a * b;
+            }
+            // Rounding leaves dust where a real line's transform must be real; the plan refuses it.
+            product[0].im = 0.0;
+            if self.padded.is_multiple_of(2) {
+                let last = product.len() - 1;
+                product[last].im = 0.0;
+            }
+            self.inverse.process_with_scratch(product, line, scratch).expect("lengths are the plan's");
+            line[..self.count].to_vec()
+        })
+    }
+}
+
+/// Room for the transforms of a line.
+pub(crate) struct LineBuffers {
+    line: Vec<f64>,
+    spectrum: Vec<Complex<f64>>,
+    product: Vec<Complex<f64>>,
+    scratch: Vec<Complex<f64>>,
 }
 
 /// Smallest even length from `least` on with the prime factors 2, 3 and 5 alone, which transforms fast.

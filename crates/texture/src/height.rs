@@ -4,7 +4,6 @@
 //! Holes are left out.
 
 use super::surface::Surface;
-use rayon::prelude::*;
 
 /// Height parameters; heights in um.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -24,11 +23,12 @@ pub struct Heights {
 }
 
 impl Heights {
-    /// Of a surface about its mean ([`Surface::centred`]).
-    pub fn of(centred: &Surface) -> Self {
-        let [n, s1, s2, s3, s4] = centred.sum_rows(|_, row| {
+    /// Of a surface.
+    pub fn of(surface: &Surface) -> Self {
+        let mean_um = surface.mean_um();
+        let [n, s1, s2, s3, s4] = surface.sum_rows(|_, row| {
             let mut sums = [0.0; 5];
-            for &z in row.iter().filter(|z| !z.is_nan()) {
+            for z in row.iter().filter(|z| !z.is_nan()).map(|z| z - mean_um) {
                 let z2 = z * z;
                 sums[0] += 1.0;
                 sums[1] += z.abs();
@@ -39,10 +39,9 @@ impl Heights {
             sums
         });
         let sq = (s2 / n).sqrt();
-        // Largest and smallest pass over holes: NaN is neither.
-        let sp = centred.heights_um().par_iter().copied().reduce(|| f64::NEG_INFINITY, f64::max);
-        let sv = -centred.heights_um().par_iter().copied().reduce(|| f64::INFINITY, f64::min);
-        let flat = sp + sv == 0.0;
+        let [low, high] = surface.ends_um();
+        let (sp, sv) = (high - mean_um, mean_um - low);
+        let flat = low == high;
         let over = |moment: f64, power: i32| if flat { f64::NAN } else { moment / n / sq.powi(power) };
         Self { sa: s1 / n, sq, ssk: over(s3, 3), sku: over(s4, 4), sp, sv }
     }

@@ -14,6 +14,7 @@
 //! - `disk_steps`: the steps on the disk by which files come to be, where tests may refuse them
 //! - [`atomic`]: files that are complete or absent
 //! - [`surface`]: heights on a grid with holes
+//! - `columns`: lines laid down as columns
 //! - [`height_steps`]: how coarse the steps of an instrument's heights are
 //! - [`form`]: the F-operator
 //! - [`gaussian`]: S- and L-filter
@@ -22,6 +23,7 @@
 //! - [`hybrid`]: Sdq Sdr
 //! - [`ratio`]: Smr Smc Sdc Sxp Vm Vv Vmp Vmc Vvc Vvv
 //! - [`core`]: Sk Spk Svk Smrk1 Smrk2 Spkx Svkx Sak1 Sak2
+//! - [`probability`]: Spq Svq Smq
 //! - [`trace`]: a line of heights, its holes bridged
 //! - [`line_form`]: the form of a line
 //! - [`line_filter`]: profile S- and L-filter
@@ -102,6 +104,7 @@
 pub mod align;
 pub mod atomic;
 pub mod chain;
+mod columns;
 pub mod core;
 mod direction;
 #[doc(hidden)]
@@ -119,6 +122,7 @@ pub mod line_filter;
 pub mod line_form;
 pub mod parameters;
 pub mod prepare;
+pub mod probability;
 pub mod profile;
 pub mod profile_chain;
 pub mod ratio;

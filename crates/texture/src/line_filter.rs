@@ -37,16 +37,15 @@ pub fn low_pass(
 
 /// Values in the middle of the lines that fit best round every point.
 fn local_lines(kernels: &LineKernels, heights_um: &[f64], weights: &[f64]) -> Vec<f64> {
-    let n = heights_um.len();
-    let weighted: Vec<f64> = heights_um.iter().zip(weights).map(|(z, w)| w * z).collect();
-    let [z, zx] = kernels.convolved(&weighted, n, [0, 1]);
-    let [m, mx, mxx] = kernels.convolved(weights, n, [0, 1, 2]);
+    let buffers = &mut kernels.buffers();
+    let [z, zx] = kernels.sums(buffers, heights_um.iter().zip(weights).map(|(z, w)| w * z));
+    let [m, mx, mxx] = kernels.sums(buffers, weights.iter().copied());
     let at = |i: usize| {
         let determinant = m[i] * mxx[i] - mx[i] * mx[i];
         // Too little weight on one side determines no tilt; then the mean has to do.
         if determinant > 1e-6 * m[i] * mxx[i] { (z[i] * mxx[i] - zx[i] * mx[i]) / determinant } else { z[i] / m[i] }
     };
-    (0..n).map(at).collect()
+    (0..heights_um.len()).map(at).collect()
 }
 
 #[cfg(test)]

@@ -6,6 +6,7 @@ use super::core::Core;
 use super::features::Features;
 use super::height::Heights;
 use super::hybrid::Hybrid;
+use super::probability::Probability;
 use super::profile::Profile;
 use super::profile_chain::{ProfileKind, Profiles};
 use super::ratio::MaterialRatio;
@@ -53,21 +54,21 @@ pub struct Arguments {
 impl Evaluation {
     /// The full areal set of a surface after its chain.
     pub fn of(surface: &Surface, arguments: &Arguments) -> Self {
-        let centred = surface.centred();
-        let heights = Heights::of(&centred);
+        let heights = Heights::of(surface);
         let sz = heights.sp + heights.sv;
         // One after the other: each is shared out over the cores by itself, and what it needs of memory is given back
         // before the next one begins.
-        let hybrid = Hybrid::of(&centred);
-        let spatial = Spatial::of(&centred, sz == 0.0);
-        let features = Features::of(&centred, sz);
-        let curve = MaterialRatio::of(&centred);
+        let hybrid = Hybrid::of(surface);
+        let spatial = Spatial::of(surface, sz == 0.0);
+        let features = Features::of(surface, sz);
+        let curve = MaterialRatio::of(surface);
         let core = Core::of(&curve);
         let mut list = List::default();
         list.heights(&heights);
         list.spatial(&spatial);
         list.hybrid(hybrid);
         list.core(&core, sz == 0.0);
+        list.strata(Probability::of(&curve));
         list.functions(&curve, arguments);
         list.volumes(&curve);
         list.features(&features);
@@ -273,6 +274,17 @@ impl List {
             "um^3/um^2",
             "dales below the core, volume per unit area: Svk (100 - Smrk2) / 200",
         );
+    }
+
+    fn strata(&mut self, found: Result<Probability, String>) {
+        let way = "material probability curve, hyperbola whose asymptotes' angle is halved three times (ISO 13565-3)";
+        for (symbol, value, unit, what) in [
+            ("Spq", found.clone().map(|of| of.spq), "um", "root mean square height of the plateau"),
+            ("Svq", found.clone().map(|of| of.svq), "um", "root mean square height of the dales"),
+            ("Smq", found.map(|of| of.smq), "%", "material ratio where plateau and dales meet"),
+        ] {
+            self.add("probability", symbol, value, unit, format!("{what}: {way}"));
+        }
     }
 
     fn functions(&mut self, curve: &MaterialRatio, arguments: &Arguments) {

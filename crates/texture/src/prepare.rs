@@ -114,7 +114,7 @@ impl Preparation {
                 // Std is the direction of the waves; the lay runs across it.
                 Turn::Lay => {
                     let (level, _) = form::remove(&surface, Form::Plane)?;
-                    let std = Spatial::of(&level.centred(), false).std;
+                    let std = Spatial::of(&level, false).std;
                     90.0 - std.map_err(|why| format!("no lay to turn to: {why}"))?
                 }
             };

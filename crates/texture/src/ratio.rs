@@ -8,22 +8,17 @@ use rayon::prelude::*;
 
 /// Samples summed at a time.
 const CHUNK: usize = 1 << 16;
-
-/// Keys sorted on one thread: halves of more are sorted side by side.
-const ONE_THREAD: usize = 1 << 18;
+/// Heights laid into classes at a time.
+const PART: usize = 1 << 18;
+/// Heights of a class on average: few enough to be sorted in the nearest cache.
+const IN_A_CLASS: usize = 256;
 /// Sign of a float among its bits.
 const SIGN: u64 = 1 << 63;
-/// Key of a hole, behind all others.
-const NO_HEIGHT: u64 = u64::MAX;
 
 /// Whole number that is the smaller the higher a point stands: whole numbers are sorted faster than floats.
 fn key(height: f64) -> u64 {
     let bits = height.to_bits();
-    match (height.is_nan(), height.is_sign_negative()) {
-        (true, _) => NO_HEIGHT,
-        (_, true) => bits,
-        (_, false) => !(bits | SIGN),
-    }
+    if height.is_sign_negative() { bits } else { !(bits | SIGN) }
 }
 
 /// Height of a key.
@@ -31,13 +26,61 @@ fn height(key: u64) -> f64 {
     f64::from_bits(if key & SIGN != 0 { key } else { !key & !SIGN })
 }
 
-fn sort(keys: &mut [u64]) {
-    if keys.len() <= ONE_THREAD {
-        keys.sort_unstable();
-        return;
+/// Keys of some heights, class after class.
+struct ClassedKeys {
+    keys: Vec<u64>,
+    /// Where every class begins, and where the last ends.
+    starts: Vec<usize>,
+}
+
+impl ClassedKeys {
+    fn of(heights_um: &[f64], classes: usize, class: impl Fn(f64) -> usize) -> Self {
+        let measured = || heights_um.iter().copied().filter(|z| !z.is_nan());
+        let mut starts = vec![0; classes + 1];
+        measured().for_each(|z| starts[class(z) + 1] += 1);
+        for i in 0..classes {
+            starts[i + 1] += starts[i];
+        }
+        let mut next = starts.clone();
+        let mut keys = vec![0; starts[classes]];
+        for z in measured() {
+            let place = &mut next[class(z)];
+            keys[*place] = key(z);
+            *place += 1;
+        }
+        Self { keys, starts }
     }
-    let (low, _, high) = keys.select_nth_unstable(keys.len() / 2);
-    rayon::join(|| sort(low), || sort(high));
+
+    fn class(&self, class: usize) -> &[u64] {
+        &self.keys[self.starts[class]..self.starts[class + 1]]
+    }
+}
+
+/// Heights over `level_um`, sorted downwards; holes are left out. Classes of equal height part them, so that each is
+/// sorted by itself: heights that all lie in a few of them take no longer than sorting without classes.
+fn sorted(heights_um: &[f64], [low, high]: [f64; 2], level_um: f64) -> Vec<f64> {
+    let classes = (heights_um.len() / IN_A_CLASS).clamp(1, 1 << 14);
+    let per_um = if high > low { classes as f64 / (high - low) } else { 0.0 };
+    let class = |z: f64| (((high - z) * per_um) as usize).min(classes - 1);
+    let parts: Vec<ClassedKeys> =
+        heights_um.par_chunks(PART).map(|part| ClassedKeys::of(part, classes, class)).collect();
+    let mut sorted_um = vec![0.0; parts.iter().map(|part| part.keys.len()).sum()];
+    let mut rest = sorted_um.as_mut_slice();
+    let mut places = Vec::with_capacity(classes);
+    for class in 0..classes {
+        let (place, after) = rest.split_at_mut(parts.iter().map(|part| part.class(class).len()).sum());
+        places.push(place);
+        rest = after;
+    }
+    places.into_par_iter().enumerate().for_each_init(Vec::new, |keys, (class, place)| {
+        keys.clear();
+        parts.iter().for_each(|part| keys.extend_from_slice(part.class(class)));
+        keys.sort_unstable();
+        for (z, &key) in place.iter_mut().zip(keys.iter()) {
+            *z = height(key) - level_um;
+        }
+    });
+    sorted_um
 }
 
 /// Heights sorted downwards, um.
@@ -47,17 +90,15 @@ pub struct MaterialRatio {
 }
 
 impl MaterialRatio {
-    /// Curve of a surface; holes are left out.
+    /// Curve of a surface about its mean; holes are left out.
     pub fn of(surface: &Surface) -> Self {
-        Self::of_heights(surface.heights_um())
+        Self { sorted_um: sorted(surface.heights_um(), surface.ends_um(), surface.mean_um()) }
     }
 
     /// Curve of some heights, of which at least one is not NaN.
     pub fn of_heights(heights_um: &[f64]) -> Self {
-        let mut keys: Vec<u64> = heights_um.par_iter().map(|&z| key(z)).collect();
-        sort(&mut keys);
-        keys.truncate(keys.partition_point(|&key| key < NO_HEIGHT));
-        Self { sorted_um: keys.into_par_iter().map(height).collect() }
+        let ends = heights_um.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[l, h], z| [l.min(*z), h.max(*z)]);
+        Self { sorted_um: sorted(heights_um, ends, 0.0) }
     }
 
     /// Number of heights.

@@ -8,6 +8,9 @@
 //! | Sc4 | 10 | 80 | 2.5 | 12.5 | 8 |
 //! | Sc5 | beyond | beyond | 8 | 40 | 25 |
 //!
+//! Limits, cut-offs and lengths were held against a published summary of the standard. The S-filters are from memory:
+//! no readable source was found for that column.
+//!
 //! The standard takes the class from the upper limit on the drawing. Without one it is taken from an estimate of Ra
 //! ([`crate::profile_chain`] says of which).
 

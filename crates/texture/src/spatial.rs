@@ -31,55 +31,55 @@ pub struct Spatial {
 
 impl Spatial {
     /// Of a surface about its mean; `flat` when its heights do not differ.
-    pub fn of(centred: &Surface, flat: bool) -> Self {
+    pub fn of(surface: &Surface, flat: bool) -> Self {
         if flat {
             let none = || Err("the surface is flat".to_owned());
             return Self { sal: none(), str: none(), std: none(), ssw: none() };
         }
-        let (sal, str) = correlation_lengths(centred);
-        let [std, ssw] = match spectrum(centred) {
-            Ok(power) => [direction_deg(&power, centred), wavelength_um(&power, centred)],
+        let (sal, str) = correlation_lengths(surface);
+        let [std, ssw] = match spectrum(surface) {
+            Ok(power) => [direction_deg(&power, surface), wavelength_um(&power, surface)],
             Err(why) => [Err(why.clone()), Err(why)],
         };
         Self { sal, str, std, ssw }
     }
 }
 
-/// Sal, um, and Str of a surface about its mean that is not flat.
-pub fn correlation_lengths(centred: &Surface) -> (Result<f64, String>, Result<f64, String>) {
-    let mut found = products(centred);
-    if centred.holes() == 0 {
+/// Sal, um, and Str of a surface that is not flat.
+pub fn correlation_lengths(surface: &Surface) -> (Result<f64, String>, Result<f64, String>) {
+    let mut found = products(surface, surface.mean_um());
+    if surface.holes() == 0 {
         divide_by_overlap(&mut found);
     } else {
-        let measured = centred.heights_um().iter().map(|z| f64::from(u8::from(!z.is_nan()))).collect();
-        let overlap = products(&centred.with_heights(measured));
+        let measured = surface.heights_um().iter().map(|z| f64::from(u8::from(!z.is_nan()))).collect();
+        let overlap = products(&surface.with_heights(measured), 0.0);
         for (sum, count) in found.sums.iter_mut().zip(&overlap.sums) {
             // Half a pair is rounding: at such a lag no two measured points lie over each other.
             *sum = if *count > 0.5 { *sum / count } else { f64::NAN };
         }
     }
-    decay(&found, [centred.dx_um(), centred.dy_um()])
+    decay(&found, [surface.dx_um(), surface.dy_um()])
 }
 
-/// Std alone, deg, of a surface about its mean that is not flat.
+/// Std alone, deg, of a surface that is not flat.
 ///
 /// # Errors
 /// Holes.
-pub fn std_deg(centred: &Surface) -> Result<f64, String> {
-    direction_deg(&spectrum(centred)?, centred)
+pub fn std_deg(surface: &Surface) -> Result<f64, String> {
+    direction_deg(&spectrum(surface)?, surface)
 }
 
-/// Ssw alone, um, of a surface about its mean that is not flat.
+/// Ssw alone, um, of a surface that is not flat.
 ///
 /// # Errors
 /// Holes.
-pub fn ssw_um(centred: &Surface) -> Result<f64, String> {
-    wavelength_um(&spectrum(centred)?, centred)
+pub fn ssw_um(surface: &Surface) -> Result<f64, String> {
+    wavelength_um(&spectrum(surface)?, surface)
 }
 
-fn spectrum(centred: &Surface) -> Result<PowerSpectrum, String> {
-    match centred.holes() {
-        0 => Ok(power(centred)),
+fn spectrum(surface: &Surface) -> Result<PowerSpectrum, String> {
+    match surface.holes() {
+        0 => Ok(power(surface)),
         holes => Err(format!("the map has {holes} holes, and a Fourier spectrum needs every point; crop them away")),
     }
 }

@@ -5,14 +5,18 @@
 //! unbiased linear autocorrelation. Road not taken: the circular one. It correlates the upper edge with the lower one,
 //! which moves Sal by several per cent.
 //!
-//! **Power.** The transform without padding, from which directions and wavelengths are read.
+//! **Power.** The transform about the mean without padding, from which directions and wavelengths are read.
 
 use rayon::prelude::*;
 use realfft::RealFftPlanner;
 use rustfft::FftPlanner;
 use rustfft::num_complex::Complex;
 
-use super::surface::{Surface, transposed};
+use super::columns::by_columns;
+use super::surface::Surface;
+
+/// Rows transformed back at a time.
+const ROWS: usize = 8;
 
 /// Sums of products over lags (tx, ty): ty from 0 upwards, tx from -(nx - 1) to nx - 1.
 pub(crate) struct Products {
@@ -32,29 +36,28 @@ pub(crate) struct PowerSpectrum {
     pub power: Vec<f64>,
 }
 
-/// Lines along y of the transform along x, padded with zeros to `mx` values; holes count as 0. One line of `ny` values
-/// for each frequency from 0 to `mx` / 2.
-fn transformed_along_x(surface: &Surface, mx: usize) -> Vec<Complex<f64>> {
+/// Lines along y of the transform along x, padded with zeros to `mx` values, of heights over `level_um`; holes count as
+/// that level. One line of `ny` values for each frequency from 0 to `mx` / 2.
+fn transformed_along_x(surface: &Surface, mx: usize, level_um: f64) -> Vec<Complex<f64>> {
     let to_x = RealFftPlanner::<f64>::new().plan_fft_forward(mx);
-    let half = mx / 2 + 1;
-    let mut rows = vec![Complex::default(); half * surface.ny()];
-    rows.par_chunks_mut(half).enumerate().for_each_init(
+    let [columns] = by_columns(
+        [mx / 2 + 1, surface.ny()],
         || (vec![0.0; mx], to_x.make_scratch_vec()),
-        |(line, scratch), (y, out)| {
+        |(line, scratch), y, [out]| {
             line.fill(0.0);
             for (value, &z) in line.iter_mut().zip(surface.row(y)) {
-                *value = if z.is_nan() { 0.0 } else { z };
+                *value = if z.is_nan() { 0.0 } else { z - level_um };
             }
             to_x.process_with_scratch(line, out, scratch).expect("lengths are the plan's");
         },
     );
-    transposed(&rows, half, surface.ny())
+    columns
 }
 
-/// Power of a surface without holes.
+/// Power of a surface without holes about its mean; that of the mean itself is rounding.
 pub(crate) fn power(surface: &Surface) -> PowerSpectrum {
     let ny = surface.ny();
-    let mut columns = transformed_along_x(surface, surface.nx());
+    let mut columns = transformed_along_x(surface, surface.nx(), surface.mean_um());
     let to_y = FftPlanner::<f64>::new().plan_fft_forward(ny);
     let mut power = vec![0.0; columns.len()];
     power.par_chunks_mut(ny).zip(columns.par_chunks_mut(ny)).for_each_init(
@@ -69,12 +72,12 @@ pub(crate) fn power(surface: &Surface) -> PowerSpectrum {
     PowerSpectrum { ny, power }
 }
 
-/// Sums of products of a surface whose holes count as 0.
-pub(crate) fn products(surface: &Surface) -> Products {
+/// Sums of products of heights over `level_um`; holes count as that level.
+pub(crate) fn products(surface: &Surface, level_um: f64) -> Products {
     let (nx, ny) = (surface.nx(), surface.ny());
     let (mx, my) = (2 * nx, 2 * ny);
     let half = nx + 1;
-    let mut columns = transformed_along_x(surface, mx);
+    let mut columns = transformed_along_x(surface, mx, level_um);
     let mut planner = FftPlanner::<f64>::new();
     let (to_y, from_y) = (planner.plan_fft_forward(my), planner.plan_fft_inverse(my));
     columns.par_chunks_mut(ny).for_each_init(
@@ -93,21 +96,27 @@ pub(crate) fn products(surface: &Surface) -> Products {
             column.copy_from_slice(&line[..ny]);
         },
     );
-    let mut rows = transposed(&columns, ny, half);
-    drop(columns);
     let from_x = RealFftPlanner::<f64>::new().plan_fft_inverse(mx);
     let lags = 2 * nx - 1;
     let scale = 1.0 / (mx as f64 * my as f64);
     let mut sums = vec![0.0; lags * ny];
-    sums.par_chunks_mut(lags).zip(rows.par_chunks_mut(half)).for_each_init(
-        || (vec![0.0; mx], from_x.make_scratch_vec()),
-        |(line, scratch), (out, row)| {
-            // Rounding leaves dust where a real line's transform must be real; the plan refuses it.
-            row[0].im = 0.0;
-            row[half - 1].im = 0.0;
-            from_x.process_with_scratch(row, line, scratch).expect("lengths are the plan's");
-            for (i, value) in out.iter_mut().enumerate() {
-                *value = scale * line[(i + mx + 1 - nx) % mx];
+    sums.par_chunks_mut(lags * ROWS).enumerate().for_each_init(
+        || (vec![Complex::default(); half * ROWS], vec![0.0; mx], from_x.make_scratch_vec()),
+        |(rows, line, scratch), (block, out)| {
+            // Several rows at once: each takes one value out of every column.
+            for (x, column) in columns.chunks(ny).enumerate() {
+                for (y, value) in column[block * ROWS..].iter().take(ROWS).enumerate() {
+                    rows[y * half + x] = *value;
+                }
+            }
+            for (row, out) in rows.chunks_mut(half).zip(out.chunks_mut(lags)) {
+                // Rounding leaves dust where a real line's transform must be real; the plan refuses it.
+                row[0].im = 0.0;
+                row[half - 1].im = 0.0;
+                from_x.process_with_scratch(row, line, scratch).expect("lengths are the plan's");
+                for (i, value) in out.iter_mut().enumerate() {
+                    *value = scale * line[(i + mx + 1 - nx) % mx];
+                }
             }
         },
     );
@@ -125,7 +134,7 @@ mod tests {
         let at = |x: usize, y: usize| ((3 * x * x + 7 * y + x * y) % 11) as f64 - 5.0;
         let heights = (0..nx * ny).map(|i| at(i % nx, i / nx)).collect();
         let surface = Surface::new(nx, ny, 1.0, 1.0, heights).expect("a grid");
-        let products = products(&surface);
+        let products = products(&surface, 0.0);
         for ty in 0..ny {
             for tx in -(nx as i64 - 1)..nx as i64 {
                 let mut sum = 0.0;
@@ -141,7 +150,9 @@ mod tests {
             }
         }
         let spectrum = power(&surface);
-        for (fx, fy) in [(0, 0), (1, 0), (2, 3), (3, 4)] {
+        // The mean is off: it has no waves.
+        assert!(spectrum.power[0] < 1e-20, "{}", spectrum.power[0]);
+        for (fx, fy) in [(1, 0), (0, 2), (2, 3), (3, 4)] {
             let mut z = Complex::new(0.0, 0.0);
             for i in 0..nx * ny {
                 let turns = (fx * (i % nx)) as f64 / nx as f64 + (fy * (i / nx)) as f64 / ny as f64;

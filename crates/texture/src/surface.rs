@@ -128,11 +128,12 @@ impl Surface {
         sum / count
     }
 
-    /// The surface about its mean height.
-    #[must_use]
-    pub fn centred(&self) -> Self {
-        let mean = self.mean_um();
-        self.with_heights(self.heights_um.par_iter().map(|z| z - mean).collect())
+    /// Lowest and highest height, um.
+    pub fn ends_um(&self) -> [f64; 2] {
+        // Smallest and largest pass over holes: NaN is neither.
+        let ends = |[low, high]: [f64; 2], [a, b]: [f64; 2]| [low.min(a), high.max(b)];
+        let none = || [f64::INFINITY, f64::NEG_INFINITY];
+        self.heights_um.par_iter().map(|&z| [z, z]).reduce(none, ends)
     }
 
     /// Without a margin of whole points on every side, at least `margin_um` wide.
@@ -175,21 +176,6 @@ pub(crate) fn check_heights(heights_um: &[f64]) -> Result<(), (usize, String)> {
     }
 }
 
-/// Columns as rows: `nx` x `ny` values become `ny` x `nx`.
-pub(crate) fn transposed<T: Copy + Default + Send + Sync>(values: &[T], nx: usize, ny: usize) -> Vec<T> {
-    /// Columns taken at a time: a block of that many lines stays in the cache.
-    const BLOCK: usize = 16;
-    let mut out = vec![T::default(); values.len()];
-    out.par_chunks_mut(BLOCK * ny).enumerate().for_each(|(block, lines)| {
-        for y in 0..ny {
-            for (i, line) in lines.chunks_mut(ny).enumerate() {
-                line[y] = values[y * nx + block * BLOCK + i];
-            }
-        }
-    });
-    out
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -224,13 +210,5 @@ mod tests {
         assert_eq!(inner.row(0), [9.0, 10.0, 11.0]);
         assert!(surface.cropped(3.0).is_err());
         assert!(surface.cropped(1e300).is_err());
-    }
-
-    #[test]
-    fn transposing_twice_changes_nothing() {
-        let values: Vec<f64> = (0..37 * 21).map(f64::from).collect();
-        let turned = transposed(&values, 37, 21);
-        assert_eq!(turned[3 * 21 + 5], values[5 * 37 + 3]);
-        assert_eq!(transposed(&turned, 21, 37), values);
     }
 }

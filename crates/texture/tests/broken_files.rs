@@ -9,7 +9,7 @@ const TOO_MANY: &str = "more than 8000000, which take 1 GB";
 const NO_NUMBER: &str = "must be a number other than 0";
 
 /// Every file of the folder, and words that its reason must hold.
-const REASONS: [(&str, &str); 59] = [
+const REASONS: [(&str, &str); 63] = [
     ("compressed.sdf", "compressed SDF files are not read"),
     ("compressed.sur", "an object of type 0"),
     ("cut_off.npy", "the array of 3 x 3 is cut off"),
@@ -47,6 +47,7 @@ const REASONS: [(&str, &str); 59] = [
     ("product_of_sides_overflows.npy", TOO_MANY),
     ("record_is_no_xml.x3p", "main.xml: expected 'b' tag"),
     ("record_of_entities.x3p", "DTD"),
+    ("rows_cut_off.al3d", "the file ends at byte 1141"),
     ("rows_of_different_length.csv", "line 5 has 3 heights"),
     ("scale_infinite.sdf", NO_NUMBER),
     ("scale_overflows.sdf", BEYOND),
@@ -55,11 +56,14 @@ const REASONS: [(&str, &str); 59] = [
     ("side_negative.sur", "a side of -2 points"),
     ("spacing_beyond_range.csv", "a spacing of 1e300 um is out of range"),
     ("spacing_is_no_number.x3p", "not NaN x 1 um"),
+    ("spacing_zero.al3d", "`PixelSizeXMeter` of the AL3D file is `0`"),
     ("spacing_zero.csv", "not 0 x 1 um"),
     ("step_infinite.sur", NO_NUMBER),
     ("step_makes_kilometres.sur", BEYOND),
     ("stream_inflates_to_more.sur", "does not inflate to the 320 bytes"),
     ("streams_without_end.sur", "the file ends at byte"),
+    ("tags_without_number.al3d", "`TagCount` of the AL3D file is `1e9`"),
+    ("too_many_points.al3d", TOO_MANY),
     ("too_many_points.exr", "more than 100000000 values"),
     ("too_many_points.sdf", TOO_MANY),
     ("too_many_points.sur", TOO_MANY),

@@ -113,6 +113,9 @@ fn holes_are_left_out_or_named() {
             "Std" | "Ssw" => {
                 assert!(parameter.value.as_ref().is_err_and(|why| why.contains("holes")), "{parameter:?}");
             }
+            "Spq" | "Svq" | "Smq" => {
+                assert!(parameter.value.as_ref().is_err_and(|why| why.contains("one stratum")), "{parameter:?}");
+            }
             symbol => {
                 let value = *parameter.value.as_ref().expect("defined");
                 let before = whole.value(symbol).expect("defined");

@@ -1,8 +1,8 @@
 //! Lines of `gearcut texture`: profile parameters through the chain of profiles.
 //!
 //! In: the surface as it was read; the profile options. Out: [`Lines`] for each `--line`, and one for `--lines`, as
-//! words and as JSON. Limits of a drawing are judged by the largest value of the lines (ISO 21920-1: no value may be
-//! above the limit unless the drawing says otherwise).
+//! words and as JSON. Limits of a drawing are judged by the largest value of the lines: no value may be above the limit
+//! unless the drawing says otherwise (the default of ISO 21920-1, from memory).
 
 use gearcut::Refusal;
 use gearcut::measure::topography::line_form::LineForm;

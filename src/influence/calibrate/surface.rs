@@ -177,14 +177,10 @@ mod tests {
             side = \"left\"
             operation = \"rough\"
         ";
-        let evaluated = |settings: &[&str], name: String, percent: Option<f64>| {
+        let evaluated_symbols = |settings: &[&str], name: String, percent: Option<f64>, symbols: Vec<String>| {
             let settings: Vec<String> = settings.iter().map(|&setting| setting.to_owned()).collect();
             let loaded = process::parse(scene, "scene.toml", &PathBuf::new(), &settings).expect("a scene");
-            let wish = MeasuredWish {
-                noise_um: None,
-                surface_percent: percent,
-                symbols: vec!["Sa".to_owned(), "Sq".to_owned()],
-            };
+            let wish = MeasuredWish { noise_um: None, surface_percent: percent, symbols };
             let mut found = None;
             let prepared = process::prepare(&loaded.scene).expect("a gear");
             let done = prepared.with_gear(&mut |gear| {
@@ -192,6 +188,9 @@ mod tests {
                 Ok(())
             });
             done.map(|()| found.expect("a gear")).map_err(|error| error.to_string())
+        };
+        let evaluated = |settings: &[&str], name: String, percent: Option<f64>| {
+            evaluated_symbols(settings, name, percent, vec!["Sa".to_owned(), "Sq".to_owned()])
         };
         let name = path.display().to_string();
         let asked = format!("{name}@finish.tooth_03_left");
@@ -210,6 +209,26 @@ mod tests {
         assert!(bent[0].value > 5.0, "{bent:?}");
         let (_, note) = evaluated(&["texture.0.length_profile_mm=2"], asked.clone(), Some(5.0)).expect("a surface");
         assert!(note.is_some_and(|note| note.contains("4.00 mm") && note.contains("2.00 mm")));
+        // The waves are 200 um long: an S-filter of L lets 2^-(L / 200)^2 of them pass, an L-filter the rest.
+        let filtered = |filter: &str| {
+            let setting = format!("texture.0.{filter}");
+            evaluated(&[&setting], asked.clone(), Some(5.0)).expect("a surface").0[0].value
+        };
+        // At both ends, a sixteenth of the length, the filter has half of its neighbourhood.
+        let passed = 2_f64.powf(-(250.0_f64 / 200.0).powi(2));
+        for (filter, left) in [("s_filter_um=250", passed), ("l_filter_um=250", 1.0 - passed)] {
+            let value = filtered(filter);
+            assert!((value / (left * expected[0]) - 1.0).abs() < 0.04, "{filter}: {value}");
+        }
+        // Lines along the profile: a cut-off of 250 um leaves 1 - 2^-(250 / 200)^2 of the waves.
+        let line = |cutoff: &str| {
+            let setting = format!("texture.0.cutoff_um={cutoff}");
+            let wish_of = vec!["along_profile.Ra".to_owned()];
+            evaluated_symbols(&[&setting], asked.clone(), Some(5.0), wish_of).expect("lines").0[0].clone()
+        };
+        let ra = line("250");
+        assert_eq!(ra.quantity, "roughness.finish.tooth_03_left_along_profile.Ra");
+        assert!((ra.value / ((1.0 - passed) * expected[0]) - 1.0).abs() < 0.02, "{ra:?}");
         // Two operations: the file does not say which.
         let unsaid = evaluated(&[], name, Some(5.0)).expect_err("two windows");
         assert!(unsaid.contains("finish.tooth_03_left, rough.tooth_03_left"), "{unsaid}");

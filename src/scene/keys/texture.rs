@@ -112,6 +112,15 @@ pub(super) static SECTIONS: &[KeySection] = &[KeySection {
             "800.0",
             "Cut-off of the lines along profile and tooth whose Ra and Rz are given.",
         ),
+        Key {
+            name: "measured",
+            kind: Kind::Path,
+            unit: "",
+            default: Default::LeftOut("no measured surface"),
+            example: "\"flank_3_left.x3p\"",
+            teach: "Measured surface of the window (X3P, SDF, SUR, GWY or text; the path is relative to the scene \
+                file), laid over what is cut: maps, difference and parameters of both. The window is one flank.",
+        },
     ],
     groups: &[],
     teach: "A window on a flank whose surface texture is evaluated after an operation. Without any, the active \

@@ -3,10 +3,12 @@
 mod averaged;
 pub mod blank;
 pub mod deviations;
+mod digits;
 pub mod facts;
 pub mod files;
 pub mod machine_errors;
 pub mod maps;
+mod measured;
 pub mod quantities;
 pub mod texture;
 

@@ -1,11 +1,12 @@
 //! Texture windows on the page: the finished surface open, what earlier operations left folded away.
 
+use super::digits::digits;
+use super::measured;
 use crate::findings::{self, Findings, unit};
 use crate::output::folder::OutputFolder;
 use crate::output::ratio_chart::{RatioChart, SkConstruction};
 use crate::output::report::texture::{ParameterRow, TextureBlock};
 use crate::output::report::{Block, PageSection, PageTable};
-use crate::output::text::significant;
 use crate::texture;
 use gearcut_core::error::{Error, Result};
 
@@ -38,15 +39,19 @@ pub fn section(found: &Findings, folder: &OutputFolder) -> Result<Option<PageSec
     }))
 }
 
-/// The windows of an operation.
+/// The windows of an operation, and surfaces measured there.
 fn shown(operation: &findings::Section, found: &Findings, folder: &OutputFolder) -> Result<Vec<Block>> {
     let block = |window: &findings::Section| {
         let path = format!("texture.{}.{}", operation.key, window.key);
-        let warnings = found.warnings.iter().filter(|warning| warning.section.as_ref() == Some(&path));
+        let of_window = |section: &String| *section == path || *section == format!("{path}.{}", texture::MEASURED);
+        let warnings = found.warnings.iter().filter(|warning| warning.section.as_ref().is_some_and(of_window));
         let warnings = warnings.map(|warning| warning.with_signs().text).collect();
-        Ok(Block::Texture(texture_window(window, warnings, folder)?))
+        let mut blocks = vec![Block::Texture(texture_window(window, warnings, folder)?)];
+        blocks.extend(measured::blocks(window, folder)?);
+        Ok(blocks)
     };
-    operation.sections.iter().map(block).collect()
+    let blocks: Vec<Vec<Block>> = operation.sections.iter().map(block).collect::<Result<_>>()?;
+    Ok(blocks.concat())
 }
 
 fn texture_window(window: &findings::Section, warnings: Vec<String>, folder: &OutputFolder) -> Result<TextureBlock> {
@@ -171,31 +176,4 @@ fn profiles(found: &Findings, finished: &findings::Section) -> Option<Block> {
         columns: columns.to_vec(),
         rows: operation.sections.iter().map(row).collect(),
     }))
-}
-
-/// A number with so many digits; as a power of ten where a plain number would be mostly zeros.
-fn digits(value: f64, count: u32) -> String {
-    let text = if value != 0.0 && value.abs() < 1e-4 {
-        let text = format!("{value:.*e}", count as usize - 1);
-        let (mantissa, exponent) = text.split_once('e').unwrap_or((&text, "0"));
-        let raised = exponent.chars().map(|c| match c {
-            '-' => '⁻',
-            digit => "⁰¹²³⁴⁵⁶⁷⁸⁹".chars().nth(digit.to_digit(10).unwrap_or(0) as usize).unwrap_or('⁰'),
-        });
-        format!("{mantissa} × 10{}", raised.collect::<String>())
-    } else {
-        significant(value, count)
-    };
-    text.replace('-', "−")
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn small_numbers_are_powers_of_ten() {
-        let texts = [0.256_63, -0.001, 3.14e-7, -2e-12, 0.0].map(|value| digits(value, 3));
-        assert_eq!(texts, ["0.257", "−0.00100", "3.14 × 10⁻⁷", "−2.00 × 10⁻¹²", "0"]);
-    }
 }

@@ -11,6 +11,7 @@ mod defaults;
 mod disk_faults;
 mod error_layers;
 mod hobbing;
+mod measured_surface;
 mod nothing_lost;
 mod once;
 mod pair;

@@ -1,9 +1,9 @@
 //! Bounds of what is read: regular files of a size that their format can have, and surfaces that fit into memory.
 //!
-//! A surface takes up to 110 bytes a point while it is evaluated, with a robust filter 180: one of the most points 0.9
-//! GB, or 1.4 GB. A file need not be large for that. X3P and EXR are compressed, and zeros shrink to a thousandth; so
-//! the bound is one of points, whatever the file has in bytes. Maps are read as they are and evaluated nowhere: theirs
-//! is one of values.
+//! A surface takes up to 110 bytes a point while it is evaluated, robust filters included: one of the most points 0.9
+//! GB. A file need not be large for that. X3P and EXR are compressed, and zeros shrink to a thousandth; so the bound is
+//! one of points, whatever the file has in bytes. Maps are read as they are and evaluated nowhere: theirs is one of
+//! values.
 //!
 //! Road not taken: reading pipes. A pipe may wait for ever in silence, and formats with a directory at their end need
 //! all of it anyway; a file costs one more word on the command line.

@@ -12,13 +12,14 @@ pub(super) enum FileKind {
     SdfAscii,
     Sur,
     Gwy,
+    Al3d,
     Npy,
     Exr,
     Text,
 }
 
 /// First bytes of what is read.
-const STARTS: [(&[u8], FileKind); 10] = [
+const STARTS: [(&[u8], FileKind); 11] = [
     (b"PK\x03\x04", FileKind::X3p),
     (b"bISO-", FileKind::SdfBinary),
     (b"bBCR-", FileKind::SdfBinary),
@@ -27,6 +28,7 @@ const STARTS: [(&[u8], FileKind); 10] = [
     (b"DIGITAL SURF", FileKind::Sur),
     (b"DSCOMPRESSED", FileKind::Sur),
     (b"GWYP", FileKind::Gwy),
+    (b"AliconaImaging", FileKind::Al3d),
     (b"\x93NUMPY", FileKind::Npy),
     (&[0x76, 0x2f, 0x31, 0x01], FileKind::Exr),
 ];
@@ -35,12 +37,11 @@ const STARTS: [(&[u8], FileKind); 10] = [
 const TEXT: [&str; 7] = ["csv", "txt", "asc", "xyz", "tsv", "prn", "dat"];
 
 /// First bytes of instruments' formats that are known and not read: nothing was at hand to hold their heights against.
-const INSTRUMENTS: [(&[u8], &str); 10] = [
+const INSTRUMENTS: [(&[u8], &str); 9] = [
     (&[0x88, 0x1b, 0x03, 0x6f], "a Zygo MetroPro file (DAT)"),
     (&[0x88, 0x1b, 0x03, 0x70], "a Zygo MetroPro file (DAT)"),
     (&[0x88, 0x1b, 0x03, 0x71], "a Zygo MetroPro file (DAT)"),
     (b"\x89HDF", "an HDF5 file, as Zygo's DATX is"),
-    (b"AliconImaging", "an Alicon file (AL3D)"),
     (&[1, 0, b'D', b'i', b'r', b'e', b'c', b't', b'o', b'r', b'y'], "a Wyko file (OPD)"),
     (b"VK4", "a Keyence file (VK4)"),
     (b"VK6", "a Keyence file (VK6)"),
@@ -79,7 +80,7 @@ impl FileKind {
             Ok(Self::Text)
         } else {
             Err(format!(
-                "not an X3P, SDF, SUR, GWY, NPY, EXR or text file; text has one of the endings {}",
+                "not an X3P, SDF, SUR, GWY, AL3D, NPY, EXR or text file; text has one of the endings {}",
                 TEXT.join(", ")
             ))
         }
@@ -88,7 +89,7 @@ impl FileKind {
     /// Most bytes that a surface of this kind can have.
     pub(super) fn most_bytes(self) -> u64 {
         match self {
-            Self::X3p | Self::SdfBinary | Self::Sur | Self::Npy | Self::Gwy => MOST_BYTES_OF_NUMBERS,
+            Self::X3p | Self::SdfBinary | Self::Sur | Self::Npy | Self::Gwy | Self::Al3d => MOST_BYTES_OF_NUMBERS,
             Self::Exr => MOST_BYTES_OF_MAPS,
             Self::SdfAscii | Self::Text => MOST_BYTES_OF_TEXT,
         }

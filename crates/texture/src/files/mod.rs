@@ -1,5 +1,5 @@
 //! Surfaces in files that metrology programs open, and back: X3P, SDF (binary and ASCII), SUR, NPY, CSV, and our EXR
-//! maps; GWY and text of any program are read.
+//! maps; GWY, AL3D and text of any program are read.
 //!
 //! Out: [`SurfaceFile`], heights in um on a regular grid with spacing, holes as NaN, and notes (frame, scene, run
 //! record). In: [`MeasuredFile`], a surface or a trace of one line, with remarks on how it was read. What each format
@@ -14,11 +14,13 @@
 //! | `.csv` | f64, um, shortest text that reads back | in comment lines | empty | in comment lines |
 //! | other text | in the unit it says, or that is given | said or given | empty, `nan`, `bad`, `---` | none |
 //! | `.gwy` (Gwyddion), read | f64, m | f64 | NaN; masks are remarked | none |
+//! | `.al3d` (Alicona), read | f32, m | f64 | a value of its own and above | none |
 //! | `.exr` | f32, mm | f64 | NaN | header attributes |
 //!
 //! The same surface gives the same bytes: dates that a format demands are its word for "unknown", zip entries carry no
 //! time. X3P is the one to archive: every reader that was tried opens it as it is written here.
 
+mod al3d;
 mod bounds;
 mod content;
 mod exr;
@@ -126,6 +128,7 @@ fn decoded(kind: FileKind, bytes: &[u8], path: &Path, given: &Given) -> std::res
         FileKind::SdfAscii => sdf_ascii::decode(bytes),
         FileKind::Sur => sur::decode(bytes),
         FileKind::Gwy => gwy::decode(bytes, given.use_mask),
+        FileKind::Al3d => al3d::decode(bytes),
         FileKind::Npy => npy::facts_beside(path).and_then(|facts| npy::decode(bytes, facts.as_ref(), given)),
         FileKind::Exr => exr::decode(bytes),
         FileKind::Text => text::decode(bytes, given),

@@ -349,8 +349,9 @@ fn damaged_files_are_refused() {
     // 5,000 mutants of the dialects: bytes changed, doubled, left out; read in time and memory, or refused.
     let dialects =
         ["bcr.sdf", "gwyddion.txt", "compressed.sur", "profile.pro", "in_a_folder.x3p", "heights_in_xml.x3p"];
-    let gwy = [data("formats/tiny.gwy"), data("written_elsewhere/gwyfile.gwy")];
-    let sources: Vec<PathBuf> = dialects.iter().map(|name| data("dialects").join(name)).chain(gwy).collect();
+    let others =
+        ["formats/tiny.gwy", "written_elsewhere/gwyfile.gwy", "written_elsewhere/hole_surfalize.al3d"].map(data);
+    let sources: Vec<PathBuf> = dialects.iter().map(|name| data("dialects").join(name)).chain(others).collect();
     let mut state = 1_u64;
     let mut random = |below: usize| {
         state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
@@ -433,7 +434,9 @@ fn files_of_other_programs_hold_the_surface_they_were_given() {
     let surface = |heights: &Vec<f64>| {
         Surface::new(columns, rows.len(), spacing[0], spacing[1], heights.clone()).expect("a grid")
     };
-    for name in ["surfalize.x3p", "surfalize.sdf", "surfalize.sur", "surfacetopography.x3p", "x3pio.x3p"] {
+    for name in
+        ["surfalize.x3p", "surfalize.sdf", "surfalize.sur", "surfalize.al3d", "surfacetopography.x3p", "x3pio.x3p"]
+    {
         for (prefix, heights) in [("", &whole), ("hole_", &holed)] {
             let name = format!("{prefix}{name}");
             let read = read_surface(&folder.join(&name), None).unwrap_or_else(|reason| panic!("{name}: {reason}"));

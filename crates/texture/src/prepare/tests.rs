@@ -65,7 +65,7 @@ fn a_turned_wave_runs_in_the_turned_direction() {
         }
     }
     let (along, _) = only(|p| p.rotate = Some(Turn::Lay)).apply(&original).expect("turned");
-    let std = Spatial::of(&along.centred(), false).std.expect("a direction");
+    let std = Spatial::of(&along, false).std.expect("a direction");
     assert!((std - 90.0).abs() < 1.0, "{std}");
 }
 

@@ -30,6 +30,7 @@ const CONVERT: &str = "save it as X3P where it was measured, or convert it (docs
 /// Reads a table of heights.
 pub(super) fn decode(bytes: &[u8], given: &Given) -> Result<MeasuredFile, String> {
     let (text, encoding) = characters(bytes)?;
+    let text = table::without_quotes(text)?;
     if let Some((_, what)) = OTHERS.iter().find(|(start, _)| text.starts_with(start)) {
         return Err(format!("it is {what}: {CONVERT}"));
     }

@@ -42,7 +42,11 @@ pub(super) fn measured(table: TextTable, header: TextHeader, given: &Given) -> R
     let columns = table.columns;
     let lines = table.values.len().checked_div(columns).unwrap_or(0);
     if lines == 0 {
-        return Err("the file has no row of numbers".to_owned());
+        return Err(
+            "the file has no row of numbers: heights are lines of numbers with tabulators, semicolons, commas or \
+                    blanks between them"
+                .to_owned(),
+        );
     }
     for (count, found, sides) in [(header.counts[0], columns, "columns"), (header.counts[1], lines, "rows")] {
         if let Some((count, line)) = count.filter(|(count, _)| columns > 3 && *count != found) {
@@ -87,6 +91,10 @@ pub(super) fn measured(table: TextTable, header: TextHeader, given: &Given) -> R
     }
     let unit = agreed("heights", named.or(header.height_unit), given.height_unit)?;
     let unit = unit.ok_or_else(|| open(&grid.what, "the unit of its heights", "--height-unit", &header))?;
+    if given.height_unit.is_some() && !header.unclear.is_empty() {
+        let lines = header.unclear[..header.unclear.len().min(3)].join("; ");
+        remarks.push(format!("heights: {unit}, as given; a unit was not understood in {lines}"));
+    }
     let heights = grid.values.into_iter().map(|z| kept_number(z, z * unit.um())).collect();
     let content = MeasuredContent::new(grid.nx, grid.ny, spacing_um[0], spacing_um[1], heights)?;
     Ok(MeasuredFile { content, notes: header.notes, remarks })
@@ -96,7 +104,7 @@ pub(super) fn measured(table: TextTable, header: TextHeader, given: &Given) -> R
 fn agreed(what: &str, of_file: Option<LengthUnit>, given: Option<LengthUnit>) -> Result<Option<LengthUnit>, String> {
     match (of_file, given) {
         (Some(of_file), Some(given)) if of_file != given => {
-            Err(format!("the file says its {what} are in {of_file}, not in {given}"))
+            Err(format!("the file says its {what} are in {of_file}, not in {given}: leave the option out"))
         }
         _ => Ok(of_file.or(given)),
     }

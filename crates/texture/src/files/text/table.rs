@@ -3,7 +3,8 @@
 //! The first of these that a line has parts its cells: tabulator, semicolon, comma, blanks. A comma is the decimal sign
 //! where cells are parted otherwise and have at most one comma and no point; commas in a table without another
 //! separator are read as separators only where that is certain. Holes: empty cells, `nan`, `bad`, `---`. A separator at
-//! the end of every line is none, but in the files of this program, where it stands before a hole.
+//! the end of every line is none, but in the files of this program, where it stands before a hole. Numbers in quotation
+//! marks are those numbers.
 
 use super::super::bounds::{MOST_POINTS, height};
 use crate::text::quoted;
@@ -39,6 +40,33 @@ pub(super) fn begins(line: &str) -> bool {
         numbers |= number && !is_hole(part);
         number || is_hole(part)
     }) && numbers
+}
+
+/// The text with its numbers out of quotation marks.
+pub(super) fn without_quotes(text: String) -> Result<String, String> {
+    if !text.contains('"') {
+        return Ok(text);
+    }
+    let mut plain = String::with_capacity(text.len());
+    for (index, line) in text.split_inclusive('\n').enumerate() {
+        let bare = line.replace('"', "");
+        if !line.contains('"') || !begins(&bare) {
+            plain.push_str(line);
+            continue;
+        }
+        // Quotation marks that hold a comma beside commas that part cells.
+        let (inside, outside) = (line.split('"').skip(1).step_by(2), line.split('"').step_by(2));
+        if inside.into_iter().any(|part| part.contains(',')) && outside.into_iter().any(|part| part.contains(',')) {
+            return Err(format!(
+                "line {}: `{}`: commas part the cells and are decimal signs in quotation marks: export with points as \
+                 decimal signs, or with semicolons between cells",
+                index + 1,
+                quoted(line.trim())
+            ));
+        }
+        plain.push_str(&bare);
+    }
+    Ok(plain)
 }
 
 /// Whether some cell of a line is a number.

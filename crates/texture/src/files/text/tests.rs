@@ -165,6 +165,25 @@ fn exports_with_quoted_cells_are_understood() {
 }
 
 #[test]
+fn numbers_in_quotation_marks_are_numbers() {
+    for (separator, decimal) in [(";", '.'), (";", ','), (",", '.'), ("\t", ',')] {
+        let plain = table(1.0, separator, decimal, "");
+        let row = |line: &str| format!("\"{}\"", line.replace(separator, &format!("\"{separator}\"")));
+        let text = plain.lines().map(row).collect::<Vec<_>>().join("\n");
+        assert!(is_map(&read(&text, &UM).unwrap_or_else(|reason| panic!("{reason}: {text}"))), "{text}");
+    }
+    let reason = refused("\"1,5\",\"2,5\"\n\"3,5\",\"4,5\"\n", &UM);
+    assert!(reason.contains("line 1") && reason.contains("in quotation marks"), "{reason}");
+}
+
+/// A unit that is named in words which are not understood: what is given counts, and the line is told.
+#[test]
+fn a_line_that_was_not_understood_is_told_beside_a_given_unit() {
+    let found = read(&format!("Data in nm\n{}", table(1.0, ";", '.', "")), &UM).expect("a map");
+    assert!(found.remarks.iter().any(|remark| remark.contains("line 1: `Data in nm`")), "{:?}", found.remarks);
+}
+
+#[test]
 fn commas_that_may_be_either_are_refused() {
     for text in ["0,307,-0,328\n0,992,-1,064\n", "-0,369\n1,126\n2,5\n", "1.920,5;2.000,1\n1,5;2,5\n"] {
         let reason = refused(text, &UM);

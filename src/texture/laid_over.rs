@@ -1,0 +1,84 @@
+//! A measured surface laid over what was cut in its window.
+//!
+//! In: a window's heights and its [`MeasuredSurface`]. Out: [`Overlaid`], with what was cut as the first surface:
+//! findings, warnings, and maps beside those of the window. x of the file runs along the tooth and y along the profile
+//! towards the tip, as in the window's own files; a mirrored one is found, one that is turned has a poor correlation
+//! and is warned of.
+//!
+//! | file | what |
+//! | --- | --- |
+//! | `tooth_03_left_first.png`, `_second.png` | cut and measured heights on shared points, to one scale |
+//! | `tooth_03_left_difference.png`, `.x3p` | measured less cut, levelled |
+
+use super::files::{stems, words};
+use super::measured::MeasuredSurface;
+use super::{Window, WindowTexture};
+use crate::findings::{Quantity, Section, Warning};
+use crate::job::GearJob;
+use crate::measure::topography::Surface;
+use crate::output::folder::OutputFolder;
+use crate::overlay::SurfaceComparison;
+
+/// Key of the section in that of the window.
+pub const MEASURED: &str = "measured";
+
+/// A measured surface laid over what was cut, or why that cannot be.
+pub type Overlaid = Result<SurfaceComparison, String>;
+
+/// `measured` laid over the heights that were cut in its window.
+pub(super) fn laid_over(
+    job: &dyn GearJob,
+    window: &Window,
+    measured: &MeasuredSurface,
+    cut: Option<&Surface>,
+) -> Overlaid {
+    let cut = cut.ok_or("the window has no heights")?;
+    let path = &measured.path;
+    let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
+    SurfaceComparison::new([words(job, window), name], [cut, &measured.surface], &window.chain)
+}
+
+/// Findings of a window's measured surface.
+pub(super) fn section(overlaid: &Overlaid) -> Section {
+    let title = "Measured over cut";
+    match overlaid {
+        Ok(comparison) => comparison.section(MEASURED, title),
+        Err(why) => {
+            let definition = "of the heights of both on the points that they share, planes off";
+            Section::new(MEASURED, title).with("correlation", Quantity::undefined("1", definition, why.clone()))
+        }
+    }
+}
+
+/// What is hardly right about measured surfaces and their windows.
+pub(super) fn doubted(job: &dyn GearJob, textures: &[WindowTexture]) -> Vec<Warning> {
+    let of_window = |(texture, stem): (&WindowTexture, String)| {
+        let name = words(job, &texture.window);
+        let section = format!("{}.{MEASURED}", stem.replace('/', "."));
+        let about = |text: String| format!("measured surface of {name}: {text}");
+        let doubts = match &texture.overlaid {
+            None => Vec::new(),
+            Some(Ok(comparison)) => comparison.doubts().into_iter().map(|text| Warning::warn(about(text))).collect(),
+            Some(Err(why)) => vec![Warning::fault(about(format!("it cannot be laid over what was cut: {why}")))],
+        };
+        doubts.into_iter().map(|doubt| doubt.about(&section)).collect::<Vec<_>>()
+    };
+    textures.iter().zip(stems(job, textures)).flat_map(of_window).collect()
+}
+
+/// Writes the maps of all measured surfaces.
+///
+/// # Errors
+/// Files that cannot be written.
+pub(super) fn write(
+    job: &dyn GearJob,
+    textures: &[WindowTexture],
+    folder: &OutputFolder,
+) -> gearcut_core::error::Result<()> {
+    for (texture, stem) in textures.iter().zip(stems(job, textures)) {
+        if let Some(Ok(comparison)) = &texture.overlaid {
+            comparison.write_maps(folder, &format!("{stem}_"))?;
+        }
+    }
+    Ok(())
+}
