@@ -386,7 +386,7 @@ mod tests {
     fn height_over(mesh: &Mesh, place: DVec2) -> f64 {
         let over = (0..mesh.triangles.len()).find_map(|t| {
             let corners = mesh.corners_mm(t);
-            let [a, b, c] = corners.map(|corner| corner.truncate());
+            let [a, b, c] = corners.map(DVec3::truncate);
             let area = (b - a).perp_dot(c - a);
             let shares = [(c - b).perp_dot(place - b), (a - c).perp_dot(place - c), (b - a).perp_dot(place - a)];
             let shares = shares.map(|share| share / area);
