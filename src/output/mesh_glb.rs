@@ -147,7 +147,7 @@ fn build(file: &MeshFile) -> (Document, Vec<u8>) {
         quantities.sort();
         let layout = |component_type| Accessor { component_type, ..floats(indices.len(), "SCALAR") };
         // The largest number of each kind ends a strip.
-        let indices = if count <= usize::from(u16::MAX) {
+        let indices = if u16::try_from(count).is_ok() {
             values.push(INDEX, indices.iter().flat_map(|&i| (i as u16).to_le_bytes()), layout(UNSIGNED_SHORT))
         } else {
             values.push(LONG_INDEX, indices.iter().flat_map(|i| i.to_le_bytes()), layout(UNSIGNED_INT))
