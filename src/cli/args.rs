@@ -236,7 +236,7 @@ pub struct CutArguments {
     /// Folder to write [default: out/<scene>, or out/<scene>_draft and out/<scene>_part with --draft and --only].
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
-    /// What computes: auto takes a GPU if there is a real one that answers within ten seconds.
+    /// What computes: auto takes a GPU if there is a real one that answers within ten seconds and is faster.
     #[arg(long, value_enum, default_value_t = BackendChoice::Auto)]
     pub backend: BackendChoice,
     /// What happens to a flank whose GPU is lost or runs out of memory.
@@ -271,7 +271,7 @@ fn part_names() -> PossibleValuesParser {
 /// What computes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum BackendChoice {
-    /// A real GPU if there is one, else the processor.
+    /// A real GPU if it is faster on tiles of the scene, else the processor.
     Auto,
     /// A GPU, or fail.
     Gpu,
