@@ -165,7 +165,9 @@ fn table(fit: &SplineFit) -> Table {
         let counts = [at.tooth, at.space].map(|number| Datum::from(u64::from(number)));
         [counts.to_vec(), vec![at.thickness_mm.into(), at.width_mm.into()], um.to_vec()].concat()
     };
-    Table::new("teeth", "Every tooth in its space", columns).with_rows(fit.teeth.iter().map(row)).in_file("spline_fit")
+    Table::new("tooth_by_tooth", "Every tooth in its space", columns)
+        .with_rows(fit.teeth.iter().map(row))
+        .in_file("spline_fit")
 }
 
 fn chart(fit: &SplineFit) -> BarChart {

@@ -4,7 +4,7 @@
 
 use super::*;
 use crate::pair_job::options::PairOptions;
-use crate::pair_job::spline::{SplineFit, fit, is_spline};
+use crate::pair_job::spline::{SplineFit, fit, is_spline, report};
 use gearcut_core::cut::cpu::Cpu;
 use gearcut_core::error::Result;
 use gearcut_core::units::UM_PER_MM;
@@ -92,6 +92,9 @@ fn nominal_parts_have_the_clearance_of_their_allowances() {
         assert!(gaps, "{tooth:?} for {clearance_um} um");
         assert_eq!(tooth.space, if tooth.tooth == 1 { TEETH } else { tooth.tooth - 1 });
     }
+    let found = report::findings("fit", [&shaft.scene, &hub.scene], &fit);
+    let told_um = found.find("fit").and_then(|section| section.number("clearance")).expect("a number");
+    assert!((told_um - UM_PER_MM * fit.clearance_mm).abs() < 1e-9 && found.warnings.is_empty());
     let [effective_mm, space_mm] = fit.effective_mm;
     for clearance_mm in [fit.clearance_mm, fit.positions_mm[0], fit.positions_mm[1], space_mm - effective_mm] {
         assert!((UM_PER_MM * clearance_mm - clearance_um).abs() < 2.0 * STROKES_UM, "{fit:?}");
