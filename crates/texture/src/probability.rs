@@ -177,8 +177,8 @@ mod tests {
         })
     }
 
-    fn of(heights: Vec<f64>) -> Result<Probability, String> {
-        Probability::of(&MaterialRatio::of_heights(&heights))
+    fn of(heights: impl Iterator<Item = f64>) -> Result<Probability, String> {
+        Probability::of(&MaterialRatio::of_heights(&heights.collect::<Vec<_>>()))
     }
 
     /// Known values of the normal distribution.
@@ -198,7 +198,7 @@ mod tests {
         for (spq, svq, smq) in [(0.1, 1.0, 80.0), (0.2, 0.6, 50.0), (0.3, 2.0, 90.0), (0.05, 1.0, 30.0)] {
             let s: Vec<f64> = deviations(200_000).collect();
             let meet = s[(smq * 2000.0) as usize];
-            let heights = s.iter().map(|s| if *s < meet { -spq * (s - meet) } else { -svq * (s - meet) }).collect();
+            let heights = s.iter().map(|s| if *s < meet { -spq * (s - meet) } else { -svq * (s - meet) });
             let found = of(heights).expect("two strata");
             for (value, closed) in [(found.spq, spq), (found.svq, svq), (found.smq, smq)] {
                 assert!((value / closed - 1.0).abs() < 1e-3, "{found:?}: {value} is not {closed}");
@@ -216,17 +216,17 @@ mod tests {
             let (plateau, coarse) = (s[(i * 7919 % n) as usize], s[(i * i % n) as usize]);
             (0.1 * plateau).min(coarse + 1.5)
         };
-        let found = of((0..n).map(cut).collect()).expect("two strata");
+        let found = of((0..n).map(cut)).expect("two strata");
         assert!((found.spq / 0.1 - 1.0).abs() < 0.15 && (found.svq - 1.0).abs() < 0.1, "{found:?}");
     }
 
     #[test]
     fn one_stratum_and_hills_on_a_plain_have_no_numbers() {
-        let one = of(deviations(100_000).collect()).expect_err("normal heights");
+        let one = of(deviations(100_000)).expect_err("normal heights");
         assert!(one.contains("one stratum"), "{one}");
-        let marks = (0..100_000).map(|i| (f64::from(i) / 50_000.0 - 1.0).powi(2)).collect();
+        let marks = (0..100_000).map(|i| (f64::from(i) / 50_000.0 - 1.0).powi(2));
         assert!(of(marks).is_err(), "feed marks");
-        assert!(of(vec![1.0; 5000]).is_err(), "a flat surface");
-        assert!(of((0..11).map(f64::from).collect()).expect_err("few").contains("too few"));
+        assert!(of(std::iter::repeat_n(1.0, 5000)).is_err(), "a flat surface");
+        assert!(of((0..11).map(f64::from)).expect_err("few").contains("too few"));
     }
 }

@@ -74,7 +74,9 @@ fn sorted(heights_um: &[f64], [low, high]: [f64; 2], level_um: f64) -> Vec<f64> 
     }
     places.into_par_iter().enumerate().for_each_init(Vec::new, |keys, (class, place)| {
         keys.clear();
-        parts.iter().for_each(|part| keys.extend_from_slice(part.class(class)));
+        for part in &parts {
+            keys.extend_from_slice(part.class(class));
+        }
         keys.sort_unstable();
         for (z, &key) in place.iter_mut().zip(keys.iter()) {
             *z = height(key) - level_um;
