@@ -68,7 +68,7 @@ fn a_gpu_that_is_slower_is_not_taken_and_the_record_says_why() {
     let job = job.on(Choice { backend: Box::new(Slow::default()), why: "auto: slow".to_owned(), on_trial: true });
     let folder = tempfile::tempdir().expect("a folder");
     let done = job.run().only(Parts::NONE).into_folder(&folder.path().join("gear")).expect("cuts");
-    let record = read_json(&done.folder.join("run.json"));
+    let record = read_json(&done.folder.path.join("run.json"));
     assert_eq!(record["backend"], Cpu::default().name());
     let why = record["backend_why"].as_str().expect("a text");
     assert!(why.starts_with("auto: slow, not faster than the processor on tiles of this scene: "), "{why}");
