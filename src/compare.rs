@@ -21,6 +21,7 @@
 mod charts;
 mod lines;
 mod maps;
+pub(crate) mod notices;
 mod page;
 mod ranked;
 pub mod surfaces;

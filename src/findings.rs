@@ -16,17 +16,18 @@
 
 pub mod damage;
 mod json;
+pub mod notice;
+pub(crate) mod notices;
 pub mod place;
 pub mod quantity;
 mod read;
 pub mod table;
 pub mod tree;
 pub mod unit;
-pub mod warning;
 
 pub use json::{RESULTS_FILE, SCHEMA, SCHEMA_VERSION};
+pub use notice::{Notice, Severity};
 pub use place::{Coordinate, Place};
 pub use quantity::Quantity;
 pub use table::{ColumnChart, Datum, Table, TableColumn};
 pub use tree::{Entry, Findings, Level, Section};
-pub use warning::{Severity, Warning};

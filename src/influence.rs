@@ -22,4 +22,5 @@ pub mod interval;
 pub mod known_cuts;
 pub mod measured;
 pub mod measured_table;
+pub(crate) mod notices;
 pub mod numbers;

@@ -5,7 +5,7 @@
 //! curve and transverse sections, is a trait of its own ([`CylindricalGear`]): its closed body and the page's mesh of
 //! its target rest on that, and a process whose gear has neither makes these two itself.
 
-use crate::findings::Warning;
+use crate::findings::Notice;
 use crate::measure::round_gear::RoundGear;
 use crate::scene::Scene;
 use crate::scene::model::Gear;
@@ -42,7 +42,7 @@ pub trait GearJob: Sync {
     fn passes(&self) -> u32;
 
     /// What of the machine's errors the passes do not follow.
-    fn unfollowed_errors(&self) -> Vec<Warning> {
+    fn unfollowed_errors(&self) -> Vec<Notice> {
         Vec::new()
     }
 

@@ -100,6 +100,7 @@
 //! - [`scatter`]: how gears of one scene scatter, layer by layer of errors
 //! - [`library`]: the few items that other programs need
 //! - [`compare`]: results side by side
+//! - [`notices`]: the table of all notices, and what a command line denies and allows of them
 
 pub mod backend;
 #[doc(hidden)]
@@ -124,6 +125,8 @@ pub mod machine_errors;
 pub mod material;
 #[doc(hidden)]
 pub mod measure;
+#[doc(hidden)]
+pub mod notices;
 pub mod output;
 #[doc(hidden)]
 pub mod overlay;

@@ -7,7 +7,8 @@
 //! that a parameter differs because the surfaces do.
 
 use crate::colormap::ColourScale;
-use crate::findings::{Datum, Quantity, Section, Table, TableColumn};
+use crate::findings::notices::{InvertedHeights, PoorCorrelation};
+use crate::findings::{Datum, Notice, Quantity, Section, Table, TableColumn};
 use crate::measure::topography::align::{self, Aligned, SurfaceMarks};
 use crate::measure::topography::{Arguments, Chain, Evaluation, Parameter, Surface};
 use crate::output::atomic::file_error;
@@ -172,21 +173,14 @@ impl SurfaceComparison {
     }
 
     /// What is hardly right about the pair.
-    pub fn doubts(&self) -> Vec<String> {
+    pub fn doubts(&self, of: &str) -> Vec<Notice> {
         let a = &self.aligned.alignment;
         let mut doubts = Vec::new();
         if a.correlation < POOR {
-            doubts.push(format!(
-                "a correlation of {} is poor: are these surfaces of one place?",
-                correlation_text(a.correlation)
-            ));
+            doubts.push(PoorCorrelation { of, correlation: correlation_text(a.correlation) }.notice());
         }
         if align::fits_better(a.inverted, a.by_mirror[0].max(a.correlation)) {
-            doubts.push(format!(
-                "with its heights inverted the second correlates with {}: is one of them a replica? \
-                 `gearcut texture FILE --invert --save ...` turns it back",
-                correlation_text(a.inverted)
-            ));
+            doubts.push(InvertedHeights { of, correlation: correlation_text(a.inverted) }.notice());
         }
         doubts
     }

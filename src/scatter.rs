@@ -14,6 +14,7 @@
 mod findings;
 pub mod folder;
 pub mod layers;
+pub(crate) mod notices;
 pub mod numbers;
 pub mod page;
 pub mod rows;
@@ -25,7 +26,7 @@ pub mod tolerance;
 #[cfg(test)]
 mod tests;
 
-use crate::findings::Warning;
+use crate::findings::Notice;
 use gearcut_core::terms::Side;
 use layers::LayerCase;
 use numbers::{NUMBERS, Values};
@@ -57,7 +58,7 @@ pub struct Scatter {
     /// What differs from gear to gear within limits.
     pub tolerances: Vec<Tolerance>,
     /// What the gears do not follow of their errors.
-    pub unfollowed: Vec<Warning>,
+    pub unfollowed: Vec<Notice>,
     /// Numbers by seed; those beyond the gears that were asked for stay from an earlier run.
     pub rows: Rows,
 }

@@ -35,7 +35,8 @@ pub use sampling::{SampledWindow, sampled};
 pub use traces::{Direction, Traced, of_surface};
 pub use window::{Window, windows};
 
-use crate::findings::{Severity, Warning};
+use crate::findings::Notice;
+use crate::findings::notices::{FewMarks, FewPoints, Holes, NotEvaluated};
 use crate::interrupt::Interrupt;
 use crate::job::{GearJob, RAY_DEPTH_MODULES};
 use crate::measure::topography::{Arguments, Evaluation, Surface};
@@ -93,42 +94,50 @@ pub struct Evaluated {
     pub evaluation: Evaluation,
 }
 
-/// A sentence on a window's numbers, in which a number may stand: windows that differ in it alone are told together.
+/// What must be known of a window's numbers; windows that differ in the points of a mark alone are told together.
 #[derive(Debug, Clone, PartialEq)]
-pub struct WindowNote {
-    severity: Severity,
-    before: String,
-    number: Option<f64>,
-    after: String,
+pub enum WindowNote {
+    /// Points without a height.
+    Holes(usize),
+    /// Nothing could be evaluated: why.
+    NotEvaluated(String),
+    /// So few marks follow each other.
+    FewMarks(usize, &'static str),
+    /// A mark has so few points in a direction; the key that makes more of them.
+    FewPoints(f64, &'static str, &'static str),
 }
 
 impl WindowNote {
-    fn of(text: String) -> Self {
-        Self { severity: Severity::Note, before: text, number: None, after: String::new() }
-    }
-
-    /// How much it weighs: numbers that come out wrong are a warning.
-    pub fn severity(&self) -> Severity {
-        self.severity
-    }
-
-    /// Whether it says the same but for the number.
+    /// Whether it says the same but for the points of a mark.
     pub fn is_like(&self, other: &Self) -> bool {
-        (&self.before, &self.after) == (&other.before, &other.after)
+        match (self, other) {
+            (Self::FewPoints(_, own, _), Self::FewPoints(_, other, _)) => own == other,
+            _ => self == other,
+        }
     }
 
-    /// The sentence for the windows of these notes, which are alike.
-    pub fn text(notes: &[&Self]) -> String {
-        let Some(first) = notes.first() else { return String::new() };
-        let numbers = || notes.iter().filter_map(|note| note.number);
-        let (low, high) = (numbers().fold(f64::INFINITY, f64::min), numbers().fold(f64::NEG_INFINITY, f64::max));
-        let [low, high] = [low, high].map(|number| format!("{number:.1}"));
-        let number = match (first.number, low == high) {
-            (None, _) => String::new(),
-            (Some(_), true) => low,
-            (Some(_), false) => format!("{low} to {high}"),
-        };
-        format!("{}{number}{}", first.before, first.after)
+    /// What is said of the windows of notes that are like this one, itself among them; `of` names them before the
+    /// sentence, if anything does.
+    pub fn notice(&self, alike: &[&Self], of: &str) -> Notice {
+        match self {
+            Self::Holes(holes) => Holes { of, holes }.notice(),
+            Self::NotEvaluated(why) => NotEvaluated { of, why }.notice(),
+            Self::FewMarks(count, direction) => {
+                let marks = if *count == 1 { "1 mark".to_owned() } else { format!("{count} marks") };
+                FewMarks { of, marks, direction, enough: ENOUGH_MARKS }.notice()
+            }
+            Self::FewPoints(_, direction, key) => {
+                let all = || {
+                    alike
+                        .iter()
+                        .filter_map(|of| if let Self::FewPoints(points, ..) = of { Some(*points) } else { None })
+                };
+                let ends = [all().fold(f64::INFINITY, f64::min), all().fold(f64::NEG_INFINITY, f64::max)];
+                let [low, high] = ends.map(|points| format!("{points:.1}"));
+                let points = if low == high { low } else { format!("{low} to {high}") };
+                FewPoints { of, direction, points, enough: ENOUGH_POINTS, key }.notice()
+            }
+        }
     }
 }
 
@@ -138,13 +147,10 @@ impl WindowTexture {
         let mut notes = Vec::new();
         let holes = self.heights.as_ref().map_or(0, Surface::holes);
         if holes > 0 {
-            notes.push(WindowNote::of(format!(
-                "{holes} points of the window are holes: no pass reached them, or they are cut deeper than their rays \
-                 record"
-            )));
+            notes.push(WindowNote::Holes(holes));
         }
         if let Err(reason) = &self.evaluated {
-            notes.push(WindowNote::of(format!("the window could not be evaluated: {reason}")));
+            notes.push(WindowNote::NotEvaluated(reason.clone()));
         }
         notes
     }
@@ -152,7 +158,7 @@ impl WindowTexture {
     /// All that a reader must know before trusting its numbers, as sentences of this window alone.
     pub fn warnings(&self) -> Vec<String> {
         let marks = LineMarks { count: self.marks, points: self.points_per_mark };
-        marks.notes().iter().chain(&self.notes()).map(|note| WindowNote::text(&[note])).collect()
+        marks.notes().iter().chain(&self.notes()).map(|note| note.notice(&[note], "").text).collect()
     }
 }
 
@@ -160,26 +166,15 @@ impl LineMarks {
     /// What the marks of a window say of its numbers.
     fn notes(&self) -> Vec<WindowNote> {
         let mut notes = Vec::new();
-        for (marks, direction) in self.count.iter().zip(["along the tooth", "along the profile"]) {
-            if (1..ENOUGH_MARKS).contains(marks) {
-                let marks = if *marks == 1 { "1 mark".to_owned() } else { format!("{marks} marks") };
-                notes.push(WindowNote::of(format!(
-                    "the window holds only {marks} {direction}; {ENOUGH_MARKS} at least make its numbers representative"
-                )));
+        for (&marks, direction) in self.count.iter().zip(["along the tooth", "along the profile"]) {
+            if (1..ENOUGH_MARKS).contains(&marks) {
+                notes.push(WindowNote::FewMarks(marks, direction));
             }
         }
         let spacings = [("along the tooth", "lead_spacing_um"), ("along the profile", "profile_spacing_um")];
         for (points, (direction, key)) in self.points.iter().zip(spacings) {
             if let Some(points) = points.filter(|&points| points < ENOUGH_POINTS) {
-                notes.push(WindowNote {
-                    severity: Severity::Warning,
-                    before: format!("a mark {direction} has only "),
-                    number: Some(points),
-                    after: format!(
-                        " points; with less than {ENOUGH_POINTS} slopes are averaged over cusps, and Sdq and Sdr come \
-                         out low: make {key} smaller"
-                    ),
-                });
+                notes.push(WindowNote::FewPoints(points, direction, key));
             }
         }
         notes
@@ -188,7 +183,7 @@ impl LineMarks {
 
 /// What a reader must know before trusting the numbers of windows, what the drawing's limits say of them, and what is
 /// hardly right about surfaces measured there.
-pub fn warnings(job: &dyn GearJob, textures: &[WindowTexture]) -> Vec<Warning> {
+pub fn warnings(job: &dyn GearJob, textures: &[WindowTexture]) -> Vec<Notice> {
     let lists = [findings::noted(job, textures), roughness::judged(job, textures), laid_over::doubted(job, textures)];
     lists.concat()
 }
@@ -291,15 +286,11 @@ mod tests {
 
     #[test]
     fn alike_notes_become_one_with_the_range_of_their_numbers() {
-        let note = |points| WindowNote {
-            severity: Severity::Warning,
-            before: "only ".into(),
-            number: Some(points),
-            after: " points".into(),
-        };
+        let note = |points| WindowNote::FewPoints(points, "along the tooth", "lead_spacing_um");
         let (a, b) = (note(3.71), note(4.42));
-        assert!(a.is_like(&b) && !a.is_like(&WindowNote::of("holes".into())));
-        assert_eq!(WindowNote::text(&[&a, &b]), "only 3.7 to 4.4 points");
-        assert_eq!(WindowNote::text(&[&a, &note(3.70)]), "only 3.7 points");
+        assert!(a.is_like(&b) && !a.is_like(&WindowNote::Holes(3)));
+        let says = |alike: &[&WindowNote], words: &str| assert!(a.notice(alike, "").text.contains(words), "{words}");
+        says(&[&a, &b], "has only 3.7 to 4.4 points;");
+        says(&[&a, &note(3.70)], "has only 3.7 points;");
     }
 }

@@ -3,21 +3,22 @@
 mod errors;
 mod pairs;
 mod reading;
+mod shared;
+mod texture;
 
 use std::path::PathBuf;
 
-use gearcut::measure::topography::Form;
 use gearcut::process::PROCESSES;
 use gearcut::steps::parts::Parts;
 
 use clap::builder::PossibleValuesParser;
-use clap::{Args, Parser, Subcommand, ValueEnum};
+use clap::{Args, Parser, Subcommand};
 
-pub use errors::{
-    BudgetArguments, CalibrateArguments, DiagnoseArguments, FewPlacesArguments, FlankSide, ScatterArguments,
-};
+pub use errors::{BudgetArguments, CalibrateArguments, DiagnoseArguments, FlankSide, ScatterArguments};
 pub use pairs::{ContactArguments, FlankChoice, PairArguments};
 pub use reading::{AxisChoice, ReadingArguments};
+pub use shared::{BackendChoice, GpuFailureChoice, RunArguments, SceneArguments, VerdictArguments};
+pub use texture::{FilterArguments, LineArguments, LineFormChoice, ProfileChoice, TextureArguments};
 
 /// The whole command line.
 #[derive(Debug, Parser)]
@@ -205,16 +206,6 @@ pub enum Command {
     Calibrate(CalibrateArguments),
 }
 
-/// A scene and what is changed in it.
-#[derive(Debug, Args)]
-pub struct SceneArguments {
-    /// Scene file (TOML).
-    pub scene: PathBuf,
-    /// Put another value into the scene, such as gear.module_mm=2.5 or operation.rough.offset_mm=1.5; may be repeated.
-    #[arg(long = "set", value_name = "KEY=VALUE")]
-    pub settings: Vec<String>,
-}
-
 /// Arguments of `check`.
 #[derive(Debug, Args)]
 pub struct CheckArguments {
@@ -224,11 +215,13 @@ pub struct CheckArguments {
     /// Print everything: tables along the curve, peaks of the axes, what the cost is made of.
     #[arg(long)]
     pub verbose: bool,
+    /// What makes the verdict bad.
+    #[command(flatten)]
+    pub verdict: VerdictArguments,
 }
 
 /// Arguments of `cut`.
 #[derive(Debug, Args)]
-#[expect(clippy::struct_excessive_bools, reason = "what a command may be asked for are switches")]
 pub struct CutArguments {
     /// The scene.
     #[command(flatten)]
@@ -236,9 +229,9 @@ pub struct CutArguments {
     /// Folder to write [default: out/<scene>, or out/<scene>_draft and out/<scene>_part with --draft and --only].
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
-    /// What computes: auto takes a GPU if there is a real one that answers within ten seconds and is faster.
-    #[arg(long, value_enum, default_value_t = BackendChoice::Auto)]
-    pub backend: BackendChoice,
+    /// Backend, progress and verdict.
+    #[command(flatten)]
+    pub run: RunArguments,
     /// What happens to a flank whose GPU is lost or runs out of memory.
     #[arg(long, value_enum, default_value_t = GpuFailureChoice::Redo)]
     pub on_gpu_failure: GpuFailureChoice,
@@ -252,40 +245,17 @@ pub struct CutArguments {
     /// Draw N pictures of the cut as it happens (frames/*.png, and all of them in frames/cut.apng).
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=5000))]
     pub frames: Option<u32>,
-    /// Show no progress and no summary.
-    #[arg(long, conflicts_with = "json")]
-    pub quiet: bool,
     /// Print every section of the findings, not only what a screen holds.
     #[arg(long)]
     pub verbose: bool,
     /// Report progress on standard error as one JSON object per line, and print results.json instead of the summary.
-    #[arg(long)]
+    #[arg(long, conflicts_with = "quiet")]
     pub json: bool,
 }
 
 /// Words that `--only` takes.
 fn part_names() -> PossibleValuesParser {
     PossibleValuesParser::new(Parts::all().names())
-}
-
-/// What computes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum BackendChoice {
-    /// A real GPU if it is faster on tiles of the scene, else the processor.
-    Auto,
-    /// A GPU, or fail.
-    Gpu,
-    /// The processor, in double precision.
-    Cpu,
-}
-
-/// What to do when a GPU fails.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum GpuFailureChoice {
-    /// Cut the flank again on the processor.
-    Redo,
-    /// Stop the run.
-    Stop,
 }
 
 /// Arguments of `axes`.
@@ -297,6 +267,9 @@ pub struct AxesArguments {
     /// Folder to write [default: out/<scene>_axes].
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
+    /// What makes the verdict bad.
+    #[command(flatten)]
+    pub verdict: VerdictArguments,
 }
 
 /// Arguments of `compare`.
@@ -306,163 +279,15 @@ pub struct CompareArguments {
     /// surface files of one place, the second laid over the first.
     #[arg(required = true, num_args = 2..=gearcut::compare::MOST_RESULTS, value_name = "RESULTS")]
     pub results: Vec<PathBuf>,
-    /// F-operator of surfaces, on the points that both have.
-    #[arg(long, value_enum, default_value_t = FormChoice::Poly2)]
-    pub form: FormChoice,
-    /// Nesting index of the S-filter of surfaces.
-    #[arg(long, value_name = "UM")]
-    pub s_filter_um: Option<f64>,
-    /// Nesting index of the L-filter of surfaces.
-    #[arg(long, value_name = "UM")]
-    pub l_filter_um: Option<f64>,
+    /// What is taken off surfaces, on the points that both have.
+    #[command(flatten)]
+    pub filters: FilterArguments,
     /// Folder to write [default: compare_<A>_<B>... beside the last one].
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
     /// Print every number of headline and summary, not the eight that changed most alone.
     #[arg(long)]
     pub all: bool,
-}
-
-/// Arguments of `texture`.
-#[derive(Debug, Args)]
-pub struct TextureArguments {
-    /// Surface file.
-    pub file: PathBuf,
-    /// How the file is read.
-    #[command(flatten)]
-    pub reading: ReadingArguments,
-    /// F-operator: what is taken off before texture is evaluated; the default is that of texture windows in scenes.
-    #[arg(long, value_enum, default_value_t = FormChoice::Poly2)]
-    pub form: FormChoice,
-    /// Nesting index of the S-filter: shorter waves are taken off (Gaussian, ISO 16610-61).
-    #[arg(long, value_name = "UM")]
-    pub s_filter_um: Option<f64>,
-    /// Nesting index of the L-filter: longer waves are taken off (Gaussian, ISO 16610-61).
-    #[arg(long, value_name = "UM")]
-    pub l_filter_um: Option<f64>,
-    /// Make the L-filter the robust one (ISO 16610-71, of profiles ISO 16610-31), which deep scratches do not pull.
-    #[arg(long)]
-    pub robust: bool,
-    /// Margin to leave out on every side, after the filters.
-    #[arg(long, value_name = "UM", default_value_t = 0.0)]
-    pub crop_um: f64,
-    /// Give Smr also at this height over the mean plane; may be repeated.
-    #[arg(long, value_name = "UM", allow_negative_numbers = true)]
-    pub at_height_um: Vec<f64>,
-    /// Give Smc, Vm and Vv also at this material ratio; may be repeated.
-    #[arg(long, value_name = "PERCENT")]
-    pub at_ratio_percent: Vec<f64>,
-    /// Profile parameters of lines.
-    #[command(flatten)]
-    pub lines: LineArguments,
-    /// Save the surface as it was read and prepared; the ending says how: x3p, sdf, ascii.sdf, sur, npy, csv; may be
-    /// repeated.
-    #[arg(long, value_name = "FILE")]
-    pub save: Vec<PathBuf>,
-    /// Let --save replace files; never the one that is read.
-    #[arg(long)]
-    pub force: bool,
-    /// Print JSON: every value with unit and definition, or null and why.
-    #[arg(long)]
-    pub json: bool,
-}
-
-/// Arguments of `texture` that lines have: their chain begins at the heights as read, not after the areal filters.
-#[derive(Debug, Args)]
-#[command(next_help_heading = "Profiles")]
-pub struct LineArguments {
-    /// Profile parameters along the row next to y=UM or the column next to x=UM; may be repeated.
-    #[arg(long, value_name = "x=UM|y=UM")]
-    pub line: Vec<String>,
-    /// So many lines, spread evenly over y (rows) or x (columns): mean and range of their parameters.
-    #[arg(long, value_names = ["x|y", "N"], num_args = 2)]
-    pub lines: Vec<String>,
-    /// Profile whose parameters are given: R roughness, W waviness, P primary (no cut-off).
-    #[arg(long, value_enum, default_value_t = ProfileChoice::R)]
-    pub profile: ProfileChoice,
-    /// Cut-off lambda_c [default: that of --l-filter-um, else by ISO 21920-3 from the limits or the estimated Ra].
-    #[arg(long, value_name = "UM")]
-    pub cutoff_um: Option<f64>,
-    /// Profile S-filter lambda_s, 0 for none [default: by ISO 21920-3 where points are close enough].
-    #[arg(long, value_name = "UM")]
-    pub lambda_s_um: Option<f64>,
-    /// F-operator of lines.
-    #[arg(long, value_enum, default_value_t = LineFormChoice::Line)]
-    pub line_form: LineFormChoice,
-    /// Number of sections [default: 5, or as many as a short line holds].
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1000))]
-    pub sections: Option<u16>,
-    /// Length of a section [default: the cut-off].
-    #[arg(long, value_name = "UM")]
-    pub section_um: Option<f64>,
-    /// What is left out at both ends of a line, at least [default: half a cut-off].
-    #[arg(long, value_name = "UM")]
-    pub run_in_um: Option<f64>,
-    /// Longest hole that is bridged by a straight line [default: a hundredth of the line].
-    #[arg(long, value_name = "UM")]
-    pub bridge_um: Option<f64>,
-    /// Upper limit of Ra on the drawing: it is judged, and gives the cut-off.
-    #[arg(long, value_name = "UM")]
-    pub ra_limit_um: Option<f64>,
-    /// Upper limit of Rz on the drawing: it is judged, and gives the cut-off where Ra has no limit.
-    #[arg(long, value_name = "UM")]
-    pub rz_limit_um: Option<f64>,
-}
-
-/// Profiles of ISO 21920-2.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum ProfileChoice {
-    /// Roughness.
-    R,
-    /// Waviness.
-    W,
-    /// Primary profile.
-    P,
-}
-
-/// F-operators of lines.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum LineFormChoice {
-    /// Nothing but the mean.
-    None,
-    /// Least-squares straight line.
-    Line,
-    /// Least-squares arc of a circle.
-    Arc,
-    /// Least-squares polynomial of this degree.
-    Poly2,
-    /// Third degree.
-    Poly3,
-    /// Fourth degree.
-    Poly4,
-    /// Fifth degree.
-    Poly5,
-}
-
-/// F-operators.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum FormChoice {
-    /// Nothing but the mean.
-    None,
-    /// Least-squares plane.
-    Plane,
-    /// Least-squares polynomial of second order.
-    Poly2,
-    /// That polynomial together with a circular cylinder.
-    #[value(name = "poly2-plus-cylinder")]
-    Poly2PlusCylinder,
-}
-
-impl FormChoice {
-    /// The operator.
-    pub fn form(self) -> Form {
-        match self {
-            Self::None => Form::None,
-            Self::Plane => Form::Plane,
-            Self::Poly2 => Form::Poly2,
-            Self::Poly2PlusCylinder => Form::Poly2PlusCylinder,
-        }
-    }
 }
 
 /// Arguments of `mate`.

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use gearcut::Error;
-use gearcut::findings::Warning;
+use gearcut::findings::Notice;
 use gearcut::interrupt::Interrupt;
 use gearcut::output::folder::OutputFolder;
 use gearcut::output::text::Sheet;
@@ -21,7 +21,7 @@ pub fn run(arguments: &AxesArguments) -> Result<(), Failure> {
     let default = || PathBuf::from("out").join(format!("{}_axes", scene.scene.name));
     let out = arguments.out.clone().unwrap_or_else(default);
     let mut sheet = Sheet::default();
-    let write = |output: &OutputFolder, interrupt: &Interrupt| -> Result<(Record, Vec<Warning>), Error> {
+    let write = |output: &OutputFolder, interrupt: &Interrupt| -> Result<(Record, Vec<Notice>), Error> {
         let axes = || process::prepare(&scene.scene)?.axes(output, interrupt, &mut sheet);
         let warnings = print::waiting("axes", "scene", axes)?;
         Ok((vec![("scene", json!(scene.resolved_toml()))], warnings))
@@ -30,5 +30,5 @@ pub fn run(arguments: &AxesArguments) -> Result<(), Failure> {
     let written = format!("\ntables, charts and programs are in {}\n", path.join("axes").display());
     print::sheet(&(sheet.into_text() + &written))?;
     print::warnings(&warnings);
-    Failure::verdict(&warnings)
+    Failure::verdict(&warnings, &arguments.verdict.rules())
 }

@@ -19,7 +19,7 @@ pub fn run(arguments: &BudgetArguments) -> Result<(), Failure> {
     let out = arguments.out.clone().unwrap_or_else(|| PathBuf::from("out").join(format!("{name}_budget")));
     let flanks = arguments.flanks.iter().map(|text| flank(text)).collect::<Result<_, _>>()?;
     let options = BudgetOptions { parameters: arguments.parameters.clone(), flanks, numbers: arguments.numbers };
-    let (choice, progress) = backend::of_few_places(&arguments.few_places)?;
+    let (choice, progress) = backend::of_few_places(&arguments.run, false)?;
     let filled = folder::fill_partly(&out, "budget", |folder, interrupt, known| {
         let found = budget::budget(&loaded, &options, &choice, &progress, interrupt, known)?;
         let tree = budget::findings(&loaded.scene, &found);
@@ -35,7 +35,10 @@ pub fn run(arguments: &BudgetArguments) -> Result<(), Failure> {
     sheet.table(&rows);
     print::sheet(&format!("{}\nper unit, and with maps, in {}\n", sheet.into_text(), path.display()))?;
     print::warnings(&warnings);
-    if complete { Ok(()) } else { Err(Failure::ended_early(&path, &out)) }
+    if !complete {
+        return Err(Failure::ended_early(&path, &out));
+    }
+    Failure::verdict(&warnings, &arguments.run.verdict.rules())
 }
 
 /// `7-left` as a flank.

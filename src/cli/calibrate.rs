@@ -22,7 +22,7 @@ pub fn run(arguments: &CalibrateArguments) -> Result<(), Failure> {
     let measured = read(&loaded, arguments).map_err(|error| Failure::of_scene(&loaded, error))?;
     let name = &loaded.scene.name;
     let out = arguments.out.clone().unwrap_or_else(|| PathBuf::from("out").join(format!("{name}_calibration")));
-    let (choice, progress) = backend::of_few_places(&arguments.few_places)?;
+    let (choice, progress) = backend::of_few_places(&arguments.run, false)?;
     let filled = folder::fill_partly(&out, "calibrate", |folder, interrupt, known| {
         let found = Calibration::new(&loaded, &parameters, &measured, &choice, &progress, interrupt, known)?;
         let tree = calibrate::findings(&loaded.scene, &measured, &found);
@@ -65,7 +65,10 @@ pub fn run(arguments: &CalibrateArguments) -> Result<(), Failure> {
     }
     print::sheet(&format!("{}\neverything is in {}\n", sheet.into_text(), path.display()))?;
     print::warnings(&tree.warnings);
-    if complete { Ok(()) } else { Err(Failure::ended_early(&path, &out)) }
+    if !complete {
+        return Err(Failure::ended_early(&path, &out));
+    }
+    Failure::verdict(&tree.warnings, &arguments.run.verdict.rules())
 }
 
 /// What was measured, laid on the scene's gear.

@@ -7,8 +7,7 @@
 use super::args::CheckArguments;
 use super::failure::Failure;
 use super::print;
-use gearcut::findings::Severity;
-use gearcut::findings::warning::count_words;
+use gearcut::findings::notice::count_words;
 use gearcut::output::text::Sheet;
 use gearcut::process;
 
@@ -24,8 +23,8 @@ pub fn run(arguments: &CheckArguments) -> Result<(), Failure> {
     let checked =
         print::waiting("check", "scene", || process::prepare(&scene.scene).and_then(|job| job.check(&mut sheet)));
     let warnings = checked.map_err(|error| Failure::of_scene(&scene, error))?;
-    let is_faulty = warnings.iter().any(|warning| warning.severity == Severity::Fault);
-    let verdict = if is_faulty { "not as it is" } else { "can be cut" };
+    let rules = arguments.verdict.rules();
+    let verdict = if warnings.iter().any(|of| rules.is_bad(of)) { "not as it is" } else { "can be cut" };
     let verdict = format!("{verdict}: {}", count_words(&warnings));
     if arguments.verbose {
         print::sheet(&format!("{verdict}\n\n{}", sheet.into_text()))?;
@@ -37,5 +36,5 @@ pub fn run(arguments: &CheckArguments) -> Result<(), Failure> {
         print::sheet(&format!("{verdict}\n\n{}", print::at_most(&sheet.into_text(), room)))?;
         print::warnings_within(&warnings, BRIEF_LINES - FEWEST_FACTS - 3);
     }
-    Failure::verdict(&warnings)
+    Failure::verdict(&warnings, &rules)
 }

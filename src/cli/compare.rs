@@ -58,9 +58,9 @@ fn refuse_mixed(surface: Option<&PathBuf>) -> Result<(), Refusal> {
 /// Compares two surface files.
 fn surfaces(arguments: &CompareArguments, paths: [&PathBuf; 2]) -> Result<(), Failure> {
     let chain = Chain {
-        s_filter_um: arguments.s_filter_um,
-        l_filter_um: arguments.l_filter_um,
-        ..Chain::of_form(arguments.form.form())
+        s_filter_um: arguments.filters.s_filter_um,
+        l_filter_um: arguments.filters.l_filter_um,
+        ..Chain::of_form(arguments.filters.form.form())
     };
     for (option, index_um) in [("--s-filter-um", chain.s_filter_um), ("--l-filter-um", chain.l_filter_um)] {
         if let Some(index_um) = index_um.filter(|um| !(um.is_finite() && *um > 0.0)) {

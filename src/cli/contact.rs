@@ -67,12 +67,14 @@ pub fn run(arguments: &ContactArguments) -> Result<(), Failure> {
     if arguments.json {
         let text = serde_json::to_string_pretty(&found.to_json())
             .map_err(|reason| Error::Output { path: path.clone(), reason: reason.to_string() })?;
-        return Ok(print::to_stdout(&format!("{text}\n"))?);
+        print::to_stdout(&format!("{text}\n"))?;
+    } else {
+        let mut sheet = Sheet::default();
+        sheet.heading(&found.scene);
+        summary::print(&found, &mut sheet);
+        print::sheet(&format!("{}\neverything is in {}\n", sheet.into_text(), path.display()))?;
     }
-    let mut sheet = Sheet::default();
-    sheet.heading(&found.scene);
-    summary::print(&found, &mut sheet);
-    Ok(print::sheet(&format!("{}\neverything is in {}\n", sheet.into_text(), path.display()))?)
+    Failure::verdict(&found.warnings, &arguments.verdict.rules())
 }
 
 fn job(loaded: &LoadedScene) -> Result<BevelJob, Failure> {

@@ -23,7 +23,7 @@ pub fn run(arguments: &DiagnoseArguments) -> Result<(), Failure> {
     let points = measured::read(&arguments.measured)?;
     let name = &loaded.scene.name;
     let out = arguments.out.clone().unwrap_or_else(|| PathBuf::from("out").join(format!("{name}_diagnosis")));
-    let (choice, progress) = backend::of_few_places(&arguments.few_places)?;
+    let (choice, progress) = backend::of_few_places(&arguments.run, false)?;
     let names = &arguments.parameters;
     let filled = folder::fill_partly(&out, "diagnose", |folder, interrupt, known| {
         let cuts = MeasuredCuts::new(&loaded, &points, choice.backend.as_ref(), known)?;
@@ -52,5 +52,8 @@ pub fn run(arguments: &DiagnoseArguments) -> Result<(), Failure> {
     diagnose::sheet(&model, &found, &tree, &mut sheet);
     print::sheet(&format!("{}\neverything is in {}\n", sheet.into_text(), path.display()))?;
     print::warnings(&tree.warnings);
-    if complete { Ok(()) } else { Err(Failure::ended_early(&path, &out)) }
+    if !complete {
+        return Err(Failure::ended_early(&path, &out));
+    }
+    Failure::verdict(&tree.warnings, &arguments.run.verdict.rules())
 }

@@ -1,8 +1,10 @@
 //! What is printed when a command fails, and with which code it ends.
 
 use super::print::to_stderr;
-use gearcut::findings::{Severity, Warning};
+use gearcut::findings::{Notice, Severity};
+use gearcut::notices::NoticeRules;
 use gearcut::output::atomic::file_error;
+use std::collections::BTreeSet;
 use std::path::Path;
 
 use gearcut::interrupt::INTERRUPTED_EXIT_CODE;
@@ -60,21 +62,24 @@ impl Failure {
         Self { text, code: INTERRUPTED_EXIT_CODE }
     }
 
-    /// The verdict on work that is done: a fault is told once more, and by the exit code.
-    pub fn verdict(warnings: &[Warning]) -> Result<(), Self> {
-        let mut faults = warnings.iter().filter(|warning| warning.severity == Severity::Fault);
-        let Some(first) = faults.next() else { return Ok(()) };
-        let more = match faults.count() {
+    /// The verdict on work that is done: a fault, and a notice that the command line denies, is told once more, and by
+    /// the exit code. Faults that it allows are named.
+    pub fn verdict(notices: &[Notice], rules: &NoticeRules) -> Result<(), Self> {
+        let is_fault = |notice: &Notice| notice.severity == Severity::Fault;
+        let (bad, others): (Vec<&Notice>, Vec<&Notice>) = notices.iter().partition(|notice| rules.is_bad(notice));
+        let allowed: BTreeSet<&str> = others.iter().filter(|of| is_fault(of)).map(|of| &*of.id).collect();
+        if !allowed.is_empty() {
+            to_stderr(&format!("note: allowed by --allow: {}", allowed.into_iter().collect::<Vec<_>>().join(", ")));
+        }
+        let Some((first, more)) = bad.split_first() else { return Ok(()) };
+        let denied = if is_fault(first) { "" } else { " (denied by --deny)" };
+        let what = if bad.iter().all(|of| is_fault(of)) { "fault" } else { "notice" };
+        let more = match more.len() {
             0 => String::new(),
-            1 => "; and 1 more fault".to_owned(),
-            count => format!("; and {count} more faults"),
+            1 => format!("; and 1 more {what}"),
+            count => format!("; and {count} more {what}s"),
         };
-        Err(Self::bad_verdict(&format!("{}{more}", first.text)))
-    }
-
-    /// Work that is done and written, with a finding that nobody should miss.
-    pub fn bad_verdict(what: &str) -> Self {
-        Self { text: format!("verdict: {what}"), code: BAD_VERDICT }
+        Err(Self { text: format!("verdict: {}{denied}{more}", first.text), code: BAD_VERDICT })
     }
 
     /// Prints the reason on standard error; gives the exit code.

@@ -26,8 +26,8 @@ pub fn run(arguments: &PairArguments) -> Result<(), Failure> {
     let name = format!("{}_with_{}", a.scene.name, b.scene.name);
     let out = arguments.out.clone().unwrap_or_else(|| PathBuf::from("out").join(&name));
     let words = std::env::args().skip(1).collect::<Vec<_>>();
-    let (choice, progress) = backend::of_few_places_with_events(&arguments.few_places, arguments.json)?;
-    let (path, (found, interference)) = folder::fill(&out, "pair", |folder, interrupt| {
+    let (choice, progress) = backend::of_few_places(&arguments.run, arguments.json)?;
+    let (path, found) = folder::fill(&out, "pair", |folder, interrupt| {
         let watch = Watch::new(&progress, interrupt);
         let [scene_a, scene_b] = [&a, &b].map(LoadedScene::resolved_toml);
         let run = PairRecord { backend: choice.backend.name_in_files(), scenes: [scene_a.clone(), scene_b.clone()] };
@@ -36,12 +36,12 @@ pub fn run(arguments: &PairArguments) -> Result<(), Failure> {
             let fit = spline::fit(scenes, &options, choice.backend.as_ref(), &watch)?;
             let found = spline::report::findings(&name, scenes, &fit);
             spline::report::write(scenes, &fit, &found, folder, &run)?;
-            return Ok((record, (found, spline::report::interference(&fit).into_iter().collect())));
+            return Ok((record, found));
         }
         let rolled = rolled::roll_pair(scenes, &options, choice.backend.as_ref(), &watch)?;
         let found = findings::findings(&name, scenes, &options, &rolled);
         write::write(scenes, &options, &rolled, &found, folder, &run, &watch)?;
-        Ok((record, (found, findings::interference(&rolled))))
+        Ok((record, found))
     })
     .map_err(|error| in_place(&a, error))?;
     if arguments.json {
@@ -55,7 +55,7 @@ pub fn run(arguments: &PairArguments) -> Result<(), Failure> {
         print::sheet(&format!("{}\neverything is in {}\n", sheet.into_text(), path.display()))?;
     }
     // Everything is written all the same.
-    if interference.is_empty() { Ok(()) } else { Err(Failure::bad_verdict(&interference.join("; "))) }
+    Failure::verdict(&found.warnings, &arguments.run.verdict.rules())
 }
 
 fn heading(found: &Findings, teeth: [u32; 2], module_mm: f64, sheet: &mut Sheet) {

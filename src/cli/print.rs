@@ -2,8 +2,8 @@
 
 use std::io::{self, ErrorKind, IsTerminal, Write};
 
-use gearcut::findings::Warning;
-use gearcut::findings::warning::count_words;
+use gearcut::findings::Notice;
+use gearcut::findings::notice::count_words;
 use gearcut::output::progress::{Progress, ProgressMode};
 use gearcut::wrap::{fitted, printable};
 use gearcut::{Error, Result};
@@ -48,17 +48,17 @@ pub fn waiting<T>(what: &str, unit: &str, work: impl FnOnce() -> T) -> T {
 }
 
 /// Prints warnings and how many they are on standard error, where they are seen when the report goes into a file.
-pub fn warnings(warnings: &[Warning]) {
-    let lines = warnings.iter().map(Warning::line).chain([count_words(warnings)]);
+pub fn warnings(warnings: &[Notice]) {
+    let lines = warnings.iter().map(Notice::line_with_id).chain([count_words(warnings)]);
     for line in lines {
         to_stderr(&line);
     }
 }
 
 /// The same of the gravest, no more than a terminal shows on so many lines.
-pub fn warnings_within(all: &[Warning], most: usize) {
+pub fn warnings_within(all: &[Notice], most: usize) {
     let mut room = most;
-    let fits = |warning: &&Warning| {
+    let fits = |warning: &&Notice| {
         let lines = lines_on_a_terminal(std::slice::from_ref(*warning));
         let fits = lines <= room;
         room = room.saturating_sub(lines);
@@ -66,7 +66,7 @@ pub fn warnings_within(all: &[Warning], most: usize) {
     };
     let shown = all.iter().take_while(fits).count().max(1).min(all.len());
     for warning in &all[..shown] {
-        to_stderr(&warning.line());
+        to_stderr(&warning.line_with_id());
     }
     let more = all.len() - shown;
     let count = count_words(all);
@@ -74,8 +74,8 @@ pub fn warnings_within(all: &[Warning], most: usize) {
 }
 
 /// How many lines of a terminal warnings take.
-pub fn lines_on_a_terminal(warnings: &[Warning]) -> usize {
-    warnings.iter().map(|warning| fitted(&warning.line(), WIDTH).lines().count()).sum()
+pub fn lines_on_a_terminal(warnings: &[Notice]) -> usize {
+    warnings.iter().map(|warning| fitted(&warning.line_with_id(), WIDTH).lines().count()).sum()
 }
 
 /// A text cut to so many lines of a terminal before its last part; a line there says how much is left out.

@@ -40,9 +40,9 @@ pub fn run(arguments: &TextureArguments) -> Result<(), Failure> {
         interrupt.check()?;
     }
     let chain = Chain {
-        form: arguments.form.form(),
-        s_filter_um: arguments.s_filter_um,
-        l_filter_um: arguments.l_filter_um,
+        form: arguments.filters.form.form(),
+        s_filter_um: arguments.filters.s_filter_um,
+        l_filter_um: arguments.filters.l_filter_um,
         robust: arguments.robust,
         crop_um: arguments.crop_um,
     };
@@ -107,8 +107,8 @@ fn check(arguments: &TextureArguments) -> Result<(), Refusal> {
         None => Ok(()),
     };
     positive("--spacing-um", &arguments.reading.spacing_um)?;
-    positive("--s-filter-um", arguments.s_filter_um.as_slice())?;
-    positive("--l-filter-um", arguments.l_filter_um.as_slice())?;
+    positive("--s-filter-um", arguments.filters.s_filter_um.as_slice())?;
+    positive("--l-filter-um", arguments.filters.l_filter_um.as_slice())?;
     lines::check(arguments)?;
     if !(arguments.crop_um.is_finite() && arguments.crop_um >= 0.0) {
         let problem = format!("{} um is not a margin", arguments.crop_um);

@@ -5,9 +5,10 @@
 
 use super::lines::Line;
 use super::maps::MapSheet;
+use super::notices::{HasFaults, HasNotices, Stopped};
 use super::{Comparison, ranked};
-use crate::findings::warning::{Severity, count_words};
-use crate::findings::{Level, Warning, unit};
+use crate::findings::notice::{Severity, count_words};
+use crate::findings::{Level, unit};
 use crate::output::bar_chart::BarChart;
 use crate::output::line_chart::LineChart;
 use crate::output::report::{Block, KeyNumber, Page, PageSection, PageTable};
@@ -65,14 +66,14 @@ pub(super) fn page(
         ),
     ];
     let stopped = of.results.iter().filter(|one| !one.findings.complete);
-    let stopped = stopped.map(|one| Warning::warn(format!("{} was stopped before all flanks were cut", one.name)));
+    let stopped = stopped.map(|one| Stopped { name: &one.name }.notice());
     // A page without a word of them would call results with faults sound.
     let warned = of.results.iter().filter(|one| !one.findings.warnings.is_empty());
     let warned = warned.map(|one| {
         let warnings = &one.findings.warnings;
-        let words = format!("{} has {}", one.name, count_words(warnings));
+        let (name, counts) = (&one.name, count_words(warnings));
         let faulty = warnings.iter().any(|warning| warning.severity == Severity::Fault);
-        if faulty { Warning::warn(words) } else { Warning::note(words) }
+        if faulty { HasFaults { name, counts }.notice() } else { HasNotices { name, counts }.notice() }
     });
     Page {
         what: "comparison",

@@ -48,8 +48,8 @@ pub fn print(of: &SurfaceComparison, sheet: &mut Sheet) {
     for [name, value] in of.facts() {
         sheet.line(&name, value);
     }
-    for doubt in of.doubts() {
-        sheet.line("doubt", doubt);
+    for doubt in of.doubts("") {
+        sheet.line("doubt", doubt.text);
     }
     sheet.heading("Parameters on the points that both have");
     sheet.table(&of.table());

@@ -1,6 +1,7 @@
 //! Damage to the target, and the work of cutting a whole blank, as findings of any process.
 
-use super::{Datum, Place, Quantity, Section, Table, TableColumn, Warning};
+use super::notices::{BelowTarget, Gouge};
+use super::{Datum, Notice, Place, Quantity, Section, Table, TableColumn};
 use crate::measure::damage::{Damage, LEAST_DEPTH_MM, gouge_mm};
 use gearcut_core::units::UM_PER_MM;
 use std::collections::BTreeSet;
@@ -54,7 +55,7 @@ fn sides_of_teeth(places: &[Damage]) -> usize {
 /// What is said of cuts below the target: a fault where they are gouges, deeper than `gouge_mm`. `by` says what made
 /// one; `flank_mm` is the deepest cut that the rays of flanks found, which stand closer than the blank's: the deeper of
 /// both is graded.
-pub fn warning(places: &[Damage], flank_mm: f64, gouge_mm: f64, by: impl Fn(&Damage) -> String) -> Option<Warning> {
+pub fn warning(places: &[Damage], flank_mm: f64, gouge_mm: f64, by: impl Fn(&Damage) -> String) -> Option<Notice> {
     let deepest = places.iter().max_by(|a, b| a.depth_mm.total_cmp(&b.depth_mm))?;
     let [depth_um, gouge_um] = [deepest.depth_mm, gouge_mm].map(|mm| UM_PER_MM * mm);
     let place = format!("tooth {} {}, {}", deepest.place.tooth, deepest.place.side.name(), deepest.place.zone.name());
@@ -66,16 +67,12 @@ pub fn warning(places: &[Damage], flank_mm: f64, gouge_mm: f64, by: impl Fn(&Dam
     } else {
         String::new()
     };
-    Some(if deepest.depth_mm.max(flank_mm) > gouge_mm {
-        Warning::fault(format!(
-            "{sides} cut below the target: {by} gouged {place} by {depth_um:.1} um{on_flanks}; a gouge is deeper than \
-             {gouge_um:.1} um"
-        ))
+    let is_gouge = deepest.depth_mm.max(flank_mm) > gouge_mm;
+    let [depth_um, gouge_um] = [depth_um, gouge_um].map(|um| format!("{um:.1}"));
+    Some(if is_gouge {
+        Gouge { sides, by, place, depth_um, on_flanks, gouge_um }.notice()
     } else {
-        Warning::warn(format!(
-            "{sides} cut below the target, by {depth_um:.1} um at most ({by}, {place}){on_flanks}: deviations, no \
-             gouges, which are deeper than {gouge_um:.1} um"
-        ))
+        BelowTarget { sides, by, place, depth_um, on_flanks, gouge_um }.notice()
     })
 }
 

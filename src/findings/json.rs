@@ -8,10 +8,10 @@ use std::path::Path;
 
 use serde_json::{Map, Value, json};
 
+use super::notice::Notice;
 use super::quantity::Quantity;
 use super::table::{ColumnChart, Datum, Table, TableColumn};
 use super::tree::{Entry, Findings, Level, Section, title_of};
-use super::warning::Warning;
 use crate::regular_file;
 use gearcut_core::{Error, Result};
 
@@ -72,8 +72,8 @@ impl Findings {
     }
 }
 
-fn of_warning(warning: &Warning) -> Value {
-    let mut value = json!({"severity": warning.severity.name(), "text": warning.text});
+fn of_warning(warning: &Notice) -> Value {
+    let mut value = json!({"id": warning.id, "severity": warning.severity.name(), "text": warning.text});
     if let Some(section) = &warning.section {
         value["section"] = json!(section);
     }

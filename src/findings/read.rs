@@ -6,10 +6,10 @@
 use serde_json::{Map, Value};
 
 use super::json::{CHARTS, LEVELS};
+use super::notice::{Notice, Severity};
 use super::quantity::Quantity;
 use super::table::{Datum, Table, TableColumn};
 use super::tree::{Entry, Findings, Level, Section, title_of};
-use super::warning::{Severity, Warning};
 
 /// What reads a part, or why it cannot.
 type Read<T> = Result<T, String>;
@@ -48,16 +48,14 @@ fn list<'a>(of: &'a Map<String, Value>, key: &str) -> Read<&'a Vec<Value>> {
     field(of, key)?.as_array().ok_or_else(|| format!("{key} is a list"))
 }
 
-fn warning(value: &Value) -> Read<Warning> {
+fn warning(value: &Value) -> Read<Notice> {
     let all = object(value, "a warning")?;
     let text = |key: &str| field(all, key)?.as_str().ok_or_else(|| format!("a warning's {key} is a text"));
     let name = text("severity")?;
     let severity = Severity::ALL.into_iter().find(|severity| severity.name() == name);
-    Ok(Warning {
-        severity: severity.ok_or_else(|| format!("there is no severity {name}"))?,
-        text: text("text")?.to_owned(),
-        section: all.get("section").and_then(Value::as_str).map(str::to_owned),
-    })
+    let severity = severity.ok_or_else(|| format!("there is no severity {name}"))?;
+    let section = all.get("section").and_then(Value::as_str).map(str::to_owned);
+    Ok(Notice { section, ..Notice::new(text("id")?.to_owned(), severity, text("text")?) })
 }
 
 fn entry(key: &str, value: &Value) -> Read<Entry> {
@@ -166,7 +164,10 @@ mod tests {
                 Entry::headline("smallest_normal_stock", "smallest normal stock", stock),
                 Entry::headline("backend", "computed by", Quantity::text("cpu", "backend")),
             ],
-            warnings: vec![Warning::fault("made by hand"), Warning::note("few strokes").about("operations.rough")],
+            warnings: vec![
+                Notice::new("flank.made", Severity::Fault, "made by hand"),
+                Notice::new("texture.few_marks", Severity::Note, "few strokes").about("operations.rough"),
+            ],
             sections: vec![Section::new("operations", "Operations").part(rough)],
         }
     }

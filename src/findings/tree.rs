@@ -1,8 +1,8 @@
 //! The tree: what a run found, from the headline down to the last detail.
 
+use super::notice::Notice;
 use super::quantity::Quantity;
 use super::table::Table;
-use super::warning::Warning;
 
 /// Everything that a run found.
 #[derive(Debug, Clone, PartialEq)]
@@ -17,8 +17,8 @@ pub struct Findings {
     pub complete: bool,
     /// What to look at first: numbers of the whole gear.
     pub headline: Vec<Entry>,
-    /// What a reader must know before trusting the numbers, [`super::warning::ranked`].
-    pub warnings: Vec<Warning>,
+    /// What a reader must know before trusting the numbers, [`super::notice::ranked`].
+    pub warnings: Vec<Notice>,
     /// Everything else.
     pub sections: Vec<Section>,
 }

@@ -29,7 +29,7 @@ use maud::{DOCTYPE, Markup, PreEscaped, html};
 use sha2::{Digest, Sha256};
 
 use crate::findings::Place;
-use crate::findings::warning::{Severity, Warning, count_words};
+use crate::findings::notice::{Notice, Severity, count_words};
 use crate::output::atomic::write_bytes_atomically;
 use gear_frame::gear_frame;
 use gearcut_core::Result;
@@ -73,7 +73,7 @@ pub struct Page {
     /// What to look at first; the first two are shown largest.
     pub key_numbers: Vec<KeyNumber>,
     /// What a reader must know before trusting the numbers, units in the signs of a page.
-    pub warnings: Vec<Warning>,
+    pub warnings: Vec<Notice>,
     /// The gear to turn, with its maps.
     pub viewer: Option<Viewer>,
     /// The rest, in order.
@@ -201,7 +201,7 @@ impl Page {
                 div id="warnings" {
                     @for warning in &self.warnings {
                         p class=(format!("warning {}", warning.severity.name())) role="note" {
-                            strong { (heading(warning.severity)) ". " } (warning.text)
+                            strong { (heading(warning.severity)) ". " } (warning.text) " " code { (warning.id) }
                         }
                     }
                 }

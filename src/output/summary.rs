@@ -4,7 +4,7 @@
 //! Neighbouring sections that show the same quantities become the rows of one table, such as the texture of all
 //! windows. What is undefined is told with its reason in the headline and left out below it.
 
-use crate::findings::{Entry, Findings, Level, Quantity, Section, Warning};
+use crate::findings::{Entry, Findings, Level, Notice, Quantity, Section};
 use crate::output::progress::duration_text;
 use crate::output::text::{Sheet, VALUE_COLUMN, plain, significant};
 use crate::wrap::wrapped;
@@ -27,7 +27,7 @@ pub fn print(findings: &Findings, sheet: &mut Sheet) {
         print_section(sheet, &section.title, section);
     }
     for warning in &findings.warnings {
-        let mut lines = wrapped(&warning.line(), WIDTH - 2).into_iter();
+        let mut lines = wrapped(&warning.line_with_id(), WIDTH - 2).into_iter();
         sheet.heading(&lines.next().unwrap_or_default());
         lines.for_each(|line| sheet.words(&line));
     }
@@ -57,10 +57,10 @@ pub fn print_brief(findings: &Findings, sheet: &mut Sheet, most: usize) {
 }
 
 /// Lines of warnings in a brief summary: the gravest first, each on few lines.
-fn brief_warnings(warnings: &[Warning]) -> Vec<String> {
+fn brief_warnings(warnings: &[Notice]) -> Vec<String> {
     let mut lines = Vec::new();
     for (index, warning) in warnings.iter().enumerate() {
-        let mut own = wrapped(&warning.line(), WIDTH - "   ...".len());
+        let mut own = wrapped(&warning.line_with_id(), WIDTH - "   ...".len());
         if own.len() > LINES_OF_A_WARNING {
             own.truncate(LINES_OF_A_WARNING);
             own[LINES_OF_A_WARNING - 1].push_str(" ...");
@@ -195,6 +195,7 @@ pub fn shown(quantity: &Quantity) -> String {
 mod tests {
     use super::*;
     use crate::findings::Place;
+    use crate::findings::Severity;
 
     fn window(key: &str, sa: f64) -> Section {
         Section::new(key, key.replace('_', " "))
@@ -216,7 +217,9 @@ mod tests {
                 Entry::headline("witness_mark", "witness mark", undefined),
                 Entry::headline("undercut_flanks", "undercut flanks", Quantity::count(12, "flanks", "undercut")),
             ],
-            warnings: vec![Warning::warn(
+            warnings: vec![Notice::new(
+                "flank.made",
+                Severity::Warning,
                 "words that go on and on until the line is much wider than any terminal would like it",
             )],
             sections: vec![
@@ -240,7 +243,9 @@ mod tests {
         let title = |i: u64| format!("section {i}");
         found.sections.extend((0..10).map(|i| Section::new("some", title(i)).shown("a", "of it", count(i))));
         found.sections.push(Section::new("deviations", "Deviations").shown("a", "F_alpha", count(7)));
-        found.warnings = (0..30).map(|i| Warning::warn(format!("{i} {}", "many words ".repeat(30)))).collect();
+        found.warnings = (0..30)
+            .map(|i| Notice::new("flank.made", Severity::Warning, format!("{i} {}", "many words ".repeat(30))))
+            .collect();
         let mut sheet = Sheet::brief();
         sheet.heading("a gear");
         print_brief(&found, &mut sheet, 33);

@@ -11,10 +11,11 @@ mod play;
 mod tables;
 mod transmission;
 
+use super::notices::{Interference, Jams, Misfit};
 use super::options::PairOptions;
 use super::rolled::{PROBE_UM, RolledPair};
-use crate::findings::warning::ranked;
-use crate::findings::{Entry, Findings, Place, Quantity, Section, Warning};
+use crate::findings::notice::ranked;
+use crate::findings::{Entry, Findings, Notice, Place, Quantity, Section};
 use crate::scene::Scene;
 use gearcut_core::units::UM_PER_MM;
 
@@ -205,38 +206,28 @@ fn center_distance(rolled: &RolledPair) -> Section {
         )
 }
 
-fn warnings(rolled: &RolledPair) -> Vec<Warning> {
+fn warnings(rolled: &RolledPair) -> Vec<Notice> {
     let mut warnings = Vec::new();
     let smallest = rolled.backlash.iter().map(|play| UM_PER_MM * play.circumferential_mm).fold(f64::INFINITY, f64::min);
     if smallest < JAMS_UM {
-        warnings.push(Warning::warn(format!(
-            "the pair jams: {:.1} um of backlash are missing; thin the teeth with gear.tooth_thickness_allowance_mm, \
-            or move the axes",
-            -smallest
-        )));
+        warnings.push(Jams { missing_um: format!("{:.1}", -smallest) }.notice());
     }
-    warnings.extend(interference(rolled).into_iter().map(Warning::fault));
+    warnings.extend(interference(rolled));
     if rolled.fit.misfit_mm > TOLD_MISFIT_MM {
-        warnings.push(Warning::warn(format!(
-            "gear B's pitch curve stands up to {:.1} um away from the mate's of gear A",
-            UM_PER_MM * rolled.fit.misfit_mm
-        )));
+        let misfit_um = format!("{:.1}", UM_PER_MM * rolled.fit.misfit_mm);
+        warnings.push(Misfit { misfit_um }.notice());
     }
     warnings
 }
 
-/// Tips that stand in the mate, in sentences; none where they stay clear. Play that is missing is none of it: teeth of
-/// full thickness lack what their feed marks are high.
-pub fn interference(rolled: &RolledPair) -> Vec<String> {
-    let told = rolled.corners.iter().zip([["A", "B"], ["B", "A"]]).filter_map(|(corner, [own, other])| {
+/// Tips that stand in the mate; none where they stay clear. Play that is missing is none of it: teeth of full thickness
+/// lack what their feed marks are high.
+fn interference(rolled: &RolledPair) -> impl Iterator<Item = Notice> {
+    rolled.corners.iter().zip([["A", "B"], ["B", "A"]]).filter_map(|(corner, [own, other])| {
         let corner = corner.filter(|corner| UM_PER_MM * corner.depth_mm > INTERFERES_UM)?;
-        let what = if corner.u_mm < 0.0 { "fillet" } else { "flank" };
-        Some(format!(
-            "a tip of gear {other} stands {:.1} um deep in a {what} of gear {own} where the pitch curves want it, at \
-            {:.2} deg of gear A",
-            UM_PER_MM * corner.depth_mm,
-            corner.phi_1_rad.to_degrees()
-        ))
-    });
-    told.collect()
+        let place = if corner.u_mm < 0.0 { "fillet" } else { "flank" };
+        let depth_um = format!("{:.1}", UM_PER_MM * corner.depth_mm);
+        let angle_deg = format!("{:.2}", corner.phi_1_rad.to_degrees());
+        Some(Interference { other, depth_um, place, own, angle_deg }.notice())
+    })
 }

@@ -33,6 +33,7 @@ pub mod fit;
 pub mod flanks;
 pub mod generated;
 pub mod member;
+pub(crate) mod notices;
 pub mod options;
 pub mod outline;
 pub mod page;

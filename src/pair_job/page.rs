@@ -10,7 +10,7 @@ use super::options::PairOptions;
 use super::rolled::RolledPair;
 use super::teeth::ToothContact;
 use super::view;
-use crate::findings::{Findings, Warning};
+use crate::findings::{Findings, Notice};
 use crate::output::range_chart::{RangeChart, RangeSeries};
 use crate::output::report::{Block, Page, PageSection, PageTable};
 use crate::output::text::plain;
@@ -138,7 +138,7 @@ pub fn page(
         done: "rolled over a whole period",
         program: format!("gearcut {}", found.program_version),
         key_numbers: found.headline.iter().map(quantities::key_number).collect(),
-        warnings: found.warnings.iter().map(Warning::with_signs).collect(),
+        warnings: found.warnings.iter().map(Notice::with_signs).collect(),
         viewer,
         sections: sections.into_iter().map(|section| with_marking(section, options)).collect(),
     }

@@ -13,7 +13,8 @@ pub mod bevel;
 pub mod hobbing;
 pub mod shaping;
 
-use crate::findings::{Findings, Warning};
+use crate::findings::notice::NoticeRow;
+use crate::findings::{Findings, Notice};
 use crate::interrupt::Interrupt;
 use crate::job::GearJob;
 use crate::output::folder::OutputFolder;
@@ -41,6 +42,8 @@ pub struct CutDone {
 pub struct Process {
     /// What its scenes may say.
     pub scene: &'static SceneProcess,
+    /// What it warns of beside what all processes share.
+    pub notices: &'static [NoticeRow],
     /// Makes a scene ready to cut; it refuses geometry that cannot be cut, and scenes of other processes.
     pub prepare: fn(&Scene) -> Result<Box<dyn ProcessJob>>,
 }
@@ -58,7 +61,7 @@ pub trait ProcessJob: Send + Sync {
     ///
     /// # Errors
     /// Geometry that cannot be cut.
-    fn check(&self, sheet: &mut Sheet) -> Result<Vec<Warning>>;
+    fn check(&self, sheet: &mut Sheet) -> Result<Vec<Notice>>;
 
     /// Shows the gear to `visit`, with which single flanks can be cut.
     ///
@@ -80,7 +83,7 @@ pub trait ProcessJob: Send + Sync {
     ///
     /// # Errors
     /// Files that cannot be written; Ctrl-C.
-    fn axes(&self, folder: &OutputFolder, interrupt: &Interrupt, sheet: &mut Sheet) -> Result<Vec<Warning>>;
+    fn axes(&self, folder: &OutputFolder, interrupt: &Interrupt, sheet: &mut Sheet) -> Result<Vec<Notice>>;
 }
 
 /// All processes; a new one adds its line here.

@@ -2,10 +2,11 @@
 
 use super::Scatter;
 use super::layers::{ALL, all_but, alone};
+use super::notices::{Missing, NotRandom};
 use super::numbers::{NUMBERS, Number};
 use super::statistics::{INTERVAL, Spread};
 use super::tolerance::Tolerance;
-use crate::findings::{Datum, Entry, Findings, Quantity, Section, Table, TableColumn, Warning};
+use crate::findings::{Datum, Entry, Findings, Notice, Quantity, Section, Table, TableColumn};
 use crate::machine_errors::ErrorLayer;
 use crate::scene::Scene;
 
@@ -74,20 +75,15 @@ fn headline(found: &Scatter) -> Vec<Entry> {
     entries
 }
 
-fn warnings(found: &Scatter) -> Vec<Warning> {
+fn warnings(found: &Scatter) -> Vec<Notice> {
     let random = |layer: &ErrorLayer| layer.is_random();
     let any = found.cases.iter().any(|(case, _)| case.kept.iter().any(random));
-    let alike = (!any && found.tolerances.is_empty())
-        .then(|| Warning::note("nothing in the scene is random: every seed makes the same gear"));
+    let alike = (!any && found.tolerances.is_empty()).then(|| NotRandom {}.notice());
     let missing = |number: &(usize, &Number)| {
         found.gears.is_some_and(|gears| (1..gears as usize).contains(&found.values(number.0).count()))
     };
     let missing: Vec<&str> = NUMBERS.iter().enumerate().filter(missing).map(|(_, number)| number.symbol).collect();
-    let missing = (!missing.is_empty()).then(|| {
-        let words =
-            format!("some gears do not have these numbers, and their spread leaves them out: {}", missing.join(", "));
-        Warning::note(words).about("scatter")
-    });
+    let missing = (!missing.is_empty()).then(|| Missing { numbers: missing.join(", ") }.notice().about("scatter"));
     found.unfollowed.iter().cloned().chain(alike).chain(missing).collect()
 }
 

@@ -4,7 +4,7 @@ use super::Scatter;
 use super::findings::place_of;
 use super::layers::{ALL, IDEAL, all_but, alone};
 use super::numbers::{NUMBERS, Number};
-use crate::findings::{Datum, Findings, RESULTS_FILE, Table, Warning, unit};
+use crate::findings::{Datum, Findings, Notice, RESULTS_FILE, Table, unit};
 use crate::machine_errors::ErrorLayer;
 use crate::output::bar_chart::BarSeries;
 use crate::output::bar_panels::{BarPanel, BarPanels};
@@ -158,7 +158,7 @@ fn page(scene: &Scene, scatter: &Scatter, found: &Findings, files: Vec<String>) 
         done: "all gears cut",
         program: format!("gearcut {}", found.program_version),
         key_numbers: found.headline.iter().map(quantities::key_number).collect(),
-        warnings: found.warnings.iter().map(Warning::with_signs).collect(),
+        warnings: found.warnings.iter().map(Notice::with_signs).collect(),
         viewer: None,
         sections,
     }

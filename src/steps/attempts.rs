@@ -8,14 +8,15 @@
 //! Road not taken: files of single flanks, which are written while the gear is cut. Where those fail, nothing else can
 //! be written either.
 
-use crate::findings::Warning;
+use crate::findings::Notice;
+use crate::findings::notices::PartFailed;
 use crate::output::progress::Progress;
 use gearcut_core::error::{Error, Result};
 
 /// Parts of a run that follow its cut, with what is to be told of them.
 pub struct Attempts<'a> {
     progress: &'a Progress,
-    told: Vec<Warning>,
+    told: Vec<Notice>,
     lost_files: bool,
 }
 
@@ -36,14 +37,14 @@ impl<'a> Attempts<'a> {
             Err(error) => {
                 self.lost_files |= matches!(error, Error::Io { .. });
                 let why = error.to_string().split('\n').map(str::trim).collect::<Vec<_>>().join("; ");
-                self.tell(Warning::fault(format!("{part}: {why}; everything else is there")));
+                self.tell(PartFailed { part, why }.notice());
                 Ok(None)
             }
         }
     }
 
     /// One more sentence for the run's list, shown as a note at once.
-    pub fn tell(&mut self, warning: Warning) {
+    pub fn tell(&mut self, warning: Notice) {
         self.progress.note(&warning.text);
         self.told.push(warning);
     }
@@ -54,7 +55,7 @@ impl<'a> Attempts<'a> {
     }
 
     /// What has been told so far.
-    pub fn told(&self) -> Vec<Warning> {
+    pub fn told(&self) -> Vec<Notice> {
         self.told.clone()
     }
 }
@@ -62,6 +63,7 @@ impl<'a> Attempts<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::findings::Severity;
     use crate::output::progress::ProgressMode;
     use gearcut_core::error::Refusal;
 
@@ -76,7 +78,7 @@ mod tests {
         assert!(!attempts.lost_files());
         let told = attempts.told();
         let text = "pictures: `picture`: it shows nothing; way out: look elsewhere; everything else is there";
-        assert_eq!(told, [Warning::fault(text)]);
+        assert_eq!(told, [Notice::new("cut.part_failed", Severity::Fault, text)]);
         let full = Error::writing("gear.png")(std::io::ErrorKind::StorageFull.into());
         assert_eq!(attempts.of::<()>("pictures", Err(full)).expect("told"), None);
         assert!(attempts.lost_files());

@@ -1,6 +1,7 @@
 //! The pitch curve: size, closure, curvature.
 
-use crate::findings::Warning;
+use crate::findings::Notice;
+use crate::findings::notices::{CurveClosure, CurveScaled};
 use crate::output::text::{Sheet, plain, significant};
 use crate::scene::model::Gear;
 use gearcut_core::gear::{GearKind, PitchCurve, PitchCurveShape, TableScaling};
@@ -78,27 +79,17 @@ pub fn print(sheet: &mut Sheet, curve: &PitchCurve, gear: &Gear, rolling_radius_
 }
 
 /// What must be known of the curve before cutting.
-pub fn warnings(curve: &PitchCurve, gear: &Gear) -> Vec<Warning> {
+pub fn warnings(curve: &PitchCurve, gear: &Gear) -> Vec<Notice> {
     let error_mm = curve.closure_error_mm();
-    let notable = error_mm.abs() > NOTABLE_CLOSURE_MODULES * gear.module_mm;
-    let text = || {
-        format!(
-            "the pitch curve is {} um {} for {} teeth: the last tooth pays for it; leave the size out and it is solved",
-            significant(UM_PER_MM * error_mm.abs(), 3),
-            if error_mm > 0.0 { "too long" } else { "too short" },
-            gear.teeth
-        )
+    let (notable, teeth) = (error_mm.abs() > NOTABLE_CLOSURE_MODULES * gear.module_mm, gear.teeth);
+    let closure = || {
+        let word = if error_mm > 0.0 { "too long" } else { "too short" };
+        CurveClosure { error_um: significant(UM_PER_MM * error_mm.abs(), 3), word, teeth }.notice()
     };
     let asked = matches!(gear.pitch_curve, PitchCurveShape::Table { scaling: TableScaling::Any, .. });
     let scaled = curve.scaling().filter(|factor| !asked && (factor - 1.0).abs() > NOTABLE_SCALING);
-    let scaled = scaled.map(|factor| {
-        format!(
-            "radii of the points are multiplied by {factor:.6} to close on {} teeth: correct them, or write \
-             scale_to_close = true",
-            gear.teeth
-        )
-    });
-    notable.then(text).into_iter().chain(scaled).map(Warning::warn).collect()
+    let scaled = scaled.map(|factor| CurveScaled { factor: format!("{factor:.6}"), teeth }.notice());
+    notable.then(closure).into_iter().chain(scaled).collect()
 }
 
 /// What the size of a shape is called, and whether the scene gives it.

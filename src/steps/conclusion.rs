@@ -8,7 +8,7 @@ use super::Tools;
 use super::attempts::Attempts;
 use super::axes::{self, AxesOfOperation};
 use super::parts::Part;
-use crate::findings::warning::ranked;
+use crate::findings::notice::ranked;
 use crate::findings::{Findings, RESULTS_FILE};
 use crate::output::report::{Page, REPORT_FILE};
 use gearcut_core::error::Result;

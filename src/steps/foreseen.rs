@@ -6,8 +6,8 @@
 //! that `check` accepts is one that `cut` starts on.
 
 use super::inspection;
-use crate::findings::Warning;
-use crate::findings::warning::ranked;
+use crate::findings::Notice;
+use crate::findings::notice::ranked;
 use crate::job::GearJob;
 use crate::output::summary;
 use crate::output::text::Sheet;
@@ -20,7 +20,7 @@ pub struct Foreseen {
     /// Where texture is looked at.
     pub windows: Vec<SampledWindow>,
     /// What must be known before cutting.
-    pub warnings: Vec<Warning>,
+    pub warnings: Vec<Notice>,
 }
 
 impl Foreseen {
@@ -29,7 +29,7 @@ impl Foreseen {
     ///
     /// # Errors
     /// Geometry that cannot be cut.
-    pub fn new(job: &dyn GearJob, windows: &[Window], own: Vec<Warning>, as_cut: bool) -> Result<Self> {
+    pub fn new(job: &dyn GearJob, windows: &[Window], own: Vec<Notice>, as_cut: bool) -> Result<Self> {
         let windows = texture::sampled(job, windows)?;
         let mut warnings = own;
         if let Some(gear) = job.cylindrical() {

@@ -3,7 +3,8 @@
 //! In: sizes of the target, what was measured, what the scene holds it against. Out: sections of the findings, which
 //! `check`, the page and the inspection sheet print from, and warnings.
 
-use crate::findings::{Datum, Entry, Level, Quantity, Section, Table, TableColumn, Warning};
+use crate::findings::notices::{BeyondLimit, NotJudged};
+use crate::findings::{Datum, Entry, Level, Notice, Quantity, Section, Table, TableColumn};
 use crate::job::CylindricalGear;
 use crate::measure::flank_tolerance::{InspectionFigure, ToleranceSizes};
 use crate::measure::inspection::{GearInspection, InspectedFlank};
@@ -60,7 +61,7 @@ impl Inspected {
     }
 
     /// Figures beyond their limits.
-    pub fn warnings(&self) -> impl Iterator<Item = Warning> {
+    pub fn warnings(&self) -> impl Iterator<Item = Notice> {
         self.verdict.failed().filter_map(beyond)
     }
 }
@@ -69,27 +70,25 @@ impl Inspected {
 ///
 /// # Errors
 /// The tool generates no flank.
-pub fn not_judged(job: &dyn CylindricalGear) -> Result<Option<Warning>> {
+pub fn not_judged(job: &dyn CylindricalGear) -> Result<Option<Notice>> {
     let Some(class) = job.scene().measure.iso_1328_class else { return Ok(None) };
     let why = no_class(job.round_gear()?.as_ref());
-    Ok(why.map(|why| Warning::warn(format!("class {class} is not judged: {why}; write [measure.limits]"))))
+    Ok(why.map(|why| NotJudged { class, why }.notice()))
 }
 
-fn beyond(judged: &JudgedFigure) -> Option<Warning> {
+fn beyond(judged: &JudgedFigure) -> Option<Notice> {
     let (worst, (limit_um, source)) = (judged.worst()?, judged.limit?);
     let side = worst.side.map_or_else(String::new, |side| format!(", {} flanks", side.name()));
     let tooth = worst.tooth.map_or_else(String::new, |tooth| format!(", tooth {tooth}"));
-    Some(
-        Warning::warn(format!(
-            "{} {}{side}{tooth}: {} um, beyond the limit of {} um ({})",
-            judged.figure.name(),
-            judged.figure.symbol(),
-            significant(worst.value_um, 3),
-            significant(limit_um, 3),
-            source.words()
-        ))
-        .about(INSPECTION),
-    )
+    let notice = BeyondLimit {
+        figure: judged.figure.name(),
+        symbol: judged.figure.symbol(),
+        place: side + &tooth,
+        value_um: significant(worst.value_um, 3),
+        limit_um: significant(limit_um, 3),
+        source: source.words(),
+    };
+    Some(notice.notice().about(INSPECTION))
 }
 
 /// Sizes of a round gear's target; with a mean thickness as cut, also the measures of the cut gear.

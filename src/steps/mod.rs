@@ -30,7 +30,8 @@ pub mod summary;
 pub mod view_mesh;
 pub mod whole_blank;
 
-use crate::findings::Warning;
+use crate::findings::Notice;
+use crate::findings::notices::{NoBody, Stopped, Unconverged, Untouched};
 use crate::interrupt::Interrupt;
 use crate::job::GearJob;
 use crate::output::flank_maps::OperationMaps;
@@ -78,24 +79,22 @@ impl Work {
     }
 
     /// What a reader of the results must know of how flanks were cut.
-    pub fn warnings(&self) -> Vec<Warning> {
+    pub fn warnings(&self) -> Vec<Notice> {
         let mut warnings = Vec::new();
         let unconverged = self.stats.unconverged;
         if unconverged > 0 {
-            warnings.push(Warning::warn(format!(
-                "{unconverged} rays did not converge: their heights may be too large; please report the scene"
-            )));
+            warnings.push(Unconverged { rays: unconverged }.notice());
         }
         if self.interrupted {
-            warnings.push(Warning::warn("stopped by Ctrl-C: figures cover the finished flanks only"));
+            warnings.push(Stopped {}.notice());
         }
         warnings
     }
 }
 
 /// Dexels that no pass reached; `why` says so for the process.
-pub fn untouched_dexels(dexels: u64, why: &str) -> Option<Warning> {
-    (dexels > 0).then(|| Warning::warn(format!("{dexels} dexels were reached by no pass: {why}")))
+pub fn untouched_dexels(dexels: u64, why: &str) -> Option<Notice> {
+    (dexels > 0).then(|| Untouched { dexels, why }.notice())
 }
 
 /// What a run says where a gear has no closed body.
@@ -172,7 +171,7 @@ pub fn write_meshes_and_pictures(
         // A gear that has no closed body: flanks that do not meet.
         Err(Error::Refused(refusal)) => {
             let why = refusal.problem;
-            attempts.tell(Warning::warn(format!("{NO_BODY}; mesh/blank.ply shows the gear: {why}")));
+            attempts.tell(NoBody { left_out: NO_BODY, why }.notice());
             None
         }
         Err(other) => attempts.of("the gear's closed body", Err(other))?.flatten(),

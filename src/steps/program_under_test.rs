@@ -4,7 +4,8 @@
 //! the sentences of the list of warnings, graded as those on a shaper's programs are: what is further off than a
 //! program may be is warned of, what is as deep as a gouge is a fault, and so is motion that is missing.
 
-use crate::findings::{Place, Quantity, Section, Warning};
+use crate::findings::notices::{ProgramLimit, ProgramOff, ProgramShare, ProgramTime};
+use crate::findings::{Notice, Place, Quantity, Section};
 use crate::measure::damage::gouge_mm;
 use crate::output::text::significant;
 use gearcut_core::units::UM_PER_MM;
@@ -57,40 +58,33 @@ impl ProgramUnderTest {
     }
 
     /// What a reader must know of it; `name` is the operation's.
-    pub fn warnings(&self, name: &str, asked_mm: f64, module_mm: f64) -> Vec<Warning> {
+    pub fn warnings(&self, name: &str, asked_mm: f64, module_mm: f64) -> Vec<Notice> {
         let mut warnings = Vec::new();
         if self.distance_mm > asked_mm + LAST_DIGIT_MM {
-            let text = format!(
-                "operation {name}: the program lies up to {} um off the scene's own motion, at {:.3} s; {} um are \
-                 asked (output.gcode_contour_error_um)",
-                significant(UM_PER_MM * self.distance_mm, 4),
-                self.at_s,
-                significant(UM_PER_MM * asked_mm, 3)
-            );
-            let is_gouge = self.distance_mm > gouge_mm(module_mm);
-            warnings.push(if is_gouge { Warning::fault(text) } else { Warning::warn(text) });
+            let off = ProgramOff {
+                operation: name,
+                distance_um: significant(UM_PER_MM * self.distance_mm, 4),
+                of: "motion",
+                place: format!("{:.3} s", self.at_s),
+                asked_um: significant(UM_PER_MM * asked_mm, 3),
+            };
+            warnings.push(off.notice().fault_where(self.distance_mm > gouge_mm(module_mm)));
         }
-        let mut fault = |text: String| warnings.push(Warning::fault(format!("operation {name}: {text}")));
         for (share, verb) in [
             (self.missing, "leaves out, of the scene's own motion,"),
             (self.beyond, "goes beyond the scene's own motion by"),
         ] {
             if share > SAME_SHARE {
-                fault(format!("the program {verb} {} %", significant(100.0 * share, 3)));
+                let percent = significant(100.0 * share, 3);
+                warnings.push(ProgramShare { operation: name, verb, percent }.notice());
             }
         }
         let [program, scene] = self.time_s;
         if (program / scene - 1.0).abs() > SAME_SHARE {
-            fault(format!(
-                "the program takes {} s for what the scene does in {} s: speeds, drifts and lags are those of the \
-                 program",
-                significant(program, 6),
-                significant(scene, 6)
-            ));
+            let [program_s, scene_s] = self.time_s.map(|time_s| significant(time_s, 6));
+            warnings.push(ProgramTime { operation: name, program_s, scene_s }.notice());
         }
-        for sentence in &self.exceeded {
-            fault(format!("{sentence}, under the program"));
-        }
+        warnings.extend(self.exceeded.iter().map(|exceeded| ProgramLimit { operation: name, exceeded }.notice()));
         warnings
     }
 }

@@ -2,7 +2,7 @@
 
 use super::Work;
 use crate::findings::Findings;
-use crate::findings::warning::count_words;
+use crate::findings::notice::count_words;
 use crate::output::summary;
 use crate::output::text::{Sheet, plain, significant};
 use crate::scene::model::Gear;

@@ -2,7 +2,7 @@
 
 use super::files::{named, stems, stems_of};
 use super::{SampledWindow, Window, WindowNote, WindowTexture, chart, laid_over};
-use crate::findings::{Datum, Quantity, Section, Table, TableColumn, Warning};
+use crate::findings::{Datum, Notice, Quantity, Section, Table, TableColumn};
 use crate::job::GearJob;
 use crate::measure::topography::{Evaluation, Parameter};
 use gearcut_core::units::UM_PER_MM;
@@ -36,7 +36,7 @@ pub fn findings(job: &dyn GearJob, textures: &[WindowTexture]) -> Section {
 
 /// What a reader must know before trusting the numbers of windows and their cut tells: a sentence for all windows of an
 /// operation that it is true of, about the window's section where it is one.
-pub(super) fn noted(job: &dyn GearJob, textures: &[WindowTexture]) -> Vec<Warning> {
+pub(super) fn noted(job: &dyn GearJob, textures: &[WindowTexture]) -> Vec<Notice> {
     let stems = stems(job, textures);
     let noted = textures.iter().zip(&stems).flat_map(|(texture, stem)| {
         let of = StemmedWindow { window: &texture.window, stem };
@@ -46,7 +46,7 @@ pub(super) fn noted(job: &dyn GearJob, textures: &[WindowTexture]) -> Vec<Warnin
 }
 
 /// The same as far as marks tell it, which are known before anything is cut.
-pub fn foreseen(job: &dyn GearJob, windows: &[SampledWindow]) -> Vec<Warning> {
+pub fn foreseen(job: &dyn GearJob, windows: &[SampledWindow]) -> Vec<Notice> {
     let stems = stems_of(job, &windows.iter().map(|sampled| named(&sampled.window)).collect::<Vec<_>>());
     let noted = windows.iter().zip(&stems).flat_map(|(sampled, stem)| {
         let of = StemmedWindow { window: &sampled.window, stem };
@@ -63,7 +63,7 @@ struct StemmedWindow<'a> {
 }
 
 /// Notes as warnings, those of one operation that are alike together.
-fn told<'a>(job: &dyn GearJob, noted: impl Iterator<Item = (StemmedWindow<'a>, WindowNote)>) -> Vec<Warning> {
+fn told<'a>(job: &dyn GearJob, noted: impl Iterator<Item = (StemmedWindow<'a>, WindowNote)>) -> Vec<Notice> {
     let mut groups: Vec<Vec<(StemmedWindow, WindowNote)>> = Vec::new();
     for (of, note) in noted {
         let alike = |group: &&mut Vec<(StemmedWindow, WindowNote)>| {
@@ -77,16 +77,14 @@ fn told<'a>(job: &dyn GearJob, noted: impl Iterator<Item = (StemmedWindow<'a>, W
     let operations = job.operations();
     let told = |group: Vec<(StemmedWindow, WindowNote)>| {
         let operation = operations[group[0].0.window.operation].0;
-        let text = WindowNote::text(&group.iter().map(|(_, note)| note).collect::<Vec<_>>());
+        let notes: Vec<&WindowNote> = group.iter().map(|(_, note)| note).collect();
         let names = group.iter().map(|(of, _)| format!("{} {}", of.window.tooth, of.window.side.name()));
         let names = names.collect::<Vec<_>>().join(", ");
         let section = match group.as_slice() {
             [(of, _)] => format!("texture.{operation}.{}", key_of(of.stem)),
             _ => format!("texture.{operation}"),
         };
-        let severity = group[0].1.severity();
-        let text = format!("texture of tooth {names} after {operation}: {text}");
-        Warning { severity, text, section: Some(section) }
+        notes[0].notice(&notes, &format!("texture of tooth {names} after {operation}: ")).about(section)
     };
     groups.into_iter().map(told).collect()
 }

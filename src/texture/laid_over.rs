@@ -13,7 +13,8 @@
 use super::files::{stems, words};
 use super::measured::MeasuredSurface;
 use super::{Window, WindowTexture};
-use crate::findings::{Quantity, Section, Warning};
+use crate::findings::notices::NotLaidOver;
+use crate::findings::{Notice, Quantity, Section};
 use crate::job::GearJob;
 use crate::measure::topography::Surface;
 use crate::output::folder::OutputFolder;
@@ -51,15 +52,15 @@ pub(super) fn section(overlaid: &Overlaid) -> Section {
 }
 
 /// What is hardly right about measured surfaces and their windows.
-pub(super) fn doubted(job: &dyn GearJob, textures: &[WindowTexture]) -> Vec<Warning> {
+pub(super) fn doubted(job: &dyn GearJob, textures: &[WindowTexture]) -> Vec<Notice> {
     let of_window = |(texture, stem): (&WindowTexture, String)| {
         let name = words(job, &texture.window);
         let section = format!("{}.{MEASURED}", stem.replace('/', "."));
-        let about = |text: String| format!("measured surface of {name}: {text}");
+        let of = format!("measured surface of {name}: ");
         let doubts = match &texture.overlaid {
             None => Vec::new(),
-            Some(Ok(comparison)) => comparison.doubts().into_iter().map(|text| Warning::warn(about(text))).collect(),
-            Some(Err(why)) => vec![Warning::fault(about(format!("it cannot be laid over what was cut: {why}")))],
+            Some(Ok(comparison)) => comparison.doubts(&of),
+            Some(Err(why)) => vec![NotLaidOver { of, why }.notice()],
         };
         doubts.into_iter().map(|doubt| doubt.about(&section)).collect::<Vec<_>>()
     };

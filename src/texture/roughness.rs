@@ -5,7 +5,8 @@ use super::files::stems;
 use super::findings::{key_of, quantities};
 use super::traces::{Direction, OfLines, Traced};
 use super::{Window, WindowTexture};
-use crate::findings::{Quantity, Section, Warning};
+use crate::findings::notices::{RoughnessLimit, RoughnessNotJudged};
+use crate::findings::{Notice, Quantity, Section};
 use crate::job::GearJob;
 use crate::measure::topography::Parameter;
 use crate::measure::topography::parameters::{ParameterRange, of_profiles};
@@ -100,7 +101,7 @@ fn section(window: &Window, stem: &str, traced: &Traced, limits: &DrawnLimits) -
 }
 
 /// Windows whose roughness exceeds a limit of the drawing, and those of which none is known though it has one.
-pub(super) fn judged(job: &dyn GearJob, textures: &[WindowTexture]) -> Vec<Warning> {
+pub(super) fn judged(job: &dyn GearJob, textures: &[WindowTexture]) -> Vec<Notice> {
     let limits = &job.scene().measure.limits;
     let operations = job.operations();
     let finished = operations.len() - 1;
@@ -117,16 +118,17 @@ pub(super) fn judged(job: &dyn GearJob, textures: &[WindowTexture]) -> Vec<Warni
             let section = roughness_path(&stem.replace('/', "."), traced.direction);
             for (symbol, limit) in limited(limits) {
                 let Some(limit) = limit else { continue };
-                let text = match (traced.of(symbol), &traced.profiles) {
+                let place = &place;
+                let notice = match (traced.of(symbol), &traced.profiles) {
                     (Some(found), _) if found.largest_um <= limit => continue,
-                    (Some(found), _) => format!(
-                        "{symbol} of {place} is up to {:.3} um, above the drawing's limit of {limit} um",
-                        found.largest_um
-                    ),
-                    (None, Err(why)) => format!("{symbol} of {place} is not judged: {why}"),
-                    (None, Ok(_)) => format!("{symbol} of {place} is not judged: no line has it"),
+                    (Some(found), _) => {
+                        let found_um = format!("{:.3}", found.largest_um);
+                        RoughnessLimit { symbol, place, found_um, limit_um: limit }.notice()
+                    }
+                    (None, Err(why)) => RoughnessNotJudged { symbol, place, why }.notice(),
+                    (None, Ok(_)) => RoughnessNotJudged { symbol, place, why: "no line has it" }.notice(),
                 };
-                warnings.push(Warning::warn(text).about(&section));
+                warnings.push(notice.about(&section));
             }
         }
     }

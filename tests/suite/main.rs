@@ -15,6 +15,7 @@ mod gpu;
 mod hobbing;
 mod influence;
 mod library;
+mod notices;
 mod output;
 mod posts;
 mod program;

@@ -1,20 +1,9 @@
 //! What can be typed behind the commands that ask what errors of machine and tool do.
 
-use super::{BackendChoice, SceneArguments};
+use super::{RunArguments, SceneArguments};
 use clap::{Args, ValueEnum};
 use gearcut::scatter::tolerance::Tolerance;
 use std::path::PathBuf;
-
-/// How gears are cut that are looked at on few places.
-#[derive(Debug, Args)]
-pub struct FewPlacesArguments {
-    /// What computes: for few places at a time the processor is the fastest.
-    #[arg(long, value_enum, default_value_t = BackendChoice::Cpu)]
-    pub backend: BackendChoice,
-    /// Show no progress.
-    #[arg(long)]
-    pub quiet: bool,
-}
 
 /// Arguments of `scatter`.
 #[derive(Debug, Args)]
@@ -38,9 +27,9 @@ pub struct ScatterArguments {
     /// Folder to write or to go on with [default: out/<scene>_scatter].
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
-    /// Backend and progress.
+    /// Backend, progress and verdict.
     #[command(flatten)]
-    pub few_places: FewPlacesArguments,
+    pub run: RunArguments,
 }
 
 /// A flank of a tooth.
@@ -76,9 +65,9 @@ pub struct CalibrateArguments {
     /// Folder to write [default: out/<scene>_calibration].
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
-    /// Backend and progress.
+    /// Backend, progress and verdict.
     #[command(flatten)]
-    pub few_places: FewPlacesArguments,
+    pub run: RunArguments,
 }
 
 /// Arguments of `diagnose`.
@@ -96,9 +85,9 @@ pub struct DiagnoseArguments {
     /// Folder to write [default: out/<scene>_diagnosis].
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
-    /// Backend and progress.
+    /// Backend, progress and verdict.
     #[command(flatten)]
-    pub few_places: FewPlacesArguments,
+    pub run: RunArguments,
     /// Errors to try, by key, section or whole name [default: all; the first entry of lists].
     #[arg(long, value_name = "KEYS", value_delimiter = ',')]
     pub parameters: Vec<String>,
@@ -124,7 +113,7 @@ pub struct BudgetArguments {
     /// Make whole cuts as well, and write the influence on every number that they report to tables/numbers.csv.
     #[arg(long)]
     pub numbers: bool,
-    /// Backend and progress.
+    /// Backend, progress and verdict.
     #[command(flatten)]
-    pub few_places: FewPlacesArguments,
+    pub run: RunArguments,
 }

@@ -3,7 +3,7 @@
 use clap::{ArgGroup, Args, ValueEnum};
 use std::path::PathBuf;
 
-use super::FewPlacesArguments;
+use super::{RunArguments, VerdictArguments};
 
 /// Arguments of `contact`.
 #[derive(Debug, Args)]
@@ -39,6 +39,9 @@ pub struct ContactArguments {
     /// Print results.json instead of the summary.
     #[arg(long)]
     pub json: bool,
+    /// What makes the verdict bad.
+    #[command(flatten)]
+    pub verdict: VerdictArguments,
 }
 
 /// Arguments of `pair`.
@@ -102,9 +105,9 @@ pub struct PairArguments {
     /// Thickness of the marking compound of contact patterns.
     #[arg(long, value_name = "UM", default_value_t = 6.0)]
     pub marking_um: f64,
-    /// Backend and progress.
+    /// Backend, progress and verdict.
     #[command(flatten)]
-    pub few_places: FewPlacesArguments,
+    pub run: RunArguments,
     /// Folder to write [default: out/<A>_with_<B>].
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,

@@ -46,7 +46,7 @@ pub(super) fn check(arguments: &TextureArguments) -> Result<(), Refusal> {
         }
     }
     let needless = |name: &str, problem: &str, way_out: &str| Err(Refusal::new(name, problem.to_owned(), way_out));
-    if arguments.robust && arguments.l_filter_um.is_none() && !any {
+    if arguments.robust && arguments.filters.l_filter_um.is_none() && !any {
         return needless(
             "--robust",
             "there is no L-filter that it could be of",
@@ -111,7 +111,7 @@ pub(super) fn of_traces(
 
 fn chain(arguments: &TextureArguments) -> ProfileChain {
     let wished = &arguments.lines;
-    let cutoff = match (wished.cutoff_um.or(arguments.l_filter_um), wished.ra_limit_um, wished.rz_limit_um) {
+    let cutoff = match (wished.cutoff_um.or(arguments.filters.l_filter_um), wished.ra_limit_um, wished.rz_limit_um) {
         (Some(um), ..) => CutOff::Um(um),
         (None, Some(ra), _) => CutOff::OfRaLimit(ra),
         (None, None, Some(rz)) => CutOff::OfRzLimit(rz),

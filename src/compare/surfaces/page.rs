@@ -3,7 +3,7 @@
 //! In: the comparison, its maps and charts. Out: a [`Page`] that opens offline: how the second was laid over the first,
 //! maps, curves, profiles, parameters.
 
-use crate::findings::{Warning, unit};
+use crate::findings::unit;
 use crate::output::line_chart::LineChart;
 use crate::output::report::{Block, KeyNumber, Page, PageSection, PageTable};
 use crate::overlay::{SurfaceComparison, correlation_text};
@@ -75,7 +75,7 @@ pub(super) fn page(
         complete: true,
         program: format!("gearcut {}", env!("CARGO_PKG_VERSION")),
         key_numbers: numbers,
-        warnings: of.doubts().into_iter().map(Warning::warn).collect(),
+        warnings: of.doubts(""),
         viewer: None,
         sections,
     }

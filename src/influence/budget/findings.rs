@@ -1,8 +1,9 @@
 //! A budget as findings: every figure of every parameter, and the maps.
 
 use super::{Budget, BudgetLine};
-use crate::findings::{Datum, Entry, Findings, Quantity, Section, Table, TableColumn, Warning};
+use crate::findings::{Datum, Entry, Findings, Notice, Quantity, Section, Table, TableColumn};
 use crate::influence::gear_grid::WHOLE_FLANK;
+use crate::influence::notices::{BudgetStopped, NotLinear, StepRefused};
 use crate::output::text::{plain, significant};
 use crate::scene::Scene;
 
@@ -52,25 +53,19 @@ pub fn findings(scene: &Scene, budget: &Budget) -> Findings {
     }
 }
 
-fn warnings(budget: &Budget) -> Vec<Warning> {
-    let refused = budget.refused.iter().map(|(parameter, why)| {
-        Warning::note(format!("{} was left out, its step is refused: {why}", parameter.id)).about("budget")
-    });
+fn warnings(budget: &Budget) -> Vec<Notice> {
+    let refused = budget
+        .refused
+        .iter()
+        .map(|(parameter, why)| StepRefused { parameter: &parameter.id, why }.notice().about("budget"));
     let bent: Vec<&str> = budget
         .lines
         .iter()
         .filter(|line| !line.influence.is_linear())
         .map(|line| line.influence.parameter.title.as_str())
         .collect();
-    let bent = (!bent.is_empty()).then(|| {
-        Warning::note(format!(
-            "half the step or the other direction does not do in proportion: {}. Their influences hold for the step \
-             alone",
-            bent.join("; ")
-        ))
-        .about("budget")
-    });
-    let stopped = (!budget.complete).then(|| Warning::warn("stopped by Ctrl-C: only finished parameters are ranked"));
+    let bent = (!bent.is_empty()).then(|| NotLinear { parameters: bent.join("; ") }.notice().about("budget"));
+    let stopped = (!budget.complete).then(|| BudgetStopped {}.notice());
     refused.chain(bent).chain(stopped).collect()
 }
 

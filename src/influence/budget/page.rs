@@ -2,7 +2,7 @@
 
 use super::Budget;
 use super::maps::{self, InfluenceSheet};
-use crate::findings::{Findings, RESULTS_FILE, Warning, unit};
+use crate::findings::{Findings, Notice, RESULTS_FILE, unit};
 use crate::output::bar_chart::{BarChart, BarSeries};
 use crate::output::folder::OutputFolder;
 use crate::output::report::{Block, Page, PageSection, PageTable, REPORT_FILE};
@@ -111,7 +111,7 @@ fn page(scene: &Scene, budget: &Budget, found: &Findings, maps: Vec<InfluenceShe
         done: "all errors tried",
         program: format!("gearcut {}", found.program_version),
         key_numbers: found.headline.iter().map(quantities::key_number).collect(),
-        warnings: found.warnings.iter().map(Warning::with_signs).collect(),
+        warnings: found.warnings.iter().map(Notice::with_signs).collect(),
         viewer: None,
         sections,
     }

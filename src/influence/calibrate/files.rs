@@ -32,9 +32,9 @@ pub fn read(gear: &dyn GearJob, files: &[String], wish: &MeasuredWish) -> Result
                 all.lines.extend(read_lines(path)?);
             }
             MeasuredKind::Surface => {
-                let (numbers, note) = surface::read(gear, file, wish)?;
+                let (numbers, notes) = surface::read(gear, file, wish)?;
                 all.numbers.extend(numbers);
-                all.notes.extend(note);
+                all.notes.extend(notes);
             }
         }
     }

@@ -2,6 +2,7 @@
 //!
 //! In: values with their uncertainties. Out: [`MeasuredGear`]. Files fill it (`files.rs`).
 
+use crate::findings::Notice;
 use crate::influence::charts::MeasuredLine;
 use crate::influence::numbers::of_window;
 use std::collections::BTreeMap;
@@ -38,7 +39,7 @@ pub struct MeasuredGear {
     /// Standard uncertainty of every value on them, um.
     pub noise_um: f64,
     /// What a reader must know of files that are not quite what the scene cuts.
-    pub notes: Vec<String>,
+    pub notes: Vec<Notice>,
 }
 
 impl MeasuredGear {

@@ -10,6 +10,8 @@
 //! in every window of equal numbers.
 
 use super::measured::{MeasuredNumber, MeasuredWish};
+use crate::findings::Notice;
+use crate::influence::notices::{OtherSize, OtherSpacing};
 use crate::job::GearJob;
 use crate::measure::topography::{Arguments, Evaluation, Parameter};
 use crate::output::atomic::file_error;
@@ -30,11 +32,7 @@ const SAME_SPACING: f64 = 1.25;
 /// # Errors
 /// A file that is no surface; a window that the scene does not have, or several that it could be; a parameter that the
 /// surface does not have; no uncertainty.
-pub(super) fn read(
-    gear: &dyn GearJob,
-    name: &str,
-    wish: &MeasuredWish,
-) -> Result<(Vec<MeasuredNumber>, Option<String>)> {
+pub(super) fn read(gear: &dyn GearJob, name: &str, wish: &MeasuredWish) -> Result<(Vec<MeasuredNumber>, Vec<Notice>)> {
     let (path, window) = match name.rsplit_once('@') {
         Some((path, window)) if !Path::new(name).exists() => (path, Some(window)),
         _ => (name, None),
@@ -75,24 +73,15 @@ pub(super) fn read(
     let words = |[x, y]: [f64; 2]| format!("{} x {} mm", significant(x, 3), significant(y, 3));
     let mut notes = Vec::new();
     if differs {
-        notes.push(format!(
-            "{path} is {} large, its window {} along tooth and profile: numbers of surfaces depend on that",
-            words(size_mm),
-            words(own_mm)
-        ));
+        notes.push(OtherSize { path, size: words(size_mm), window: words(own_mm) }.notice());
     }
     let points_um = [file.surface.dx_um(), file.surface.dy_um()];
     let own_um = found.window.spacing_mm().map(|mm| mm * UM_PER_MM);
     if (0..2).any(|k| !(1.0 / SAME_SPACING..=SAME_SPACING).contains(&(points_um[k] / own_um[k]))) {
         let words = |[x, y]: [f64; 2]| format!("{} x {} um", significant(x, 3), significant(y, 3));
-        notes.push(format!(
-            "points of {path} are {} apart, those of its window {} or closer along tooth and profile: short waves and \
-             noise count in one and not in the other unless both have the same s_filter_um",
-            words(points_um),
-            words(own_um)
-        ));
+        notes.push(OtherSpacing { path, apart: words(points_um), window: words(own_um) }.notice());
     }
-    Ok((numbers, (!notes.is_empty()).then(|| notes.join("; "))))
+    Ok((numbers, notes))
 }
 
 fn parameter_of<'a>(parameters: &'a [Parameter], symbol: &str) -> Result<&'a Parameter, Refusal> {
@@ -194,21 +183,21 @@ mod tests {
         };
         let name = path.display().to_string();
         let asked = format!("{name}@finish.tooth_03_left");
-        let (numbers, note) = evaluated(&[], asked.clone(), Some(5.0)).expect("a surface");
+        let (numbers, notes) = evaluated(&[], asked.clone(), Some(5.0)).expect("a surface");
         assert_eq!(numbers[0].quantity, "texture.finish.tooth_03_left.parameters.Sa");
         let expected = [2.0 / std::f64::consts::PI, 0.5_f64.sqrt()].map(|share| 0.8 * share);
         for (number, expected) in numbers.iter().zip(expected) {
             assert!((number.value / expected - 1.0).abs() < 0.01, "{number:?}, {expected}");
             assert!((number.uncertainty / number.value - 0.05).abs() < 1e-12);
         }
-        assert!(note.is_some_and(|note| note.contains("100 x 5.00 um apart")), "the file is coarser along the tooth");
+        assert!(notes.iter().any(|of| of.text.contains("100 x 5.00 um apart")), "the file is coarser along the tooth");
         let alike = evaluated(&["texture.0.lead_spacing_um=100"], asked.clone(), Some(5.0)).expect("a surface");
-        assert_eq!(alike.1, None);
+        assert!(alike.1.is_empty());
         // The same without the window's form is the bend.
         let (bent, _) = evaluated(&["texture.0.form=none"], asked.clone(), Some(5.0)).expect("a surface");
         assert!(bent[0].value > 5.0, "{bent:?}");
-        let (_, note) = evaluated(&["texture.0.length_profile_mm=2"], asked.clone(), Some(5.0)).expect("a surface");
-        assert!(note.is_some_and(|note| note.contains("4.00 mm") && note.contains("2.00 mm")));
+        let (_, notes) = evaluated(&["texture.0.length_profile_mm=2"], asked.clone(), Some(5.0)).expect("a surface");
+        assert!(notes.iter().any(|of| of.text.contains("4.00 mm") && of.text.contains("2.00 mm")));
         // The waves are 200 um long: an S-filter of L lets 2^-(L / 200)^2 of them pass, an L-filter the rest.
         let filtered = |filter: &str| {
             let setting = format!("texture.0.{filter}");

@@ -1,8 +1,12 @@
 //! A calibration as findings, and all that is written.
 
 use super::{Calibrated, Calibration, MeasuredGear};
-use crate::findings::{Datum, Entry, Findings, Quantity, RESULTS_FILE, Section, Table, TableColumn, Warning};
+use crate::findings::{Datum, Entry, Findings, Notice, Quantity, RESULTS_FILE, Section, Table, TableColumn};
 use crate::influence::charts::MeasuredLine;
+use crate::influence::notices::{
+    AtEnd, CalibrationBeyond, CalibrationStopped, CalibrationUnexplained, CalibrationUnsettled, NoFreedom, OneSurface,
+    Unidentified,
+};
 use crate::output::folder::OutputFolder;
 use crate::output::report::{Block, Page, PageSection, PageTable, REPORT_FILE};
 use crate::output::table::write_tables;
@@ -68,50 +72,26 @@ pub fn findings(scene: &Scene, measured: &MeasuredGear, found: &Calibration) -> 
     }
 }
 
-fn warnings(measured: &MeasuredGear, found: &Calibration) -> Vec<Warning> {
-    let stopped = (!found.complete).then(|| {
-        Warning::warn("stopped by Ctrl-C: fitted by the rounds that were done; intervals are of the last one")
-    });
+fn warnings(measured: &MeasuredGear, found: &Calibration) -> Vec<Notice> {
+    let stopped = (!found.complete).then(|| CalibrationStopped {}.notice());
     let parameters = found.fitted.iter().zip(&found.at_end).filter(|((_, fitted), _)| fitted.is_none());
     let lost = parameters.map(|((parameter, _), at_end)| {
         let ErrorParameter { id, unit, .. } = parameter;
-        Warning::warn(match at_end {
-            Some(shift) => format!(
-                "{id} is at the end of its range, {} {unit} beyond the scene: the measured values ask for more, and no \
-                 interval of any parameter holds; are they in the units that their columns name?",
-                significant(*shift, 4)
-            ),
-            None => format!(
-                "{id} cannot be identified: the measured values say nothing of it, or no more than of the others \
-                 together"
-            ),
-        })
+        match at_end {
+            Some(shift) => AtEnd { parameter: id, shift: significant(*shift, 4), unit }.notice(),
+            None => Unidentified { parameter: id }.notice(),
+        }
     });
-    let moving = (found.complete && !found.settled).then(|| {
-        Warning::warn(if found.beyond {
-            "the fit has not settled: the measured values draw it beyond the ranges of keys, or to gears that cannot \
-             be cut; are they in the units that their columns name?"
-        } else {
-            "the fit has not settled: its numbers are no least squares"
-        })
-    });
-    let left = found.chance.filter(|chance| *chance < UNEXPLAINED_BY_CHANCE).map(|chance| {
-        Warning::warn(format!(
-            "unexplained: uncertainties alone leave residuals as large in {} of 1000 cases; something else is wrong",
-            significant(1000.0 * chance, 2)
-        ))
-    });
-    let bare = (found.freedom == 0)
-        .then(|| Warning::note("as many numbers are fitted as measured: that they agree says nothing about the model"));
+    let moving = (found.complete && !found.settled)
+        .then(|| if found.beyond { CalibrationBeyond {}.notice() } else { CalibrationUnsettled {}.notice() });
+    let left = found.chance.filter(|chance| *chance < UNEXPLAINED_BY_CHANCE);
+    let left = left.map(|chance| CalibrationUnexplained { of_1000: significant(1000.0 * chance, 2) }.notice());
+    let bare = (found.freedom == 0).then(|| NoFreedom {}.notice());
     let together = measured.of_one_surface().into_iter().map(|(surface, symbols)| {
-        Warning::warn(format!(
-            "{} of {surface} come from one surface, and are fitted as if each had been measured on a surface of its \
-             own: intervals of what they say may be too narrow, by a factor of up to {}",
-            symbols.join(", "),
-            significant((symbols.len() as f64).sqrt(), 2)
-        ))
+        let factor = significant((symbols.len() as f64).sqrt(), 2);
+        OneSurface { symbols: symbols.join(", "), surface, factor }.notice()
     });
-    let files = measured.notes.iter().map(|note| Warning::note(note.clone()));
+    let files = measured.notes.iter().cloned();
     stopped.into_iter().chain(lost).chain(moving).chain(left).chain(bare).chain(together).chain(files).collect()
 }
 
@@ -303,7 +283,7 @@ fn page(scene: &Scene, found: &Calibration, measured: &MeasuredGear, tree: &Find
         done: "fitted",
         program: format!("gearcut {}", tree.program_version),
         key_numbers: tree.headline.iter().map(quantities::key_number).collect(),
-        warnings: tree.warnings.iter().map(Warning::with_signs).collect(),
+        warnings: tree.warnings.iter().map(Notice::with_signs).collect(),
         viewer: None,
         sections: std::iter::once(PageSection::new(
             "numbers",

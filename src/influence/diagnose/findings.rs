@@ -1,8 +1,12 @@
 //! A diagnosis as findings, and for the terminal.
 
 use super::{Diagnosis, ErrorModel, FittedSize, NamedSource, StandingShape};
-use crate::findings::{Datum, Entry, Findings, Quantity, Section, Table, TableColumn, Warning};
+use crate::findings::{Datum, Entry, Findings, Notice, Quantity, Section, Table, TableColumn};
 use crate::influence::measured::MeasuredPoint;
+use crate::influence::notices::{
+    DiagnosisStopped, DiagnosisUnexplained, DiagnosisUnsettled, Hidden, NoOwnSize, SameAs, StandsOut, StepRefused,
+    Unsayable,
+};
 use crate::output::summary;
 use crate::output::text::{Sheet, significant};
 use crate::scene::Scene;
@@ -106,59 +110,35 @@ fn title(model: &ErrorModel, source: usize) -> String {
     model.sources[source].title()
 }
 
-fn warnings(model: &ErrorModel, found: &Diagnosis) -> Vec<Warning> {
+fn warnings(model: &ErrorModel, found: &Diagnosis) -> Vec<Notice> {
     let names = |sources: &[usize]| sources.iter().map(|&source| title(model, source)).collect::<Vec<_>>().join("; ");
-    let mut warnings: Vec<Warning> = found.standing_words(model).into_iter().map(Warning::warn).collect();
+    let outstanding = found.standing_words(model).into_iter();
+    let mut warnings: Vec<Notice> = outstanding.map(|what| StandsOut { what }.notice()).collect();
     if !model.complete {
-        warnings.push(Warning::warn(format!(
-            "stopped by Ctrl-C: {} errors were tried and {} rounds of the fit done; another error or another round may \
-             explain these deviations better",
-            model.sources.len(),
-            found.rounds
-        )));
+        warnings.push(DiagnosisStopped { errors: model.sources.len(), rounds: found.rounds }.notice());
     } else if !found.settled {
-        warnings.push(Warning::warn(
-            "the fit has not settled: gears that are cut with the named sizes lead to others; intervals do not hold",
-        ));
+        warnings.push(DiagnosisUnsettled {}.notice());
     }
     if found.unexplained_um > 0.0 {
-        warnings.push(Warning::warn(format!(
-            "unexplained: {} um are left beyond the stated noise; no error that the scene can name makes them, and \
-             what is named is said without intervals: it may stand in for something else",
-            significant(found.unexplained_um, 3)
-        )));
+        warnings.push(DiagnosisUnexplained { left_um: significant(found.unexplained_um, 3) }.notice());
     }
     for named in &found.named {
+        let source = title(model, named.source);
         if !named.same_as.is_empty() {
-            warnings.push(Warning::warn(format!(
-                "{} cannot be told apart from: {}. Each would explain these deviations as well",
-                title(model, named.source),
-                names(&named.same_as)
-            )));
+            warnings.push(SameAs { source: &source, others: names(&named.same_as) }.notice());
         }
         if named.fitted.contains(&None) {
-            warnings.push(Warning::note(format!(
-                "parts of {} are combinations of other named errors at these places and have no size of their own",
-                title(model, named.source)
-            )));
+            warnings.push(NoOwnSize { source }.notice());
         }
     }
     if !found.hidden.is_empty() {
-        warnings.push(Warning::note(format!(
-            "noise hides a natural step of these at the measured places, beside a turn of the gear: {}",
-            names(&found.hidden)
-        )));
+        warnings.push(Hidden { sources: names(&found.hidden) }.notice());
     }
     if !found.unsayable.is_empty() {
-        warnings.push(Warning::note(format!(
-            "these would explain something by a size that the scene has no word for, such as a play below 0, and are \
-             not named: {}",
-            names(&found.unsayable)
-        )));
+        warnings.push(Unsayable { sources: names(&found.unsayable) }.notice());
     }
-    for (parameter, why) in &model.refused {
-        warnings.push(Warning::note(format!("{} was left out, its step is refused: {why}", parameter.id)));
-    }
+    let refused = model.refused.iter().map(|(parameter, why)| StepRefused { parameter: &parameter.id, why }.notice());
+    warnings.extend(refused);
     warnings
 }
 
@@ -225,7 +205,7 @@ impl Diagnosis {
                 Some(format!("teeth {names} stand out by {sizes} um"))
             }
         };
-        single.into_iter().chain(others).map(|words| format!("{words}; errors are fitted beside that")).collect()
+        single.into_iter().chain(others).collect()
     }
 }
 
@@ -311,8 +291,8 @@ pub(super) fn sized(found: &Diagnosis, fitted: Option<FittedSize>, unit: &str) -
 
 /// For the terminal: what stands out, the headline, and what is named.
 pub fn sheet(model: &ErrorModel, found: &Diagnosis, tree: &Findings, sheet: &mut Sheet) {
-    for words in found.standing_words(model) {
-        sheet.words(&words);
+    for what in found.standing_words(model) {
+        sheet.words(&StandsOut { what }.notice().text);
     }
     for entry in &tree.headline {
         summary::line(sheet, &entry.title, &summary::shown(&entry.quantity));

@@ -2,7 +2,7 @@
 
 use super::findings::sized;
 use super::{Diagnosis, ErrorModel};
-use crate::findings::{Findings, RESULTS_FILE, Warning, unit};
+use crate::findings::{Findings, Notice, RESULTS_FILE, unit};
 use crate::output::bar_chart::{BarChart, BarSeries};
 use crate::output::folder::OutputFolder;
 use crate::output::report::{Block, Page, PageSection, PageTable, REPORT_FILE};
@@ -52,7 +52,7 @@ fn page(scene: &Scene, model: &ErrorModel, found: &Diagnosis, tree: &Findings, e
         done: "all errors tried",
         program: format!("gearcut {}", tree.program_version),
         key_numbers: tree.headline.iter().map(quantities::key_number).collect(),
-        warnings: tree.warnings.iter().map(Warning::with_signs).collect(),
+        warnings: tree.warnings.iter().map(Notice::with_signs).collect(),
         viewer: None,
         sections: [
             PageSection::new(

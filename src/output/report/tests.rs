@@ -44,7 +44,7 @@ fn page() -> Page {
             note: HOSTILE.into(),
             place: Some(Place::on_flank(1, HOSTILE, 1.0, -2.0)),
         }],
-        warnings: vec![Warning::fault(HOSTILE)],
+        warnings: vec![Notice::new("flank.made", Severity::Fault, HOSTILE)],
         viewer: Some(Viewer {
             flanks: vec![viewer::ViewerFlank {
                 tooth: 1,

@@ -1,13 +1,14 @@
 //! What a splined shaft in its hub has shown: findings, a table tooth by tooth, a chart, the page.
 
 use super::{SplineFit, ToothInSpace};
-use crate::findings::{Datum, Entry, Findings, Place, Quantity, RESULTS_FILE, Section, Table, TableColumn, Warning};
+use crate::findings::{Datum, Entry, Findings, Notice, Place, Quantity, RESULTS_FILE, Section, Table, TableColumn};
 use crate::output::bar_chart::{BarChart, BarSeries};
 use crate::output::folder::OutputFolder;
 use crate::output::report::{Block, Page, PageSection, REPORT_FILE};
 use crate::output::table::write_tables;
 use crate::output::text::significant;
 use crate::pair_job::findings::PROCESS;
+use crate::pair_job::notices::NoClearance;
 use crate::pair_job::page::{PairRecord, run_record};
 use crate::scene::Scene;
 use crate::steps::report::facts::gear_words;
@@ -35,7 +36,7 @@ pub fn findings(name: &str, scenes: [&Scene; 2], fit: &SplineFit) -> Findings {
         scene: name.to_owned(),
         complete: true,
         headline: Vec::new(),
-        warnings: interference(fit).into_iter().map(Warning::fault).collect(),
+        warnings: interference(fit).into_iter().collect(),
         sections,
     };
     let entry = |(key, title): (&str, &str)| {
@@ -46,8 +47,8 @@ pub fn findings(name: &str, scenes: [&Scene; 2], fit: &SplineFit) -> Findings {
     found
 }
 
-/// Why the parts do not go together, in a sentence.
-pub fn interference(fit: &SplineFit) -> Option<String> {
+/// Why the parts do not go together.
+fn interference(fit: &SplineFit) -> Option<Notice> {
     let missing_um = -UM_PER_MM * fit.clearance_mm;
     (missing_um > 0.0).then(|| {
         let tightest = fit.teeth.iter().min_by(|a, b| clearance_mm(a).total_cmp(&clearance_mm(b)));
@@ -59,11 +60,7 @@ pub fn interference(fit: &SplineFit) -> Option<String> {
                 significant(UM_PER_MM * clearance_mm(at), 3)
             )
         });
-        format!(
-            "the shaft does not go into the hub: {} um of clearance are missing along the pitch circle{where_it_is}; \
-             thin the teeth of one part with gear.tooth_thickness_allowance_mm",
-            significant(missing_um, 3)
-        )
+        NoClearance { missing_um: significant(missing_um, 3), place: where_it_is }.notice()
     })
 }
 
@@ -212,7 +209,7 @@ pub fn write(
         done: "all teeth in their spaces",
         program: format!("gearcut {}", found.program_version),
         key_numbers: found.headline.iter().map(quantities::key_number).collect(),
-        warnings: found.warnings.iter().map(Warning::with_signs).collect(),
+        warnings: found.warnings.iter().map(Notice::with_signs).collect(),
         viewer: None,
         sections: vec![
             PageSection::new(

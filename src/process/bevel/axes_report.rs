@@ -9,7 +9,7 @@ use super::job::BevelJob;
 use super::measure;
 use super::motion::{AXES, RollMotion, limits};
 use super::operation::PreparedBevel;
-use crate::findings::Warning;
+use crate::findings::Notice;
 use crate::machine::{Motion as _, Order, Peak, peaks};
 use crate::output::line_chart::LineChart;
 use crate::output::progress::duration_text;
@@ -207,7 +207,7 @@ impl AxesOfOperation for BevelAxesReport<'_> {
         }
     }
 
-    fn own_warnings(&self) -> Vec<Warning> {
+    fn own_warnings(&self) -> Vec<Notice> {
         let (asked_mm, module_mm) = (self.job.scene.output.gcode_contour_error_mm, self.job.scene.gear.module_mm);
         let told = |program: &ProgramUnderTest| program.warnings(&self.operation.spec.name, asked_mm, module_mm);
         self.program.as_ref().map(told).unwrap_or_default()
@@ -228,7 +228,7 @@ impl AxesOfOperation for BevelAxesReport<'_> {
         self.charts.get_or_init(|| self.drawn())
     }
 
-    fn programs(&self, warnings: &[Warning]) -> Option<Result<Vec<(String, String)>, String>> {
+    fn programs(&self, warnings: &[Notice]) -> Option<Result<Vec<(String, String)>, String>> {
         let number = gcode::program_number(self.job, self.operation);
         let file = self.job.scene.output.post.file_name(self.name(), number);
         Some(gcode::text(self.job, self.operation, warnings)?.map(|text| vec![(file, text)]))

@@ -5,7 +5,7 @@ use super::blank::CellGrid;
 use super::findings;
 use super::job::BevelJob;
 use super::stage_costs::STAGE_COSTS;
-use crate::findings::Warning;
+use crate::findings::Notice;
 use crate::output::text::{Sheet, plain, significant};
 use crate::steps::axes;
 use crate::steps::check_cost::{BYTES_PER_DEXEL, TimeCost};
@@ -34,7 +34,7 @@ const PLANNED_ROWS: usize = 96;
 ///
 /// # Errors
 /// Geometry that cannot be cut.
-pub fn print(sheet: &mut Sheet, job: &BevelJob) -> Result<Vec<Warning>> {
+pub fn print(sheet: &mut Sheet, job: &BevelJob) -> Result<Vec<Notice>> {
     let operations = BevelAxesReport::of_job(job);
     sheet.heading(&format!("{}: {}", job.scene.name, gear_words(job)));
     print_blank(sheet, job)?;

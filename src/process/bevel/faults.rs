@@ -1,11 +1,14 @@
-//! What in a bevel scene contradicts itself, in words with numbers: cones, depth, roll, blades, travel of the axes, the
+//! What in a bevel scene contradicts itself, as notices: cones, depth, roll, blades, travel of the axes, the
 //! grid of inspection.
 //!
 //! In: a job. Out: lines for `check`, terminal and page; refusals where nothing can be measured.
 
 use super::job::BevelJob;
 use super::measure::inner;
+use super::notices::{Depth, ExchangedBlades, PitchAngle, RootAngle, ShortRoll, Travel, WideFace};
 use super::operation::PreparedBevel;
+use crate::findings::Notice;
+use gearcut_core::bevel::blank::Contradiction;
 use gearcut_core::bevel::face_mill::BladeKind;
 use gearcut_core::error::Refusal;
 use gearcut_core::terms::Side;
@@ -45,48 +48,50 @@ impl BevelJob {
     }
 
     /// What in the scene contradicts itself.
-    pub fn contradictions(&self) -> Vec<String> {
+    pub fn contradictions(&self) -> Vec<Notice> {
         // Pairs with an offset do not roll on cones whose apexes meet.
         let mate = self.spec.cones.mate.filter(|_| self.spec.cones.hypoid_offset_mm == 0.0);
-        let mut found = self.blank.contradictions(mate);
+        let deg = |rad: f64| format!("{:.4}", rad.to_degrees());
+        let of_blank = |contradiction| match contradiction {
+            Contradiction::PitchAngle { mate, right_rad } => PitchAngle {
+                own_deg: deg(self.blank.pitch_angle_rad),
+                teeth: self.blank.teeth,
+                mate_teeth: mate.teeth,
+                shaft_deg: deg(mate.shaft_angle_rad),
+                right_deg: deg(right_rad),
+            }
+            .notice(),
+            Contradiction::WideFace { share } => WideFace { percent: format!("{:.0}", 100.0 * share) }.notice(),
+        };
+        let mut found: Vec<Notice> = self.blank.contradictions(mate).into_iter().map(of_blank).collect();
         let settings = &self.finishing().settings;
         let off_rad = settings.root_angle_rad - self.blank.root_angle_rad;
         if off_rad.abs() > ROOT_ANGLE_RAD {
-            found.push(format!(
-                "the machine's root angle is {:.4} deg off the blank's: slots are not parallel to the root cone",
-                off_rad.to_degrees()
-            ));
+            found.push(RootAngle { off_deg: deg(off_rad) }.notice());
         }
         let short_mm = self.depth_missed_mm();
         if short_mm.abs() > DEPTH_MM {
-            let what = if short_mm > 0.0 { "too shallow" } else { "too deep" };
-            found.push(format!(
-                "slots come out {:.4} mm {what} at the middle of the face: add {short_mm:.4} mm to \
-                 machine.cradle.sliding_base_mm",
-                short_mm.abs()
-            ));
+            let way = if short_mm > 0.0 { "too shallow" } else { "too deep" };
+            let add_mm = format!("{short_mm:.4}");
+            found.push(Depth { short_mm: format!("{:.4}", short_mm.abs()), way, add_mm }.notice());
         }
         found.extend(self.exchanged_blades());
         for operation in &self.operations {
             found.extend(self.beyond_travel(operation));
             let [from, to] = operation.roll_rad;
             if from.min(to) > self.needed_rad[0] || from.max(to) < self.needed_rad[1] {
-                found.push(format!(
-                    "operation {}: the cradle rolls from {:.3} to {:.3} deg, the flanks need {:.3} to {:.3} deg: they \
-                     are not generated as a whole",
-                    operation.spec.name,
-                    from.to_degrees(),
-                    to.to_degrees(),
-                    self.needed_rad[0].to_degrees(),
-                    self.needed_rad[1].to_degrees()
-                ));
+                let [low, high] = self.needed_rad;
+                let [from_deg, to_deg, low_deg, high_deg] =
+                    [from, to, low, high].map(|rad| format!("{:.3}", rad.to_degrees()));
+                let operation = &operation.spec.name;
+                found.push(ShortRoll { operation, from_deg, to_deg, low_deg, high_deg }.notice());
             }
         }
         found
     }
 
     /// Blade angles that would fit the pressure angle far better the other way round.
-    fn exchanged_blades(&self) -> Option<String> {
+    fn exchanged_blades(&self) -> Option<Notice> {
         let wanted_rad = self.scene.gear.pressure_angle_rad;
         let [outside, inside] = self.head.blade_angles_rad;
         // On the pitch cone the normal leans by the pressure angle against the cone.
@@ -102,24 +107,23 @@ impl BevelJob {
         let misfit = |[a, b]: [f64; 2]| a.abs() + b.abs();
         let other_way = [off_rad[0] + step_rad, off_rad[1] - step_rad];
         (misfit(other_way) + EXCHANGED_RAD < misfit(off_rad)).then(|| {
-            let deg = |rad: f64| (wanted_rad + rad).to_degrees();
-            format!(
-                "inside and outside blades look exchanged: concave flanks come out with a pressure angle of {:.2} deg, \
-                 convex ones with {:.2} deg; with outside blades of {:.2} deg and inside blades of {:.2} deg it would \
-                 be {:.2} and {:.2} deg, near gear.pressure_angle_deg = {:.2}",
-                deg(off_rad[0]),
-                deg(off_rad[1]),
-                inside.to_degrees(),
-                outside.to_degrees(),
-                deg(other_way[0]),
-                deg(other_way[1]),
-                wanted_rad.to_degrees()
-            )
+            let deg = |rad: f64| format!("{:.2}", rad.to_degrees());
+            let comes_out = |off_rad: f64| deg(wanted_rad + off_rad);
+            let exchanged = ExchangedBlades {
+                concave_deg: comes_out(off_rad[0]),
+                convex_deg: comes_out(off_rad[1]),
+                inside_deg: deg(inside),
+                outside_deg: deg(outside),
+                other_concave_deg: comes_out(other_way[0]),
+                other_convex_deg: comes_out(other_way[1]),
+                wanted_deg: deg(wanted_rad),
+            };
+            exchanged.notice()
         })
     }
 
     /// Axes that leave the machine's travel while a slot is rolled.
-    fn beyond_travel(&self, operation: &PreparedBevel) -> Vec<String> {
+    fn beyond_travel(&self, operation: &PreparedBevel) -> Vec<Notice> {
         let [from, to] = operation.roll_rad;
         let positions: Vec<[f64; 4]> = (0..=TRAVEL_STEPS)
             .map(|i| from + (to - from) * f64::from(i) / f64::from(TRAVEL_STEPS))
@@ -138,15 +142,9 @@ impl BevelJob {
             let [lowest, highest] = self.spec.travel[k];
             if lowest.is_some_and(|end| low < end) || highest.is_some_and(|end| high > end) {
                 let end = |end: Option<f64>| end.map_or("no end".to_owned(), |end| format!("{:.3}", scale * end));
-                found.push(format!(
-                    "operation {}: {axis} goes from {:.3} to {:.3} {unit}, the machine from {} to {} {unit}: check the \
-                     settings, machine.five_axis.mounting_distance_mm and machine.bevel_limits",
-                    operation.spec.name,
-                    scale * low,
-                    scale * high,
-                    end(lowest),
-                    end(highest)
-                ));
+                let [low, high] = [low, high].map(|end| format!("{:.3}", scale * end));
+                let (operation, from, to) = (&operation.spec.name, end(lowest), end(highest));
+                found.push(Travel { operation, axis, low, high, unit, from, to }.notice());
             }
         }
         found

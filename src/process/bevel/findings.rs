@@ -11,8 +11,8 @@ use super::job::BevelJob;
 use super::measure::{self, BevelReport};
 use super::motion::AXES;
 use super::net::Position;
-use crate::findings::warning::ranked;
-use crate::findings::{Datum, Entry, Findings, Place, Quantity, Section, Table, TableColumn, Warning};
+use crate::findings::notice::ranked;
+use crate::findings::{Datum, Entry, Findings, Notice, Place, Quantity, Section, Table, TableColumn};
 use crate::machine_errors::ErrorLayer;
 use crate::output::text::significant;
 use crate::steps::axes::{self, AxesOfOperation as _};
@@ -35,7 +35,7 @@ pub struct BevelMeasured<'a> {
     /// The six-axis machine, operation by operation.
     pub motion: &'a [BevelAxesReport<'a>],
     /// Warnings that were known before the cut.
-    pub foreseen: &'a [Warning],
+    pub foreseen: &'a [Notice],
     /// Texture windows.
     pub textures: &'a [WindowTexture],
     /// The whole gear and the chips of a slot; nothing where the run was stopped before.
@@ -94,9 +94,8 @@ pub fn findings(job: &BevelJob, gear: &BevelGear, measured: &BevelMeasured) -> R
 pub fn foresee(job: &BevelJob, motion: &[BevelAxesReport]) -> Result<Foreseen> {
     CellGrid::of_scene(job)?;
     let windows = texture::windows(job)?;
-    let hit = job.next_tooth_warning()?.map(Warning::fault);
-    let off = job.contradictions().into_iter().chain(job.undercut_warning()?).map(Warning::warn);
-    let own = hit.into_iter().chain(off).chain(axes::warnings(motion)).collect();
+    let own = job.next_tooth_warning()?.into_iter().chain(job.contradictions()).chain(job.undercut_warning()?);
+    let own = own.chain(axes::warnings(motion)).collect();
     Foreseen::new(job, &windows, own, true)
 }
 

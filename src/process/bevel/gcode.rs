@@ -22,7 +22,7 @@ pub use judge::judged;
 use super::job::BevelJob;
 use super::motion::{AXES, RollMotion, limits};
 use super::operation::PreparedBevel;
-use crate::findings::Warning;
+use crate::findings::Notice;
 use crate::gcode::{AxisColumn, Script, StraightLine};
 use crate::machine::Axis;
 use crate::output::text::{plain, significant};
@@ -30,11 +30,11 @@ use gearcut_core::units::{TURN_RAD, UM_PER_MM};
 
 /// The program of an operation, `warnings` in its head; an error is the reason why there is none, `None`: none is
 /// wanted.
-pub fn text(job: &BevelJob, operation: &PreparedBevel, warnings: &[Warning]) -> Option<Result<String, String>> {
+pub fn text(job: &BevelJob, operation: &PreparedBevel, warnings: &[Notice]) -> Option<Result<String, String>> {
     job.spec.programs.then(|| linear(job, operation, warnings))
 }
 
-fn linear(job: &BevelJob, operation: &PreparedBevel, warnings: &[Warning]) -> Result<String, String> {
+fn linear(job: &BevelJob, operation: &PreparedBevel, warnings: &[Notice]) -> Result<String, String> {
     let motion = RollMotion { job, operation };
     let asked_mm = job.scene.output.gcode_contour_error_mm;
     let program = BevelProgram::fit(&motion, asked_mm);
@@ -84,7 +84,7 @@ fn linear(job: &BevelJob, operation: &PreparedBevel, warnings: &[Warning]) -> Re
             significant(reached_mm * UM_PER_MM, 6)
         ),
     ];
-    let told = warnings.iter().map(Warning::line);
+    let told = warnings.iter().map(Notice::line);
     let column = |axis: &Axis| AxisColumn { letter: axis.letter, kind: axis.kind, digits: digits.of(axis.kind) };
     let position = |knot: &BevelKnot| AXES.iter().zip(&knot.axes).map(|(axis, &at)| axis.kind.shown(at)).collect();
     let line = |pair: &[BevelKnot]| StraightLine {

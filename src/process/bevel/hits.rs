@@ -5,6 +5,8 @@
 
 use super::blank::CellGrid;
 use super::job::BevelJob;
+use super::notices::{NextTooth, Undercut};
+use crate::findings::Notice;
 use gearcut_core::cut::Backend as _;
 use gearcut_core::cut::cpu::Cpu;
 use gearcut_core::dexel::NO_PASS;
@@ -66,32 +68,27 @@ impl BevelJob {
         Ok(if right.depth_mm > left.depth_mm { right } else { left })
     }
 
-    /// A head that hits the next tooth, in words with numbers.
+    /// A head that hits the next tooth.
     ///
     /// # Errors
     /// A place that the roll does not generate.
-    pub fn next_tooth_warning(&self) -> Result<Option<String>> {
+    pub fn next_tooth_warning(&self) -> Result<Option<Notice>> {
         let DeepestCut { depth_mm, side, at_mm } = self.deepest_of_sides(&[1, self.blank.teeth - 1])?;
         // A ray that goes through a thin tooth meets the slot beyond it, which its own blades cut: no hit where bounds
         // say that blades stay in their cells.
         let is_hit = depth_mm > HIT_MM && self.neighbours_may_reach(&CellGrid::of_scene(self)?);
         Ok(is_hit.then(|| {
-            format!(
-                "the head hits the next tooth: while one slot is cut, its blades go {depth_mm:.3} mm into the {} flank \
-                 beyond, {:.1} mm from the middle of the face along the tooth; roll less far, or use a smaller point \
-                 width or a larger cutter",
-                side.name(),
-                at_mm[1]
-            )
+            let (depth_mm, along_mm) = (format!("{depth_mm:.3}"), format!("{:.1}", at_mm[1]));
+            NextTooth { depth_mm, side: side.name(), along_mm }.notice()
         }))
     }
 
-    /// A flank that its own blades cut away again, as on pinions with few teeth, in words with numbers. Blades that
+    /// A flank that its own blades cut away again, as on pinions with few teeth. Blades that
     /// stand out and a machine with errors are meant to leave the target, and are no undercut.
     ///
     /// # Errors
     /// A place that the roll does not generate.
-    pub fn undercut_warning(&self) -> Result<Option<String>> {
+    pub fn undercut_warning(&self) -> Result<Option<Notice>> {
         if self.spec.settings.errors.iter().any(|(_, error)| *error != 0.0) {
             return Ok(None);
         }
@@ -99,14 +96,14 @@ impl BevelJob {
         let DeepestCut { depth_mm, side, at_mm } = self.deepest_of_sides(&[0])?;
         Ok((depth_mm > HIT_MM + stands_out_mm).then(|| {
             let [arc_mm, along_mm] = at_mm;
-            format!(
-                "undercut: blades of the same slot go {depth_mm:.3} mm below the {} flank, {arc_mm:.2} mm from its \
-                 form point and {:.1} mm from the middle of the face towards the {}; use a smaller dedendum, larger \
-                 blade angles or more teeth",
-                side.name(),
-                along_mm.abs(),
-                if along_mm < 0.0 { "toe" } else { "heel" }
-            )
+            let undercut = Undercut {
+                depth_mm: format!("{depth_mm:.3}"),
+                side: side.name(),
+                arc_mm: format!("{arc_mm:.2}"),
+                along_mm: format!("{:.1}", along_mm.abs()),
+                end: if along_mm < 0.0 { "toe" } else { "heel" },
+            };
+            undercut.notice()
         }))
     }
 }

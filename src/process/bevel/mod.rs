@@ -20,6 +20,7 @@ pub mod job;
 pub mod measure;
 pub mod motion;
 pub mod net;
+pub(crate) mod notices;
 pub mod operation;
 pub mod pair;
 mod report;
@@ -31,7 +32,7 @@ mod stage_costs;
 mod surfaces;
 
 use super::{CutDone, Process};
-use crate::findings::Warning;
+use crate::findings::Notice;
 use crate::interrupt::Interrupt;
 use crate::job::GearJob;
 use crate::output::folder::OutputFolder;
@@ -43,7 +44,8 @@ use gearcut_core::error::Result;
 pub use job::BevelJob;
 
 /// The process.
-pub static PROCESS: Process = Process { scene: &scene::SCENE, prepare: |scene| Ok(Box::new(BevelJob::new(scene)?)) };
+pub static PROCESS: Process =
+    Process { scene: &scene::SCENE, notices: notices::NOTICES, prepare: |scene| Ok(Box::new(BevelJob::new(scene)?)) };
 
 impl super::ProcessJob for BevelJob {
     fn cut(&self, tools: &Tools, frames: Option<u32>) -> Result<CutDone> {
@@ -53,7 +55,7 @@ impl super::ProcessJob for BevelJob {
         run::run(self, tools)
     }
 
-    fn check(&self, sheet: &mut Sheet) -> Result<Vec<Warning>> {
+    fn check(&self, sheet: &mut Sheet) -> Result<Vec<Notice>> {
         check::print(sheet, self)
     }
 
@@ -61,7 +63,7 @@ impl super::ProcessJob for BevelJob {
         visit(self)
     }
 
-    fn axes(&self, folder: &OutputFolder, interrupt: &Interrupt, sheet: &mut Sheet) -> Result<Vec<Warning>> {
+    fn axes(&self, folder: &OutputFolder, interrupt: &Interrupt, sheet: &mut Sheet) -> Result<Vec<Notice>> {
         let motion = BevelAxesReport::of_job(self);
         axes::command(&motion, findings::foresee(self, &motion)?.warnings, folder, interrupt, sheet)
     }

@@ -12,7 +12,7 @@ mod charts;
 mod facts;
 
 use super::gcode;
-use crate::findings::Warning;
+use crate::findings::Notice;
 use crate::machine::{Peak, peaks};
 use crate::output::bar_chart::BarChart;
 use crate::output::line_chart::LineChart;
@@ -20,6 +20,7 @@ use crate::output::text::{Sheet, significant};
 use crate::process::hobbing::HobbingJob;
 use crate::process::hobbing::job::PreparedHobbing;
 use crate::process::hobbing::linkage::dynamics::{self, AXES};
+use crate::process::hobbing::notices::{AsPrinted, FeedMarks};
 use crate::process::hobbing::scene::model::{HobbingKind, ShiftDirection, ShiftStrategy};
 use crate::steps::axes::{self, AxesOfOperation, Named, NamedChart, PeakWords, STEADY};
 use crate::steps::program_under_test::ProgramUnderTest;
@@ -107,26 +108,23 @@ impl AxesOfOperation for HobbingAxesReport<'_> {
     }
 
     /// Feed marks above what is allowed, and a linkage that is for comparison only.
-    fn own_warnings(&self) -> Vec<Warning> {
+    fn own_warnings(&self) -> Vec<Notice> {
         let PreparedHobbing { spec, linkage, .. } = self.operation();
         let name = &spec.name;
         let mut warnings = Vec::new();
         let feed_mark_mm = self.job.feed_mark_mm(self.operation());
         if feed_mark_mm > spec.ridge_tolerance_mm {
             let ratio = (spec.ridge_tolerance_mm / feed_mark_mm).sqrt();
-            warnings.push(Warning::warn(format!(
-                "operation {name}: the feed leaves marks up to {} um high, {} um are allowed (ridge_tolerance_um): \
-                feed at most {} mm per revolution",
-                significant(UM_PER_MM * feed_mark_mm, 3),
-                significant(UM_PER_MM * spec.ridge_tolerance_mm, 3),
-                significant(ratio * spec.axial_feed_mm_per_revolution, 3)
-            )));
+            let [height_um, allowed_um, feed_mm] = [
+                UM_PER_MM * feed_mark_mm,
+                UM_PER_MM * spec.ridge_tolerance_mm,
+                ratio * spec.axial_feed_mm_per_revolution,
+            ]
+            .map(|value| significant(value, 3));
+            warnings.push(FeedMarks { operation: name, height_um, allowed_um, feed_mm }.notice());
         }
         if linkage.law().is_as_printed() {
-            warnings.push(Warning::warn(format!(
-                "operation {name}: the linkage is the one printed in the paper; work and carriage part on a curve that \
-                is no circle, and no G-code is written"
-            )));
+            warnings.push(AsPrinted { operation: name }.notice());
         }
         let (asked_mm, module_mm) = (self.job.scene.output.gcode_contour_error_mm, self.job.scene.gear.module_mm);
         warnings.extend(self.program.iter().flat_map(|program| program.warnings(name, asked_mm, module_mm)));
@@ -159,7 +157,7 @@ impl AxesOfOperation for HobbingAxesReport<'_> {
         Ok(vec![("teeth", charts::work_of_teeth(self.job, self.operation())?)])
     }
 
-    fn programs(&self, warnings: &[Warning]) -> Option<Result<Vec<(String, String)>, String>> {
+    fn programs(&self, warnings: &[Notice]) -> Option<Result<Vec<(String, String)>, String>> {
         let programs = gcode::texts(self.job, self.operation(), warnings)?;
         let (post, name) = (self.job.scene.output.post, self.name());
         let numbers = gcode::program_numbers(self.index);

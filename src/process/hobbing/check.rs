@@ -2,7 +2,7 @@
 
 mod cost;
 
-use crate::findings::Warning;
+use crate::findings::Notice;
 use crate::output::text::{Sheet, plain, significant};
 use crate::process::hobbing::axes_report::HobbingAxesReport;
 use crate::process::hobbing::measure::hoffmeister;
@@ -20,7 +20,7 @@ use rayon::prelude::*;
 ///
 /// # Errors
 /// Geometry that cannot be cut.
-pub fn print(sheet: &mut Sheet, job: &HobbingJob) -> Result<Vec<Warning>> {
+pub fn print(sheet: &mut Sheet, job: &HobbingJob) -> Result<Vec<Notice>> {
     let operations = HobbingAxesReport::of_job(job);
     let cutter = HobCutter::new(job)?;
     let teeth = FormPoints::of(&cutter)?;

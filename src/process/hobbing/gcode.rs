@@ -30,7 +30,7 @@ pub use judge::judged;
 pub use program::Gearbox;
 pub use text::program_numbers;
 
-use crate::findings::Warning;
+use crate::findings::Notice;
 use crate::output::text::{plain, significant};
 use crate::process::hobbing::HobbingJob;
 use crate::process::hobbing::job::PreparedHobbing;
@@ -41,12 +41,12 @@ use gearcut_core::units::UM_PER_MM;
 pub fn texts(
     job: &HobbingJob,
     operation: &PreparedHobbing,
-    warnings: &[Warning],
+    warnings: &[Notice],
 ) -> Option<Result<[String; 2], String>> {
     job.programs.then(|| linear(job, operation, warnings))
 }
 
-fn linear(job: &HobbingJob, operation: &PreparedHobbing, warnings: &[Warning]) -> Result<[String; 2], String> {
+fn linear(job: &HobbingJob, operation: &PreparedHobbing, warnings: &[Notice]) -> Result<[String; 2], String> {
     let linkage = &operation.linkage;
     if linkage.law().is_as_printed() {
         return Err(

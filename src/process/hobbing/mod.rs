@@ -16,6 +16,7 @@ pub mod job;
 mod kept;
 pub mod linkage;
 pub mod measure;
+pub(crate) mod notices;
 pub mod rack_generation;
 pub mod rack_root;
 mod report;
@@ -26,7 +27,7 @@ mod surfaces;
 pub mod warnings;
 
 use super::{CutDone, Process, ProcessJob};
-use crate::findings::Warning;
+use crate::findings::Notice;
 use crate::interrupt::Interrupt;
 use crate::job::GearJob;
 use crate::output::folder::OutputFolder;
@@ -43,7 +44,8 @@ pub use hob::Hob;
 pub use job::HobbingJob;
 
 /// The process.
-pub static PROCESS: Process = Process { scene: &scene::SCENE, prepare: |scene| Ok(Box::new(HobbingJob::new(scene)?)) };
+pub static PROCESS: Process =
+    Process { scene: &scene::SCENE, notices: notices::NOTICES, prepare: |scene| Ok(Box::new(HobbingJob::new(scene)?)) };
 
 impl ProcessJob for HobbingJob {
     fn cut(&self, tools: &Tools, frames: Option<u32>) -> Result<CutDone> {
@@ -53,7 +55,7 @@ impl ProcessJob for HobbingJob {
         run::run(self, tools)
     }
 
-    fn check(&self, sheet: &mut Sheet) -> Result<Vec<Warning>> {
+    fn check(&self, sheet: &mut Sheet) -> Result<Vec<Notice>> {
         check::print(sheet, self)
     }
 
@@ -65,7 +67,7 @@ impl ProcessJob for HobbingJob {
         Ok(Box::new(self.sharing_targets(scene)?))
     }
 
-    fn axes(&self, folder: &OutputFolder, interrupt: &Interrupt, sheet: &mut Sheet) -> Result<Vec<Warning>> {
+    fn axes(&self, folder: &OutputFolder, interrupt: &Interrupt, sheet: &mut Sheet) -> Result<Vec<Notice>> {
         let motion = HobbingAxesReport::of_job(self);
         let foreseen = foreseen::foresee(&HobCutter::new(self)?, &motion)?;
         axes::command(&motion, foreseen.warnings, folder, interrupt, sheet)

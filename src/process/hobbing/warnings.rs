@@ -1,7 +1,7 @@
 //! The list of warnings of a hobbed gear: what its job knows before anything is cut, and what its run found.
 //!
 //! In: the passes and targets of a job with the motion of its axes; afterwards what was measured. Out: the list that
-//! terminal, report, `results.json` and programs show ([`crate::findings::warning`]).
+//! terminal, report, `results.json` and programs show ([`crate::findings::notice`]).
 
 use super::axes_report::HobbingAxesReport;
 use super::gear::HobbedGear;
@@ -9,10 +9,14 @@ use super::job::PreparedHobbing;
 use super::kept::ForeseenChip;
 use super::measure::blank_report::HobbedBlankReport;
 use super::measure::hob_load::OperationLoad;
+use super::notices::{
+    BeyondRecord, CurveClosure, HeadAngle, Hunting, Protuberance, ResultantFeed, ThickChip, TipRelief, Tops, Undercut,
+    Unreached,
+};
 use super::scene::model::HobbingKind;
 use super::{HobCutter, HobbingJob, foreseen_chips};
-use crate::findings::warning::ranked;
-use crate::findings::{Warning, damage};
+use crate::findings::notice::ranked;
+use crate::findings::{Notice, damage};
 use crate::job::RAY_DEPTH_MODULES;
 use crate::measure::damage::{Damage, gouge_mm};
 use crate::output::text::significant;
@@ -30,24 +34,16 @@ pub const USUAL_CHIP_MM: f64 = 0.5;
 ///
 /// # Errors
 /// A flank that the hob does not generate.
-pub fn before(cutter: &HobCutter, motion: &[HobbingAxesReport]) -> Result<Vec<Warning>> {
+pub fn before(cutter: &HobCutter, motion: &[HobbingAxesReport]) -> Result<Vec<Notice>> {
     let job = cutter.job;
     let mut warnings = check_curve::warnings(&job.curve, &job.scene.gear);
-    let sentences = hunting(job).into_iter().chain(of_operations(job)).chain(undercut(cutter)?);
-    warnings.extend(sentences.map(Warning::warn));
+    warnings.extend(hunting(job).into_iter().chain(of_operations(job)).chain(undercut(cutter)?));
     warnings.extend(topped(job));
     if job.hob_spec.protuberance.is_some() {
-        warnings.push(Warning::note(
-            "the target knows no protuberance: the relief that it leaves at the roots is reported as a cut below the \
-             target and as gouges",
-        ));
+        warnings.push(Protuberance {}.notice());
     }
     if !job.hob_spec.tip_reliefs.is_empty() {
-        warnings.push(Warning::note(
-            "the target is the involute up to the tip: what tip relief and semi-topping of the hob take off there is \
-             reported as deviation and as a cut below the target; measure.profile_end_height_mm ends the evaluation \
-             below it",
-        ));
+        warnings.push(TipRelief {}.notice());
     }
     warnings.extend(foreseen_thick_chips(cutter)?);
     warnings.extend(unreached(cutter)?);
@@ -63,7 +59,7 @@ pub fn after(
     cutter: &HobCutter,
     gear: &HobbedGear,
     whole: Option<(&HobbedBlankReport, &[OperationLoad])>,
-) -> Result<Vec<Warning>> {
+) -> Result<Vec<Notice>> {
     let mut warnings = of_flanks(cutter, gear);
     let untouched = gear.flanks.iter().map(|flank| flank.untouched).sum();
     warnings.extend(untouched_dexels(untouched, "the hob does not cover the whole face"));
@@ -76,15 +72,10 @@ pub fn after(
 }
 
 /// Starts that always meet the same tooth spaces.
-fn hunting(job: &HobbingJob) -> Option<String> {
+fn hunting(job: &HobbingJob) -> Option<Notice> {
     let (starts, teeth) = (job.hob.starts, job.scene.gear.teeth);
     let common = greatest_common_divisor(starts, teeth);
-    (common > 1).then(|| {
-        format!(
-            "{starts} starts and {teeth} teeth share the divisor {common}: each start always cuts the same tooth \
-             spaces, and the hob's pitch errors stay on the gear"
-        )
-    })
+    (common > 1).then(|| Hunting { starts, teeth, common }.notice())
 }
 
 /// Largest whole number that divides both.
@@ -92,107 +83,75 @@ pub fn greatest_common_divisor(a: u32, b: u32) -> u32 {
     if b == 0 { a } else { greatest_common_divisor(b, a % b) }
 }
 
-fn of_operations(job: &HobbingJob) -> Vec<String> {
+fn of_operations(job: &HobbingJob) -> Vec<Notice> {
     let mut told = Vec::new();
     for operation in &job.operations {
-        let geometry = operation.linkage.geometry();
+        let (name, geometry) = (&operation.spec.name, operation.linkage.geometry());
         let right = geometry.gear_hand * geometry.helix_angle_rad - geometry.hob_hand * geometry.lead_angle_rad;
         if (geometry.head_angle_rad - right).abs() > 1e-9 {
-            told.push(format!(
-                "operation {}: the head stands at {:.4} deg, hob and gear ask for {:.4} deg: the flanks will be off",
-                operation.spec.name,
-                geometry.head_angle_rad.to_degrees(),
-                right.to_degrees()
-            ));
+            let [head_deg, right_deg] = [geometry.head_angle_rad, right].map(|rad| format!("{:.4}", rad.to_degrees()));
+            told.push(HeadAngle { operation: name, head_deg, right_deg }.notice());
         }
         let closure_mm = job.curve.closure_error_mm().abs() * operation.linkage.end_s() / operation.linkage.cycle_s();
         if closure_mm > 1e-3 * job.scene.gear.module_mm {
-            told.push(format!(
-                "operation {}: the pitch curve's closure error adds up to {} mm over its cycles: leave the size out \
-                and it is solved",
-                operation.spec.name,
-                significant(closure_mm, 3)
-            ));
+            told.push(CurveClosure { operation: name, closure_mm: significant(closure_mm, 3) }.notice());
         }
         if let HobbingKind::Diagonal { .. } = operation.spec.kind
             && (operation.plan.slide_feeds_mm[0] - operation.plan.slide_feeds_mm[1]).abs() > 1e-9
         {
             let [first, second] = operation.plan.slide_feeds_mm;
-            told.push(format!(
-                "operation {}: with feed_of = \"resultant\" the slide feeds {} mm per revolution one way and {} mm the \
-                other: feed marks differ by a factor of {}",
-                operation.spec.name,
-                significant(first, 4),
-                significant(second, 4),
-                significant((first.max(second) / first.min(second)).powi(2), 3)
-            ));
+            let factor = significant((first.max(second) / first.min(second)).powi(2), 3);
+            let [first_mm, second_mm] = [first, second].map(|mm| significant(mm, 4));
+            told.push(ResultantFeed { operation: name, first_mm, second_mm, factor }.notice());
         }
     }
     told
 }
 
 /// A hob whose roots cut the gear's tips.
-fn topped(job: &HobbingJob) -> Option<Warning> {
+fn topped(job: &HobbingJob) -> Option<Notice> {
     let [tip_mm, stock_mm] = [&job.blank, &job.stock].map(|of| of.addendum_mm);
-    job.tops_the_gear().then(|| {
-        Warning::note(format!(
-            "the hob tops the gear: its roots leave the tips {} mm over the pitch curve, {} mm under the blank's \
-             outline; a larger tool.hob.dedendum_coefficient leaves the blank's own tips",
-            significant(tip_mm, 4),
-            significant(stock_mm - tip_mm, 3)
-        ))
-    })
+    let (tip, under) = (significant(tip_mm, 4), significant(stock_mm - tip_mm, 3));
+    job.tops_the_gear().then(|| Tops { tip_mm: tip, under_mm: under }.notice())
 }
 
 /// Teeth whose involute the hob's tip corner cuts away in the middle of the face.
-fn undercut(cutter: &HobCutter) -> Result<Option<String>> {
+fn undercut(cutter: &HobCutter) -> Result<Option<Notice>> {
     let of = |(tooth, side)| Ok(cutter.target(tooth, side)?.middle_form.undercut.then_some(tooth));
     let flanks: Vec<Option<u32>> = flanks_of(cutter).into_par_iter().map(of).collect::<Result<_>>()?;
     let mut teeth: Vec<u32> = flanks.into_iter().flatten().collect();
     teeth.dedup();
     let named: Vec<String> = teeth.iter().take(MOST_NAMED).map(u32::to_string).collect();
     let more = if teeth.len() > MOST_NAMED { ", ..." } else { "" };
-    Ok((!teeth.is_empty()).then(|| {
-        format!(
-            "the hob's tip corner undercuts {} teeth ({}{more}), where the pitch curve is sharp: use more teeth, a \
-            smaller addendum_coefficient of the hob, or a flatter curve",
-            teeth.len(),
-            named.join(", ")
-        )
-    }))
+    let undercut = || Undercut { count: teeth.len(), teeth: format!("{}{more}", named.join(", ")) };
+    Ok((!teeth.is_empty()).then(|| undercut().notice()))
 }
 
 /// Flanks that do not reach an end that the scene names.
-fn unreached(cutter: &HobCutter) -> Result<Option<Warning>> {
+fn unreached(cutter: &HobCutter) -> Result<Option<Notice>> {
     let named = cutter.job.scene.measure.heights_mm();
     let of = |(tooth, side)| {
         let ends_mm = cutter.measured_ends_mm(cutter.target(tooth, side)?);
         Ok(named.iter().zip(ends_mm).any(|(named, end)| named.is_some() && end.is_none()))
     };
     let flanks: Vec<bool> = flanks_of(cutter).into_par_iter().map(of).collect::<Result<_>>()?;
-    let count = flanks.into_iter().filter(|&is_unreached| is_unreached).count();
-    Ok((count > 0).then(|| {
-        Warning::note(format!(
-            "{count} flanks do not reach an end of [measure]: there 5 % of the profile are left out instead"
-        ))
-    }))
+    let flanks = flanks.into_iter().filter(|&is_unreached| is_unreached).count();
+    Ok((flanks > 0).then(|| Unreached { flanks }.notice()))
 }
 
-fn of_flanks(cutter: &HobCutter, gear: &HobbedGear) -> Vec<Warning> {
+fn of_flanks(cutter: &HobCutter, gear: &HobbedGear) -> Vec<Notice> {
     let job = cutter.job;
     let mut warnings = Vec::new();
     let reach_mm = RAY_DEPTH_MODULES * job.scene.gear.module_mm;
     let lowest_mm = gear.flanks.iter().filter_map(|f| f.own.finished).map(|h| h.lowest_mm).fold(0.0, f64::min);
     if lowest_mm < -0.999 * reach_mm {
-        warnings.push(Warning::warn(format!(
-            "cuts go deeper than rays record: {reach_mm} mm under the target stands for that and more"
-        )));
+        warnings.push(BeyondRecord { reach_mm }.notice());
     }
     warnings
 }
 
 /// Operations of which it is known before the cut that their hob teeth take chips thicker than is usual.
-fn foreseen_thick_chips(cutter: &HobCutter) -> Result<Vec<Warning>> {
+fn foreseen_thick_chips(cutter: &HobCutter) -> Result<Vec<Notice>> {
     let job = cutter.job;
     let of = |(operation, chip): (&PreparedHobbing, &Option<ForeseenChip>)| {
         let chip = chip.filter(|chip| chip.thickness_mm > USUAL_CHIP_MM)?;
@@ -203,7 +162,7 @@ fn foreseen_thick_chips(cutter: &HobCutter) -> Result<Vec<Warning>> {
 }
 
 /// Operations whose hob teeth take chips thicker than is usual, which was not known before: elsewhere on the gear.
-fn thick_chips(cutter: &HobCutter, loads: &[OperationLoad]) -> Result<Vec<Warning>> {
+fn thick_chips(cutter: &HobCutter, loads: &[OperationLoad]) -> Result<Vec<Notice>> {
     let job = cutter.job;
     let known = foreseen_chips::of(cutter)?.iter().map(|chip| chip.is_some_and(|of| of.thickness_mm > USUAL_CHIP_MM));
     let of = |((operation, load), known): ((&PreparedHobbing, &OperationLoad), bool)| {
@@ -217,17 +176,13 @@ fn thick_chips(cutter: &HobCutter, loads: &[OperationLoad]) -> Result<Vec<Warnin
     Ok(job.operations.iter().zip(loads).zip(known).filter_map(of).collect())
 }
 
-fn thick_chip(job: &HobbingJob, operation: &PreparedHobbing, tooth: usize, what: &str) -> Warning {
-    Warning::warn(format!(
-        "operation {}: hob tooth {} takes {what}, more than {USUAL_CHIP_MM} mm, which few hobs bear: lower the feed, \
-         take more gashes or fewer starts, or divide the cut",
-        operation.spec.name,
-        job.hob.teeth[tooth].label(job.hob.starts),
-    ))
+fn thick_chip(job: &HobbingJob, operation: &PreparedHobbing, tooth: usize, what: &str) -> Notice {
+    let (operation, tooth) = (&operation.spec.name, job.hob.teeth[tooth].label(job.hob.starts));
+    ThickChip { operation, tooth, chip: what, usual_mm: USUAL_CHIP_MM }.notice()
 }
 
 /// Cuts below the target; what a protuberance, tip relief or semi-topping takes there it is made to take.
-fn damaged(job: &HobbingJob, report: &HobbedBlankReport) -> Vec<Warning> {
+fn damaged(job: &HobbingJob, report: &HobbedBlankReport) -> Vec<Notice> {
     if job.hob_spec.protuberance.is_some() || !job.hob_spec.tip_reliefs.is_empty() {
         return Vec::new();
     }

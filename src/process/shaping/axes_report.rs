@@ -14,7 +14,7 @@ mod strokes;
 
 use super::gcode::{AxisProgram, Judgement};
 use super::programs;
-use crate::findings::{Place, Quantity, Section, Warning};
+use crate::findings::{Notice, Place, Quantity, Section};
 use crate::machine::{Peak, peaks};
 use crate::output::line_chart::LineChart;
 use crate::output::text::Sheet;
@@ -186,22 +186,20 @@ impl AxesOfOperation for OperationAxes<'_> {
         }
     }
 
-    /// A program under test that asks too much must not be run.
-    fn exceeded(&self, text: String) -> Warning {
-        if self.program.is_some() { Warning::fault(text) } else { Warning::warn(text) }
+    fn is_under_test(&self) -> bool {
+        self.program.is_some()
     }
 
     /// Little or no relief by the machine's own relief; axes too slow for another one. Both are known of the scene's
     /// own strokes alone.
-    fn own_warnings(&self) -> Vec<Warning> {
+    fn own_warnings(&self) -> Vec<Notice> {
         if self.is_off_the_scene() {
             return Vec::new();
         }
-        let warnings = match &self.retraction {
-            None => self.relief.warning(self.job.machine.back_off_mm).into_iter().collect(),
+        match &self.retraction {
+            None => self.relief.warning(self.name(), self.job.machine.back_off_mm).into_iter().collect(),
             Some(motion) => retraction::warnings(self, motion),
-        };
-        warnings.into_iter().map(|text| Warning::warn(format!("operation {}: {text}", self.name()))).collect()
+        }
     }
 
     fn write_table(&self, path: &Path) -> Result<()> {
@@ -212,7 +210,7 @@ impl AxesOfOperation for OperationAxes<'_> {
         self.charts.get_or_init(|| charts::all(self.job, self.operation(), self.strokes()))
     }
 
-    fn programs(&self, warnings: &[Warning]) -> Option<Result<Vec<(String, String)>, String>> {
+    fn programs(&self, warnings: &[Notice]) -> Option<Result<Vec<(String, String)>, String>> {
         let file = self.job.scene.output.post.file_name(self.name(), self.index as u32 + 1);
         Some(programs::text(self.job, self.operation(), warnings)?.map(|text| vec![(file, text)]))
     }

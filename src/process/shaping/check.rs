@@ -6,7 +6,7 @@ mod returns;
 mod ring;
 mod teeth;
 
-use crate::findings::Warning;
+use crate::findings::Notice;
 use crate::output::text::Sheet;
 use crate::process::shaping::ShapingJob;
 use crate::process::shaping::axes_report::OperationAxes;
@@ -21,7 +21,7 @@ use gearcut_core::error::Result;
 ///
 /// # Errors
 /// Geometry that cannot be cut.
-pub fn print(sheet: &mut Sheet, job: &ShapingJob) -> Result<Vec<Warning>> {
+pub fn print(sheet: &mut Sheet, job: &ShapingJob) -> Result<Vec<Notice>> {
     let facts = ToothFacts::of_job(job);
     let operations = OperationAxes::of_job(job);
 

@@ -21,6 +21,7 @@ pub mod generation;
 pub mod job;
 pub mod linkage;
 pub mod measure;
+pub(crate) mod notices;
 mod prepared;
 pub mod programs;
 mod report;
@@ -49,5 +50,6 @@ pub use job::{PreparedOperation, ShapingJob};
 /// The process.
 pub static PROCESS: Process = Process {
     scene: &scene::SCENE,
+    notices: notices::NOTICES,
     prepare: |scene| Ok(Box::new(prepared::PreparedShaping::new(ShapingJob::new(scene.clone())?))),
 };

@@ -8,7 +8,7 @@ use super::chips::deflections;
 use super::foreseen::foresee;
 use super::section::CutSection;
 use super::{ShapingJob, check, run};
-use crate::findings::Warning;
+use crate::findings::Notice;
 use crate::interrupt::Interrupt;
 use crate::job::GearJob;
 use crate::output::folder::OutputFolder;
@@ -60,7 +60,7 @@ impl ProcessJob for PreparedShaping {
         run::run(job, tools, frames)
     }
 
-    fn check(&self, sheet: &mut Sheet) -> Result<Vec<Warning>> {
+    fn check(&self, sheet: &mut Sheet) -> Result<Vec<Notice>> {
         check::print(sheet, &self.rigid)
     }
 
@@ -72,7 +72,7 @@ impl ProcessJob for PreparedShaping {
         Ok(Box::new(Self::new(self.rigid.with_errors_of(scene.clone())?)))
     }
 
-    fn axes(&self, folder: &OutputFolder, interrupt: &Interrupt, sheet: &mut Sheet) -> Result<Vec<Warning>> {
+    fn axes(&self, folder: &OutputFolder, interrupt: &Interrupt, sheet: &mut Sheet) -> Result<Vec<Notice>> {
         let motion = OperationAxes::of_job(&self.rigid);
         let foreseen = foresee(&self.rigid, &motion)?;
         axes::command(&motion, foreseen.warnings, folder, interrupt, sheet)

@@ -10,7 +10,7 @@ use super::foreseen::foresee;
 use super::gear::cut_gear;
 use super::{findings, report, warnings};
 use crate::findings::Findings;
-use crate::findings::warning::ranked;
+use crate::findings::notice::ranked;
 use crate::process::CutDone;
 use crate::process::shaping::ShapingJob;
 use crate::process::shaping::axes_report::OperationAxes;

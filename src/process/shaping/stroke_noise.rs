@@ -18,7 +18,8 @@
 
 use super::ShapingJob;
 use super::linkage::dynamics::AXES;
-use crate::findings::Warning;
+use super::notices::FastNoise;
+use crate::findings::Notice;
 use crate::machine_errors::NoiseLaw;
 use crate::output::text::significant;
 use gearcut_core::math::roots::bisect;
@@ -74,7 +75,7 @@ impl Face {
 }
 
 /// Noise that strokes do not follow, operation by operation.
-pub fn warnings(job: &ShapingJob) -> Vec<Warning> {
+pub fn warnings(job: &ShapingJob) -> Vec<Notice> {
     let width_mm = job.scene.gear.face_width_mm;
     let crank = job.machine.crank(width_mm);
     let mut warnings = Vec::new();
@@ -88,17 +89,15 @@ pub fn warnings(job: &ShapingJob) -> Vec<Warning> {
                     continue;
                 }
                 let most_hz = bisect(|hz| face.apart(hz, PLACES) < MOST_APART, BANDWIDTHS_HZ[0], BANDWIDTHS_HZ[1]);
-                warnings.push(Warning::warn(format!(
-                    "operation {}: noise of the {} up to {} Hz is faster than strokes follow along the tooth: between \
-                     four places of the face they leave it by {} of its standard deviation, up to {} Hz by {} at most; \
-                     helices are smoother than it",
-                    operation.spec.name,
-                    axis.name,
-                    significant(bandwidth_hz, 3),
-                    significant(apart, 2),
-                    significant(most_hz, 2),
-                    MOST_APART
-                )));
+                let fast = FastNoise {
+                    operation: &operation.spec.name,
+                    axis: axis.name,
+                    bandwidth_hz: significant(bandwidth_hz, 3),
+                    apart: significant(apart, 2),
+                    most_hz: significant(most_hz, 2),
+                    most_apart: MOST_APART,
+                };
+                warnings.push(fast.notice());
             }
         }
     }

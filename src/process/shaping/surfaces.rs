@@ -3,7 +3,7 @@
 //! Roots and tips are coarse fields of their own: roots along the normals of the target's fillet, tips along the
 //! normals of the pitch curve.
 
-use crate::findings::Warning;
+use crate::findings::Notice;
 use crate::job::{CylindricalGear, GearJob, ToothFrame, teeth_of_extreme_radius};
 use crate::measure::round_gear::{RoundGear, ToothEnds, is_round};
 use crate::measure::thickness::Thickness;
@@ -35,7 +35,7 @@ impl GearJob for ShapingJob {
         self.operations.last().map_or(0, |operation| operation.strokes.end_pass())
     }
 
-    fn unfollowed_errors(&self) -> Vec<Warning> {
+    fn unfollowed_errors(&self) -> Vec<Notice> {
         stroke_noise::warnings(self)
     }
 

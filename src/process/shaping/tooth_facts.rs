@@ -6,8 +6,10 @@
 //! Heights are measured over the pitch curve along its normal, so that they mean the same on every tooth of a
 //! non-circular gear.
 
+use crate::findings::Notice;
 use crate::output::text::significant;
 use crate::process::shaping::ShapingJob;
+use crate::process::shaping::notices::{CutterBase, NarrowTip, Pointed, Undercut};
 use crate::process::shaping::target::{FlankEnd, TargetFlank};
 use gearcut_core::terms::Side;
 use gearcut_core::units::UM_PER_MM;
@@ -94,36 +96,30 @@ impl FlankFacts {
     }
 }
 
-/// What must be known of them before cutting, in sentences.
-pub fn warnings(job: &ShapingJob, facts: &[ToothFacts]) -> Vec<String> {
+/// What must be known of them before cutting.
+pub fn warnings(job: &ShapingJob, facts: &[ToothFacts]) -> Vec<Notice> {
     let mut warnings = Vec::new();
     let undercut = flanks_with(facts, FlankFacts::is_undercut);
     if undercut != NONE {
         let flanks = facts.iter().flat_map(|tooth| tooth.flanks().map(|(_, flank)| flank));
         let deepest_mm = flanks.map(|flank| flank.undercut_mm).fold(0.0, f64::max);
-        warnings.push(format!(
-            "the cutter undercuts {undercut}, up to {} um deep: use a smaller \
-            tool.shaper_cutter.addendum_coefficient, more teeth on the gear, or a pitch curve with a larger smallest \
-            radius of curvature",
-            significant(UM_PER_MM * deepest_mm, 3)
-        ));
+        let depth_um = significant(UM_PER_MM * deepest_mm, 3);
+        warnings.push(Undercut { flanks: undercut, depth_um }.notice());
     }
     let base = flanks_with(facts, |flank| flank.end == FlankEnd::CutterBase);
     if base != NONE {
-        warnings.push(format!(
-            "the cutter's involute ends before the tip of {base}: the rest of the tip is cut by the cutter's base; use \
-            a cutter with more teeth or a smaller gear.addendum_coefficient"
-        ));
+        warnings.push(CutterBase { flanks: base }.notice());
     }
     let pointed = list(facts.iter().filter(|tooth| tooth.is_pointed()).map(|tooth| tooth.tooth.to_string()));
     if pointed != NONE {
-        warnings.push(format!("pointed below the blank's outline: tooth {pointed}"));
+        warnings.push(Pointed { teeth: pointed }.notice());
     }
     let narrow_mm = NARROW_LAND_MODULES * job.scene.gear.module_mm;
     let narrow = facts.iter().filter(|tooth| !tooth.is_pointed() && tooth.tip_land_mm < narrow_mm);
     let narrow = list(narrow.map(|tooth| tooth.tooth.to_string()));
     if narrow != NONE {
-        warnings.push(format!("tip land below {NARROW_LAND_MODULES} modules ({narrow_mm:.3} mm): tooth {narrow}"));
+        let narrow_mm = format!("{narrow_mm:.3}");
+        warnings.push(NarrowTip { modules: NARROW_LAND_MODULES, narrow_mm, teeth: narrow }.notice());
     }
     warnings
 }

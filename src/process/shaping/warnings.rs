@@ -1,19 +1,23 @@
 //! The list of warnings of a shaped gear: what its job knows before anything is cut, and what its run found.
 //!
 //! In: the job with the motion of its axes; afterwards what was measured. Out: the list that terminal, report,
-//! `results.json` and programs show ([`crate::findings::warning`]). Sentences that only one subject can make stand with
+//! `results.json` and programs show ([`crate::findings::notice`]). Sentences that only one subject can make stand with
 //! it (teeth, ring, return strokes, axes); here they come together with their severity.
 
 use super::chips::{ChipLedger, OperationChips, StrokeChips, entries};
 use super::findings::{program, returns, ring};
 use super::measure::below_finished::below_finished;
 use super::measure::{FlankReport, GearReport, closing};
+use super::notices::{
+    BeyondRecord, DeeperByEnvelope, DeeperByOffset, FlankBelowTarget, FlankGouge, Force, NoBackOff, ReturnRubs, Uncut,
+    Unsettled,
+};
 use super::scene::model::Retraction;
 use super::stroke_noise;
 use super::tooth_facts::{self, ToothFacts};
 use super::{ShapingJob, axes_report::OperationAxes};
-use crate::findings::warning::ranked;
-use crate::findings::{Section, Warning};
+use crate::findings::notice::ranked;
+use crate::findings::{Notice, Section};
 use crate::measure::damage::gouge_mm;
 use crate::measure::stock::Extreme;
 use crate::output::text::significant;
@@ -35,24 +39,22 @@ pub const USUAL_FORCE_N: f64 = 40e3;
 ///
 /// # Errors
 /// A back-off so large that the retraction leads to no pose.
-pub fn before(job: &ShapingJob, motion: &[OperationAxes], ring: Option<&Section>) -> Result<Vec<Warning>> {
+pub fn before(job: &ShapingJob, motion: &[OperationAxes], ring: Option<&Section>) -> Result<Vec<Notice>> {
     let mut warnings = check_curve::warnings(&job.curve, &job.scene.gear);
     // Facts of the teeth are those of the scene's own strokes.
-    let mut sentences = match program::not_of_the_gear(job, motion) {
-        None => tooth_facts::warnings(job, &ToothFacts::of_job(job)),
-        Some(_) => Vec::new(),
-    };
+    if program::not_of_the_gear(job, motion).is_none() {
+        warnings.extend(tooth_facts::warnings(job, &ToothFacts::of_job(job)));
+    }
     for (index, (operation, motion)) in job.operations.iter().zip(motion).enumerate() {
         let other = program::not_of_the_operation(job, motion);
         match returns::section(job, index, other.as_deref())? {
-            Some(section) => sentences.extend(returns::warning(&operation.spec.name, &section)),
+            Some(section) => warnings.extend(returns::warning(&operation.spec.name, &section)),
             None => {
-                sentences.push("machine.back_off_mm = 0: the cutter returns along the surfaces that it has cut".into());
+                warnings.push(NoBackOff {}.notice());
                 break;
             }
         }
     }
-    warnings.extend(sentences.into_iter().map(Warning::warn));
     warnings.extend(ring.into_iter().flat_map(|section| ring::warnings(section, gouge_mm(job.scene.gear.module_mm))));
     warnings.extend(too_deep(job));
     warnings.extend(axes::warnings(motion));
@@ -71,7 +73,7 @@ pub fn after(
     chips: &ChipLedger,
     work: &Work,
     blank: Option<&BlankReport>,
-) -> Vec<Warning> {
+) -> Vec<Notice> {
     let mut warnings = forces(job, chips);
     let depth_mm = deepest_evaluated(report).map_or(0.0, |(_, deepest)| -deepest.value_mm);
     // The blank names what made the damage; where it says nothing, the flanks do.
@@ -91,48 +93,37 @@ pub fn after(
 }
 
 /// Operations that leave finishing less than nothing: cuts into the finished flanks.
-fn too_deep(job: &ShapingJob) -> Vec<Warning> {
+fn too_deep(job: &ShapingJob) -> Vec<Notice> {
     let gouge_mm = gouge_mm(job.scene.gear.module_mm);
-    let told = |depth_mm: f64, text: String| {
-        if depth_mm > gouge_mm { Warning::fault(text) } else { Warning::warn(text) }
-    };
     let earlier = &job.operations[..job.operations.len() - 1];
     let by_offset = earlier.iter().filter_map(|operation| {
         let deeper_mm = job.finishing().spec.offset_mm - operation.spec.offset_mm;
         (deeper_mm > 0.0).then(|| {
             let depth_mm = deeper_mm * job.scene.gear.pressure_angle_rad.sin();
-            told(
-                depth_mm,
-                format!(
-                    "operation {}: it goes {} mm deeper than finishing and cuts some {} um into every flank: give it a \
-                     larger offset_mm",
-                    operation.spec.name,
-                    significant(deeper_mm, 3),
-                    significant(UM_PER_MM * depth_mm, 3)
-                ),
-            )
+            let deeper = DeeperByOffset {
+                operation: &operation.spec.name,
+                deeper_mm: significant(deeper_mm, 3),
+                depth_um: significant(UM_PER_MM * depth_mm, 3),
+            };
+            deeper.notice().fault_where(depth_mm > gouge_mm)
         })
     });
     let by_flank = below_finished(job).into_iter().map(|below| {
-        told(
-            below.depth_mm,
-            format!(
-                "operation {}: its envelope lies up to {} um below {} of the finished flanks, deepest on tooth {} {}, \
-                 {:.2} mm over the pitch curve: leave more stock, or take the linkage of finishing",
-                job.operations[below.operation].spec.name,
-                significant(UM_PER_MM * below.depth_mm, 3),
-                below.flanks,
-                below.tooth,
-                below.side.name(),
-                below.height_mm
-            ),
-        )
+        let deeper = DeeperByEnvelope {
+            operation: &job.operations[below.operation].spec.name,
+            depth_um: significant(UM_PER_MM * below.depth_mm, 3),
+            flanks: below.flanks,
+            tooth: below.tooth,
+            side: below.side.name(),
+            height_mm: format!("{:.2}", below.height_mm),
+        };
+        deeper.notice().fault_where(below.depth_mm > gouge_mm)
     });
     by_offset.chain(by_flank).collect()
 }
 
 /// Operations whose first stroke asks more of the ram than it gives.
-fn entry_forces(job: &ShapingJob) -> Vec<Warning> {
+fn entry_forces(job: &ShapingJob) -> Vec<Notice> {
     let what = "the first stroke comes at full depth and takes";
     let way_out = "give the operation an infeed, or leave it less stock";
     let told = |(operation, stroke): (usize, Option<StrokeChips>)| {
@@ -142,7 +133,7 @@ fn entry_forces(job: &ShapingJob) -> Vec<Warning> {
 }
 
 /// Operations whose later strokes do.
-fn forces(job: &ShapingJob, chips: &ChipLedger) -> Vec<Warning> {
+fn forces(job: &ShapingJob, chips: &ChipLedger) -> Vec<Notice> {
     let told = |(operation, chips): (usize, &OperationChips)| {
         let (stroke, largest) = chips.largest(|stroke| stroke.cutting_n)?;
         let what = format!("the cutting force reaches, at stroke {stroke},");
@@ -153,7 +144,7 @@ fn forces(job: &ShapingJob, chips: &ChipLedger) -> Vec<Warning> {
 }
 
 /// A force beyond what the ram gives.
-fn beyond_ram(job: &ShapingJob, operation: usize, what: &str, force_n: f64, way_out: &str) -> Option<Warning> {
+fn beyond_ram(job: &ShapingJob, operation: usize, what: &str, force_n: f64, way_out: &str) -> Option<Notice> {
     let asked_n = job.machine.limits.cutting_force_n;
     let limit_n = asked_n.unwrap_or(USUAL_FORCE_N);
     let source = match asked_n {
@@ -162,37 +153,31 @@ fn beyond_ram(job: &ShapingJob, operation: usize, what: &str, force_n: f64, way_
     };
     let kn = |force_n: f64| significant(force_n / 1e3, 3);
     (force_n > limit_n).then(|| {
-        Warning::warn(format!(
-            "operation {}: {what} {} kN, more than {} kN ({source}): {way_out}",
-            job.operations[operation].spec.name,
-            kn(force_n),
-            kn(limit_n)
-        ))
+        let operation = &job.operations[operation].spec.name;
+        Force { operation, what, force_kn: kn(force_n), limit_kn: kn(limit_n), source, way_out }.notice()
     })
 }
 
 /// Dexels that do not tell how deep they were cut.
-fn beyond_record(report: &GearReport) -> Option<Warning> {
-    let below: u64 = report.flanks.iter().map(|f| f.own.below_range).sum();
-    (below > 0).then(|| {
-        Warning::warn(format!("{below} dexels were cut deeper than their rays record: heights there are upper bounds"))
-    })
+fn beyond_record(report: &GearReport) -> Option<Notice> {
+    let dexels: u64 = report.flanks.iter().map(|f| f.own.below_range).sum();
+    (dexels > 0).then(|| BeyondRecord { dexels }.notice())
 }
 
 /// Flanks that are still the blank somewhere below their tip corner.
-fn uncut(report: &GearReport) -> Option<Warning> {
+fn uncut(report: &GearReport) -> Option<Notice> {
     let flanks: Vec<_> = report.flanks.iter().filter_map(|flank| Some((flank, flank.own.uncut?))).collect();
     let (flank, most) = flanks.iter().max_by_key(|(_, uncut)| uncut.dexels)?;
     let dexels: u64 = flanks.iter().map(|(_, uncut)| uncut.dexels).sum();
-    Some(Warning::warn(format!(
-        "{dexels} dexels were reached by no pass: part of {} flanks is still the blank, most of tooth {} {}: {} % of \
-         it, beginning {:.2} mm above the start of the involute",
-        flanks.len(),
-        flank.tooth,
-        flank.side.name(),
-        significant(100.0 * most.share, 3),
-        most.from_mm
-    )))
+    let uncut = Uncut {
+        dexels,
+        flanks: flanks.len(),
+        tooth: flank.tooth,
+        side: flank.side.name(),
+        percent: significant(100.0 * most.share, 3),
+        from_mm: format!("{:.2}", most.from_mm),
+    };
+    Some(uncut.notice())
 }
 
 /// The flank that is cut deepest below the target, and where.
@@ -211,7 +196,7 @@ fn deepest_evaluated(report: &GearReport) -> Option<(&FlankReport, Extreme)> {
 }
 
 /// Flanks whose heights lie below the target: a fault where an evaluated profile has a gouge.
-fn below_target(job: &ShapingJob, report: &GearReport) -> Option<Warning> {
+fn below_target(job: &ShapingJob, report: &GearReport) -> Option<Notice> {
     let gouge_mm = gouge_mm(job.scene.gear.module_mm);
     let gouge = deepest_evaluated(report).filter(|(_, deepest)| -deepest.value_mm > gouge_mm);
     let is_gouge = gouge.is_some();
@@ -220,32 +205,24 @@ fn below_target(job: &ShapingJob, report: &GearReport) -> Option<Warning> {
     let cut = report.flanks.iter().filter_map(|flank| flank.own.below_target);
     let count = cut.filter(|deepest| deepest.value_mm < -BELOW_TARGET_MM).count();
     let at_least = if flank.own.below_range > 0 { "at least " } else { "" };
-    let text = format!(
-        "{count} flanks are cut below the target, tooth {} {} by {at_least}{} um, {:.2} mm above the start of the \
-         involute: {}deeper than {} um",
-        flank.tooth,
-        flank.side.name(),
-        significant(-deepest.value_mm * UM_PER_MM, 3),
-        deepest.arc_mm,
-        if is_gouge { "a gouge is " } else { "on evaluated profiles a gouge is " },
-        significant(gouge_mm * UM_PER_MM, 3)
-    );
-    Some(if is_gouge { Warning::fault(text) } else { Warning::warn(text) })
+    let (tooth, side) = (flank.tooth, flank.side.name());
+    let depth_um = format!("{at_least}{}", significant(-deepest.value_mm * UM_PER_MM, 3));
+    let (arc_mm, gouge_um) = (format!("{:.2}", deepest.arc_mm), significant(gouge_mm * UM_PER_MM, 3));
+    Some(if is_gouge {
+        FlankGouge { count, tooth, side, depth_um, arc_mm, gouge_um }.notice()
+    } else {
+        FlankBelowTarget { count, tooth, side, depth_um, arc_mm, gouge_um }.notice()
+    })
 }
 
 /// Flanks that cross the pitch curve nowhere that can be stated.
-fn unsettled(report: &GearReport) -> Option<Warning> {
+fn unsettled(report: &GearReport) -> Option<Notice> {
     let (tooth, side) = report.unsettled.first()?;
-    Some(Warning::fault(format!(
-        "{} flanks jump where they meet the pitch curve, first that of tooth {tooth} {}: their pitch, thickness and \
-         allowance are not known",
-        report.unsettled.len(),
-        side.name()
-    )))
+    Some(Unsettled { count: report.unsettled.len(), tooth, side: side.name() }.notice())
 }
 
 /// Return strokes that enter surfaces that stay.
-fn rubbing(job: &ShapingJob, report: &BlankReport) -> Option<Warning> {
+fn rubbing(job: &ShapingJob, report: &BlankReport) -> Option<Notice> {
     let on_gear = || report.rubbing.iter().filter(|rubbing| rubbing.stays).map(|rubbing| &rubbing.damage);
     let deepest = on_gear().max_by(|a, b| a.depth_mm.total_cmp(&b.depth_mm))?;
     let volume_mm3 = on_gear().fold(0.0, |sum, damage| sum + damage.volume_mm3);
@@ -253,14 +230,14 @@ fn rubbing(job: &ShapingJob, report: &BlankReport) -> Option<Warning> {
         Retraction::CenterLine => "set machine.retraction = \"auto\"",
         _ => "set another machine.retraction or machine.back_off_mm",
     };
-    Some(Warning::warn(format!(
-        "operation {}: in the gear as cut, the returning cutter stands after stroke {} {} um deep in tooth {} {}, and \
-         in {} mm^3 in all: {way_out}; gearcut check says where it clears",
-        job.operations[deepest.operation].spec.name,
-        deepest.stroke,
-        significant(UM_PER_MM * deepest.depth_mm, 3),
-        deepest.place.tooth,
-        deepest.place.side.name(),
-        significant(volume_mm3, 3),
-    )))
+    let rubs = ReturnRubs {
+        operation: &job.operations[deepest.operation].spec.name,
+        stroke: deepest.stroke,
+        depth_um: significant(UM_PER_MM * deepest.depth_mm, 3),
+        tooth: deepest.place.tooth,
+        side: deepest.place.side.name(),
+        volume_mm3: significant(volume_mm3, 3),
+        way_out,
+    };
+    Some(rubs.notice())
 }

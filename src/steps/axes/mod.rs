@@ -15,7 +15,8 @@ mod tests;
 pub use peaks::{Named, PeakWords, STEADY, findings, margin_entry};
 pub use table::{Own, write_table};
 
-use crate::findings::{Findings, Severity, Warning};
+use crate::findings::notices::NoProgram;
+use crate::findings::{Findings, Notice, Severity};
 use crate::interrupt::Interrupt;
 use crate::machine::Peak;
 use crate::output::atomic::write_bytes_atomically;
@@ -51,13 +52,13 @@ pub trait AxesOfOperation {
     /// Heading and facts for the terminal, the table of peaks apart.
     fn print_facts(&self, sheet: &mut Sheet);
 
-    /// What an exceeded limit, told in `text`, amounts to.
-    fn exceeded(&self, text: String) -> Warning {
-        Warning::warn(text)
+    /// Whether a program under test makes this motion: an exceeded limit is a fault then.
+    fn is_under_test(&self) -> bool {
+        false
     }
 
     /// What the user should know beside exceeded limits.
-    fn own_warnings(&self) -> Vec<Warning>;
+    fn own_warnings(&self) -> Vec<Notice>;
 
     /// Writes the axis table.
     ///
@@ -78,7 +79,7 @@ pub trait AxesOfOperation {
 
     /// Programs, each with the name of its file, `warnings` in their heads; an error is the reason why there are none,
     /// `None`: none are wanted.
-    fn programs(&self, warnings: &[Warning]) -> Option<Result<Vec<(String, String)>, String>>;
+    fn programs(&self, warnings: &[Notice]) -> Option<Result<Vec<(String, String)>, String>>;
 }
 
 /// Facts and peaks of an operation.
@@ -89,13 +90,11 @@ pub fn print(operation: &impl AxesOfOperation, sheet: &mut Sheet) {
 
 /// What the user should know before cutting: limits exceeded, what the process says, and operations for which no
 /// program can be written, with the reason.
-pub fn warnings<O: AxesOfOperation>(operations: &[O]) -> Vec<Warning> {
-    let of = |operation: &O| -> Vec<Warning> {
-        let exceeded = peaks::exceeded(operation).map(|text| operation.exceeded(text));
+pub fn warnings<O: AxesOfOperation>(operations: &[O]) -> Vec<Notice> {
+    let of = |operation: &O| -> Vec<Notice> {
         let left_out = operation.programs(&[]).and_then(Result::err);
-        let left_out =
-            left_out.map(|why| Warning::warn(format!("operation {}: no G-code written: {why}", operation.name())));
-        exceeded.chain(operation.own_warnings()).chain(left_out).collect()
+        let left_out = left_out.map(|why| NoProgram { operation: operation.name(), why }.notice());
+        peaks::exceeded(operation).chain(operation.own_warnings()).chain(left_out).collect()
     };
     operations.iter().flat_map(of).collect()
 }
@@ -118,8 +117,8 @@ pub fn write(operation: &impl AxesOfOperation, folder: &OutputFolder) -> Result<
 ///
 /// # Errors
 /// Files that cannot be written.
-pub fn write_programs<O: AxesOfOperation>(operations: &[O], warnings: &[Warning], folder: &OutputFolder) -> Result<()> {
-    let head: Vec<Warning> = warnings.iter().filter(|of| of.severity > Severity::Note).cloned().collect();
+pub fn write_programs<O: AxesOfOperation>(operations: &[O], warnings: &[Notice], folder: &OutputFolder) -> Result<()> {
+    let head: Vec<Notice> = warnings.iter().filter(|of| of.severity > Severity::Note).cloned().collect();
     for operation in operations {
         let Some(Ok(programs)) = operation.programs(&head) else { continue };
         for (file, text) in programs {
@@ -135,11 +134,11 @@ pub fn write_programs<O: AxesOfOperation>(operations: &[O], warnings: &[Warning]
 /// Files that cannot be written; Ctrl-C.
 pub fn command<O: AxesOfOperation>(
     operations: &[O],
-    warnings: Vec<Warning>,
+    warnings: Vec<Notice>,
     folder: &OutputFolder,
     interrupt: &Interrupt,
     sheet: &mut Sheet,
-) -> Result<Vec<Warning>> {
+) -> Result<Vec<Notice>> {
     for operation in operations {
         interrupt.check()?;
         write(operation, folder)?;

@@ -1,7 +1,8 @@
 //! Peaks of the axes against their limits: rows for the terminal, sentences where a limit is exceeded, findings.
 
 use super::AxesOfOperation;
-use crate::findings::{Entry, Place, Quantity, Section};
+use crate::findings::notices::AxisLimit;
+use crate::findings::{Entry, Notice, Place, Quantity, Section};
 use crate::machine::{Peak, smallest_margin};
 use crate::output::text::significant;
 
@@ -54,18 +55,18 @@ pub(super) fn rows(operation: &impl AxesOfOperation) -> Vec<Vec<String>> {
     [titles].into_iter().chain(rows).collect()
 }
 
-/// A sentence for each limit that is exceeded.
-pub(super) fn exceeded(operation: &impl AxesOfOperation) -> impl Iterator<Item = String> {
+/// The limits that are exceeded.
+pub(super) fn exceeded(operation: &impl AxesOfOperation) -> impl Iterator<Item = Notice> {
     operation.peaks().iter().filter(|peak| peak.exceeds_its_limit()).filter_map(|peak| {
-        Some(format!(
-            "operation {}: the {} reaches {} {unit}, the machine allows {} {unit}: {}",
-            operation.name(),
-            peak.name(),
-            significant(peak.shown(), 4),
-            significant(peak.shown_limit()?, 4),
-            operation.peak_words().way_out,
-            unit = peak.unit(),
-        ))
+        let limit = AxisLimit {
+            operation: operation.name(),
+            peak: peak.name(),
+            reached: significant(peak.shown(), 4),
+            allowed: significant(peak.shown_limit()?, 4),
+            unit: peak.unit(),
+            way_out: operation.peak_words().way_out,
+        };
+        Some(limit.notice().fault_where(operation.is_under_test()))
     })
 }
 

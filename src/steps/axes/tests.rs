@@ -7,6 +7,10 @@ use crate::machine::tests::{AXES, Swinging, amplitude, omega_per_s};
 use crate::machine::{Axis, AxisKind, Limits, Motion as _, Order, peaks};
 use std::f64::consts::PI;
 
+fn own() -> Notice {
+    Notice::new("axis.made", Severity::Note, "its own")
+}
+
 struct Made {
     peaks: Vec<Peak>,
 }
@@ -51,8 +55,8 @@ impl AxesOfOperation for Made {
         sheet.heading("Operation finish");
     }
 
-    fn own_warnings(&self) -> Vec<Warning> {
-        vec![Warning::note("its own")]
+    fn own_warnings(&self) -> Vec<Notice> {
+        vec![own()]
     }
 
     fn write_table(&self, path: &Path) -> Result<()> {
@@ -64,7 +68,7 @@ impl AxesOfOperation for Made {
         &[]
     }
 
-    fn programs(&self, _: &[Warning]) -> Option<Result<Vec<(String, String)>, String>> {
+    fn programs(&self, _: &[Notice]) -> Option<Result<Vec<(String, String)>, String>> {
         None
     }
 }
@@ -138,7 +142,7 @@ fn the_terminal_tells_peaks_limits_and_what_is_left() {
     );
     let told = warnings(&[made]);
     let exceeded = "operation finish: the X speed reaches 0.7500 mm/s, the machine allows 0.5000 mm/s: go slower";
-    assert_eq!(told, [Warning::warn(exceeded), Warning::note("its own")]);
+    assert_eq!(told, [Notice::new("axis.limit", Severity::Warning, exceeded), own()]);
 }
 
 #[test]

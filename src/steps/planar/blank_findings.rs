@@ -3,7 +3,8 @@
 use super::PlanarGear;
 use super::blank_report::BlankReport;
 use crate::findings::damage::{self, damage_row, damage_table, gouge_from, pairs};
-use crate::findings::{Datum, Quantity, Section, Table, TableColumn, Warning};
+use crate::findings::notices::NoTarget;
+use crate::findings::{Datum, Notice, Quantity, Section, Table, TableColumn};
 use crate::measure::damage::{Damage, gouge_mm};
 use crate::steps::whole_blank::{self, mean};
 use gearcut_core::cut::CutBlank;
@@ -88,13 +89,13 @@ pub fn findings(gear: &PlanarGear, cut: &CutBlank, report: &BlankReport) -> Sect
 }
 
 /// What a reader must know of damage; `flank_mm` is the deepest cut below the target on the rays of flanks.
-pub fn warnings(gear: &PlanarGear, report: &BlankReport, flank_mm: f64) -> Vec<Warning> {
+pub fn warnings(gear: &PlanarGear, report: &BlankReport, flank_mm: f64) -> Vec<Notice> {
     let mut warnings = Vec::new();
     let gouge_mm = gouge_mm(gear.scene.gear.module_mm);
     let name = |operation: usize| gear.operations[operation].name;
     let by = |d: &Damage| format!("stroke {} of operation {}, cutter tooth {}", d.stroke, name(d.operation), d.blade);
     if report.end_face.is_none() {
-        warnings.push(Warning::note(format!("cuts below the target are not looked for: {NO_TARGET}")));
+        warnings.push(NoTarget { why: NO_TARGET }.notice());
     }
     // The rays of flanks do not say which operation it was: the deeper damage of the blank is taken for theirs.
     let depth_mm = |places: &[Damage]| places.iter().map(|d| d.depth_mm).fold(0.0, f64::max);

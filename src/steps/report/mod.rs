@@ -12,7 +12,7 @@ mod measured;
 pub mod quantities;
 pub mod texture;
 
-use crate::findings::{self, Findings, Place, Quantity, Warning, unit};
+use crate::findings::{self, Findings, Notice, Place, Quantity, unit};
 use crate::job::GearJob;
 use crate::output::folder::OutputFolder;
 use crate::output::progress::duration_text;
@@ -62,7 +62,7 @@ pub fn page(
         complete: found.complete,
         program: format!("gearcut {}", found.program_version),
         key_numbers: known_first(key_numbers),
-        warnings: found.warnings.iter().map(Warning::with_signs).collect(),
+        warnings: found.warnings.iter().map(Notice::with_signs).collect(),
         viewer: Some(maps::viewer(job, gear.mesh, maps)),
         sections,
     }

@@ -234,7 +234,7 @@ fn blades_beyond_the_window_take_nothing() {
 fn an_undercut_is_as_deep_as_the_head_sweeps() {
     let sharp = ["tool.face_mill.corner_radius_mm=0"];
     let pinion = job("hypoid_crown_pinion", &sharp).expect("a pinion");
-    let words = pinion.undercut_warning().expect("flanks").expect("an undercut");
+    let words = pinion.undercut_warning().expect("flanks").expect("an undercut").text;
     assert!(words.starts_with("undercut: blades of the same slot go 0."), "{words}");
     let found = SIDES.map(|side| pinion.deepest_cut(side, &[0]).expect("flanks"));
     let deepest = if found[0].depth_mm > found[1].depth_mm { found[0] } else { found[1] };

@@ -47,7 +47,7 @@ fn what_is_off_is_warned_of_with_numbers() {
         ("machine.cradle.root_angle_deg=75", "root angle is -0.4333 deg off the blank's"),
     ] {
         let warnings = job(PRINTED, &[setting]).expect("a gear").contradictions();
-        assert!(warnings.iter().any(|warning| warning.contains(words)), "{setting}: {warnings:?}");
+        assert!(warnings.iter().any(|warning| warning.text.contains(words)), "{setting}: {warnings:?}");
     }
     // Blades of 18.5 and 21.5 deg fit one way round better than the other.
     let angles = |outside: f64, inside: f64| {
@@ -58,7 +58,7 @@ fn what_is_off_is_warned_of_with_numbers() {
     };
     let exchanged = |[outside, inside]: [String; 2]| {
         let warnings = job(PRINTED, &[&outside, &inside]).expect("a gear").contradictions();
-        warnings.iter().any(|warning| warning.contains("inside and outside blades look exchanged"))
+        warnings.iter().any(|warning| warning.text.contains("inside and outside blades look exchanged"))
     };
     assert!(!exchanged(angles(20.0, 20.0)));
     let both = [exchanged(angles(18.5, 21.5)), exchanged(angles(21.5, 18.5))];
@@ -69,12 +69,12 @@ fn what_is_off_is_warned_of_with_numbers() {
         ("machine.bevel_limits.y_to_mm=80", "the machine from no end to 80.000 mm"),
     ] {
         let warnings = job(PRINTED, &[limit]).expect("a gear").contradictions();
-        assert!(warnings.iter().any(|warning| warning.contains(words)), "{limit}: {warnings:?}");
+        assert!(warnings.iter().any(|warning| warning.text.contains(words)), "{limit}: {warnings:?}");
     }
     assert_eq!(job(PRINTED, &["machine.bevel_limits.b_to_deg=80"]).expect("a gear").contradictions().len(), 1);
     let short = ["operation.finish.roll_from_deg=45", "operation.finish.roll_to_deg=70"];
     let warnings = job(PRINTED, &short).expect("a gear").contradictions();
-    assert!(warnings.iter().any(|warning| warning.contains("the flanks need 42.2")), "{warnings:?}");
+    assert!(warnings.iter().any(|warning| warning.text.contains("the flanks need 42.2")), "{warnings:?}");
 }
 
 /// A head that is too wide cuts into the next tooth. With the ratio of roll of a gear without offset rays go through
@@ -85,7 +85,7 @@ fn a_head_that_hits_the_next_tooth_is_warned_of() {
     let wide = ["tool.face_mill.point_width_mm=9"];
     let warning = job(PRINTED, &wide).expect("a gear").next_tooth_warning().expect("flanks");
     println!("{warning:?}");
-    assert!(warning.is_some_and(|words| words.contains("hits the next tooth")));
+    assert!(warning.is_some_and(|of| of.text.contains("hits the next tooth")));
     let hypoid = job("hypoid", &["machine.cradle.roll_ratio=1.0232"]).expect("a gear");
     let beside = hypoid.deepest_cut(Side::Left, &[1]).expect("flanks").depth_mm;
     let other = hypoid.deepest_cut(Side::Left, &[hypoid.blank.teeth - 1]).expect("flanks").depth_mm;

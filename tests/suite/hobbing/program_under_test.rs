@@ -1,7 +1,7 @@
 //! Programs of hobbing machines under test: read back they cut the same flanks, and a wrong one is told.
 
 use gearcut::cut::cpu::Cpu;
-use gearcut::findings::{Severity, Warning};
+use gearcut::findings::{Notice, Severity};
 use gearcut::job::GearJob as _;
 use gearcut::process::hobbing::axes_report::HobbingAxesReport;
 use gearcut::process::hobbing::gcode::texts;
@@ -48,7 +48,7 @@ fn heights(job: &HobbingJob) -> Vec<f64> {
     heights
 }
 
-fn told(job: &HobbingJob) -> Vec<Warning> {
+fn told(job: &HobbingJob) -> Vec<Notice> {
     HobbingAxesReport::of_job(job).iter().flat_map(AxesOfOperation::own_warnings).collect()
 }
 
@@ -67,7 +67,7 @@ fn a_program_read_back_cuts_the_same_flanks() {
             println!("{scene}, {error_um} um asked: flanks {worst_mm:.2e} mm off, {judged:?}");
             // A flank sees the part of the displacement that is normal to it; the digits of F leave nanometres.
             assert!(worst_mm <= 1.01 * asked_mm, "{scene}: {worst_mm:e} mm");
-            let about_programs = |told: Vec<Warning>| told.into_iter().filter(|of| of.text.contains("the program"));
+            let about_programs = |told: Vec<Notice>| told.into_iter().filter(|of| of.text.contains("the program"));
             assert_eq!(about_programs(told(&under_test)).next(), None, "{scene}");
             assert!(judged.distance_mm <= asked_mm && judged.missing < 1e-9, "{judged:?}");
         }

@@ -22,12 +22,14 @@ fn run(command: &str, scene: &str, settings: &[&str], more: &[&str]) -> Outcome 
     gearcut(&[command, scene].into_iter().chain(settings).chain(more.iter().copied()).collect::<Vec<_>>())
 }
 
-/// Severity and text of every warning in `results.json`.
+/// Severity, text and id of every warning in `results.json`, as the terminal shows them.
 fn listed(out: &Path) -> Vec<String> {
     let results = read_json(&out.join("results.json"));
     let word = |warning: &Value, key: &str| warning[key].as_str().expect("a text").to_owned();
     let list = results["warnings"].as_array().expect("a list");
-    list.iter().map(|warning| format!("{}: {}", word(warning, "severity"), word(warning, "text"))).collect()
+    list.iter()
+        .map(|warning| format!("{}: {} [{}]", word(warning, "severity"), word(warning, "text"), word(warning, "id")))
+        .collect()
 }
 
 fn text(path: &Path) -> String {
@@ -72,13 +74,14 @@ fn every_place_shows_the_same_list() {
     }
     let page = text(&cut.join("report.html"));
     for line in &listed {
-        let words = line.split_once(": ").expect("a severity").1;
+        let (sentence, id) = line.strip_suffix(']').and_then(|line| line.rsplit_once(" [")).expect("an id");
+        let words = sentence.split_once(": ").expect("a severity").1;
         assert!(summary.contains(&unbroken(line)), "{line} is not in the summary: {summary}");
         let on_page = words.replace(" um", " µm").replace('&', "&amp;").replace('"', "&quot;");
-        assert!(page.contains(&on_page), "{on_page} is not on the page");
+        assert!(page.contains(&format!("{on_page} <code>{id}</code>")), "{on_page} is not on the page");
         for operation in ["rough", "finish"].into_iter().filter(|_| !line.starts_with("note")) {
             let program = text(&cut.join(format!("axes/{operation}.ngc")));
-            let comment = format!("({})", line.replace(['(', ')'], " "));
+            let comment = format!("({})", sentence.replace(['(', ')'], " "));
             assert!(program.contains(&comment), "{comment} is not in the program's head");
         }
     }
@@ -197,4 +200,24 @@ fn five_micrometres_of_runout_are_a_deviation() {
     let listed = listed(&out);
     assert!(listed.iter().any(|line| line.contains("deviations, no gouges")), "{listed:?}");
     assert!(!listed.iter().any(|line| line.starts_with("fault")), "{listed:?}");
+}
+
+/// A denied warning and an allowed fault set the exit code, and the terminal says so; results stay as they are.
+#[test]
+fn the_command_line_denies_and_allows_notices() {
+    let check = |more: &[&str]| run("check", UNDERCUT, &SETTINGS, more);
+    assert!(check(&["--deny", "curve.*", "--deny", "hob.*"]).done().out.starts_with("can be cut: "));
+    let denied = check(&["--deny", "flank.*", "--allow", "flank.below_target"]);
+    let said = ["verdict: the cutter undercuts tooth 1 left", "(denied by --deny)"];
+    assert!(denied.failed(3, &said).out.starts_with("not as it is: "));
+    check(&["--deny", "flank.*", "--allow", "flank.undercut"]).done();
+    // Wrong usage, with the nearest.
+    check(&["--deny", "flank.undercuts"]).failed(2, &["did you mean flank.undercut?"]);
+    // A fault: an operation that goes deeper than finishing.
+    let deep = [&SETTINGS[..], &["operation.rough.offset_mm=-0.5"]].concat();
+    let check = |more: &[&str]| run("check", UNDERCUT, &deep, more);
+    check(&[]).failed(3, &["goes 0.500 mm deeper than finishing", "[cut.deeper_than_finishing]"]);
+    let allowed = check(&["--allow", "cut.*"]).done();
+    assert!(allowed.err.contains("note: allowed by --allow: cut.deeper_than_finishing"), "{}", allowed.err);
+    assert!(allowed.err.contains("fault: operation rough: it goes"), "{}", allowed.err);
 }

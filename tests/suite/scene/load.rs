@@ -3,6 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use crate::fixtures::printed::stale;
 use gearcut::gear::PitchCurveShape;
 use gearcut::process::hobbing::scene::model::Hobbing;
 use gearcut::process::shaping::scene::model::{
@@ -441,16 +442,6 @@ fn schema_is_up_to_date() {
 #[test]
 fn reference_is_up_to_date() {
     stale("scenes/README.md", &reference::markdown(table()), "GEARCUT_BLESS=1 cargo test --test suite scene::load");
-}
-
-/// Says when a printed file is no longer what the table of keys says; `GEARCUT_BLESS` rewrites it.
-fn stale(path: &str, wanted: &str, command: &str) {
-    if std::env::var_os("GEARCUT_BLESS").is_some() {
-        fs::write(path, wanted).expect("write the printed file");
-    }
-    // as git may check it out on Windows
-    let found = fs::read_to_string(path).unwrap_or_default().replace("\r\n", "\n");
-    assert!(found == wanted, "{path} is stale: run `{command}`");
 }
 
 /// A section that two other processes read is said to be both's.

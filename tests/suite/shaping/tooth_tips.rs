@@ -3,7 +3,7 @@
 
 use crate::fixtures::command::gearcut;
 use gearcut::cut::cpu::Cpu;
-use gearcut::findings::{Severity, Warning};
+use gearcut::findings::{Notice, Severity};
 use gearcut::interrupt::Interrupt;
 use gearcut::output::progress::{Progress, ProgressMode};
 use gearcut::process::load;
@@ -11,7 +11,7 @@ use gearcut::process::shaping::measure::GearReport;
 use gearcut::process::shaping::{ShapingJob, cut_gear, warnings};
 
 /// A scene, cut; what its flanks, not its blank, say.
-fn cut(scene: &str, settings: &[&str]) -> (GearReport, Vec<Warning>) {
+fn cut(scene: &str, settings: &[&str]) -> (GearReport, Vec<Notice>) {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("scene.toml");
     std::fs::write(&path, scene).expect("written");
@@ -24,7 +24,7 @@ fn cut(scene: &str, settings: &[&str]) -> (GearReport, Vec<Warning>) {
     (gear.report, told)
 }
 
-fn has(told: &[Warning], words: &str) -> bool {
+fn has(told: &[Notice], words: &str) -> bool {
     told.iter().any(|of| of.text.contains(words))
 }
 

@@ -142,31 +142,34 @@ impl BevelBlank {
         from_toe_mm >= 0.0 && from_toe_mm <= self.face_width_mm && height_mm <= self.addendum_mm(distance_mm)
     }
 
-    /// What in the data contradicts itself, in words with numbers; the mate counts where it is known.
-    pub fn contradictions(&self, mate: Option<MatingCones>) -> Vec<String> {
-        let mut found = Vec::new();
-        if let Some(MatingCones { teeth, shaft_angle_rad }) = mate {
-            let wanted_rad = pitch_angle_rad(self.teeth, teeth, shaft_angle_rad);
-            if (wanted_rad - self.pitch_angle_rad).abs() > ANGLE_ROUNDING_RAD {
-                found.push(format!(
-                    "the pitch angle is {:.4} deg; {} and {teeth} teeth at a shaft angle of {:.4} deg roll on cones of \
-                     {:.4} deg",
-                    self.pitch_angle_rad.to_degrees(),
-                    self.teeth,
-                    shaft_angle_rad.to_degrees(),
-                    wanted_rad.to_degrees()
-                ));
-            }
-        }
+    /// What in the data contradicts itself; the mate counts where it is known.
+    pub fn contradictions(&self, mate: Option<MatingCones>) -> Vec<Contradiction> {
+        let of_mate = mate.and_then(|mate| {
+            let right_rad = pitch_angle_rad(self.teeth, mate.teeth, mate.shaft_angle_rad);
+            let is_off = (right_rad - self.pitch_angle_rad).abs() > ANGLE_ROUNDING_RAD;
+            is_off.then_some(Contradiction::PitchAngle { mate, right_rad })
+        });
         let share = self.face_width_mm / self.outer_cone_distance_mm;
-        if share > 1.0 / 3.0 {
-            found.push(format!(
-                "the face takes {:.0} % of the outer cone distance; more than a third makes the toe weak",
-                100.0 * share
-            ));
-        }
-        found
+        let of_face = (share > 1.0 / 3.0).then_some(Contradiction::WideFace { share });
+        of_mate.into_iter().chain(of_face).collect()
     }
+}
+
+/// What in a blank's data contradicts itself.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Contradiction {
+    /// The pitch cone does not roll on the mate's.
+    PitchAngle {
+        /// The mate.
+        mate: MatingCones,
+        /// The pitch angle that does, rad.
+        right_rad: f64,
+    },
+    /// The face takes more than a third of the outer cone distance, which makes the toe weak.
+    WideFace {
+        /// Share of the outer cone distance.
+        share: f64,
+    },
 }
 
 /// What is known of the mate's cones.
@@ -222,9 +225,10 @@ mod tests {
     #[test]
     fn the_pair_says_whether_the_pitch_angle_is_its_own() {
         let mate = |degrees: f64| Some(MatingCones { teeth: 19, shaft_angle_rad: degrees.to_radians() });
-        assert_eq!(data().contradictions(mate(95.0)), Vec::<String>::new());
+        assert!(data().contradictions(mate(95.0)).is_empty());
         let off = data().contradictions(mate(90.0));
-        assert!(off.len() == 1 && off[0].contains("72.9"), "{off:?}");
+        let [Contradiction::PitchAngle { right_rad, .. }] = off[..] else { panic!("{off:?}") };
+        assert!((right_rad.to_degrees() - 72.9).abs() < 0.1, "{right_rad}");
         assert!(data().contradictions(None).is_empty());
         assert_eq!(BevelBlank { face_width_mm: 50.0, ..data() }.contradictions(None).len(), 1);
     }

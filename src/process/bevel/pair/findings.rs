@@ -1,8 +1,9 @@
 //! What a bevel pair shows: motion error, path and ellipse of contact, and how they move with the mounting.
 
 use super::{MountingError, MountingErrors, RolledBevels, RolledSide, Trend};
-use crate::findings::{Datum, Entry, Findings, Quantity, Section, Table, TableColumn, Warning};
+use crate::findings::{Datum, Entry, Findings, Notice, Quantity, Section, Table, TableColumn};
 use crate::process::bevel::BevelJob;
+use crate::process::bevel::notices::EdgeContact;
 use gearcut_core::bevel::contact::Contact;
 use gearcut_core::units::UM_PER_MM;
 
@@ -24,7 +25,7 @@ pub fn findings(name: &str, [gear, pinion]: [&BevelJob; 2], rolled: &RolledBevel
         scene: name.to_owned(),
         complete: true,
         headline: rolled.sides.iter().flat_map(headline).collect(),
-        warnings: rolled.sides.iter().filter_map(at_edge).map(Warning::warn).collect(),
+        warnings: rolled.sides.iter().filter_map(at_edge).collect(),
         sections: std::iter::once(mounted(gear, pinion, rolled)).chain(sides).collect(),
     }
 }
@@ -86,12 +87,10 @@ fn half_axis(contact: &Contact, which: usize, factor: f64, definition: &'static 
 }
 
 /// A side whose contact runs over an edge within the pitch.
-fn at_edge(side: &RolledSide) -> Option<String> {
+fn at_edge(side: &RolledSide) -> Option<Notice> {
     let at_edge = side.running.carrying.iter().filter(|(_, contact, _)| contact.ellipse.is_none()).count();
-    let share = 100 * at_edge / side.running.carrying.len();
-    (at_edge > 0).then(|| {
-        format!("{} flanks: over {share} % of a pitch the contact stands at an edge of the gear's flank", words(side))
-    })
+    let percent = 100 * at_edge / side.running.carrying.len();
+    (at_edge > 0).then(|| EdgeContact { flanks: words(side), percent }.notice())
 }
 
 fn mounted(gear: &BevelJob, pinion: &BevelJob, rolled: &RolledBevels) -> Section {

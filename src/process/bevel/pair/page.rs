@@ -2,7 +2,7 @@
 
 use super::findings::words;
 use super::{RolledBevels, bearing};
-use crate::findings::{Datum, Findings, Table, Warning, unit};
+use crate::findings::{Datum, Findings, Notice, Table, unit};
 use crate::output::line_chart::LineChart;
 use crate::output::report::{Block, Page, PageSection, PageTable};
 use crate::output::text::{plain, significant};
@@ -59,7 +59,7 @@ pub fn page(jobs: [&BevelJob; 2], rolled: &RolledBevels, found: &Findings, motio
         done: "both sides rolled over a pitch",
         program: format!("gearcut {}", found.program_version),
         key_numbers: found.headline.iter().map(quantities::key_number).collect(),
-        warnings: found.warnings.iter().map(Warning::with_signs).collect(),
+        warnings: found.warnings.iter().map(Notice::with_signs).collect(),
         viewer: None,
         sections,
     }

@@ -1,7 +1,7 @@
 //! A hobbing program ready for a control: what the operator must know, then the lines.
 
 use super::program::{Gearbox, digits};
-use crate::findings::Warning;
+use crate::findings::Notice;
 use crate::gcode::{AxisColumn, Script, StraightLine};
 use crate::machine::Axis;
 use crate::output::text::{plain, significant};
@@ -22,7 +22,7 @@ pub fn script(
     program: &HobbingProgram,
     gearbox: Option<&Gearbox>,
     (reached_mm, time_s): (f64, f64),
-    warnings: &[Warning],
+    warnings: &[Notice],
 ) -> Script {
     let (output, linkage, spec) = (&job.scene.output, &operation.linkage, &job.scene.gear);
     let g = linkage.geometry();
@@ -113,7 +113,7 @@ pub fn script(
         to: position(&pair[1]),
         per_minute: 60.0 / (pair[1].time_s - pair[0].time_s),
     };
-    head.extend(warnings.iter().map(Warning::line));
+    head.extend(warnings.iter().map(Notice::line));
     let before = job.operations.iter().take_while(|before| before.spec.name != operation.spec.name).count();
     let [full, geared] = program_numbers(before);
     let gearbox_words = if gearbox.is_some() { " gearbox" } else { "" };

@@ -3,8 +3,8 @@
 mod headline;
 
 use super::{blank, flank_table, force, load, marks, points};
-use crate::findings::warning::ranked;
-use crate::findings::{Findings, Quantity, Section, Warning};
+use crate::findings::notice::ranked;
+use crate::findings::{Findings, Notice, Quantity, Section};
 use crate::machine_errors::ErrorLayer;
 use crate::process::hobbing::axes_report::HobbingAxesReport;
 use crate::process::hobbing::job::PreparedHobbing;
@@ -36,7 +36,7 @@ pub struct Measured<'a> {
     /// What every operation asks of the machine.
     pub motion: &'a [HobbingAxesReport<'a>],
     /// Warnings that were known before the cut.
-    pub foreseen: &'a [Warning],
+    pub foreseen: &'a [Notice],
     /// Texture of windows.
     pub textures: &'a [WindowTexture],
     /// Sizes, figures and limits.

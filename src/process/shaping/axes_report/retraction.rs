@@ -5,15 +5,16 @@
 
 use super::OperationAxes;
 use super::strokes::StrokeRow;
-use crate::findings::{Place, Quantity, Section};
+use crate::findings::{Notice, Place, Quantity, Section};
 use crate::machine::Order;
 use crate::output::line_chart::Panel;
 use crate::output::text::{Sheet, significant};
 use crate::process::shaping::PreparedOperation;
 use crate::process::shaping::linkage::dynamics::AXES;
+use crate::process::shaping::notices::{ReturnNoDirection, ReturnNoTime, ReturnSlow};
 use crate::process::shaping::returns::motion::RetractionMotion;
-use crate::steps::axes::STEADY;
 use crate::steps::axes::charts::panel;
+use crate::steps::axes::{AxesOfOperation as _, STEADY};
 
 /// Why there is no cost.
 const NO_LIMITS: &str = "machine.limits says nothing of the axes' speeds and accelerations";
@@ -116,26 +117,23 @@ pub(super) fn print(axes: &OperationAxes, motion: &RetractionMotion, sheet: &mut
 }
 
 /// What the user should know: the axes are too slow, or no tilt clears.
-pub(super) fn warnings(axes: &OperationAxes, motion: &RetractionMotion) -> Vec<String> {
-    let mut warnings = Vec::new();
+pub(super) fn warnings(axes: &OperationAxes, motion: &RetractionMotion) -> Vec<Notice> {
+    let (operation, mut warnings) = (axes.name(), Vec::new());
     if motion.time_s <= 0.0 {
-        warnings.push(format!("the axes cannot draw the cutter back: {NO_TIME}"));
+        warnings.push(ReturnNoTime { operation, why: NO_TIME }.notice());
     } else if let Some(factor) = motion.slowdown().filter(|factor| *factor > 1.0) {
-        warnings.push(format!(
-            "drawing the cutter back takes the axes {} ms and the ram leaves {} ms: run at most {:.0} double strokes \
-             per minute, give more machine.approach_mm and machine.overrun_mm, or back off by less",
-            significant(1e3 * motion.needed_s.unwrap_or_default(), 3),
-            significant(1e3 * motion.time_s, 3),
-            axes.operation().schedule.double_strokes_per_minute() / factor
-        ));
+        let most_per_minute = axes.operation().schedule.double_strokes_per_minute() / factor;
+        let slow = ReturnSlow {
+            operation,
+            needed_ms: significant(1e3 * motion.needed_s.unwrap_or_default(), 3),
+            free_ms: significant(1e3 * motion.time_s, 3),
+            most_per_minute: format!("{most_per_minute:.0}"),
+        };
+        warnings.push(slow.notice());
     }
-    if let Some([low, high]) = axes.operation().retraction.tilts_rad().filter(|[low, high]| low > high) {
-        warnings.push(format!(
-            "no direction clears everything: some strokes need a tilt above {:.1} deg, others one below {:.1} deg; \
-             leave less stock to this operation",
-            low.to_degrees(),
-            high.to_degrees()
-        ));
+    if let Some(tilts_rad) = axes.operation().retraction.tilts_rad().filter(|[low, high]| low > high) {
+        let [above_deg, below_deg] = tilts_rad.map(|rad| format!("{:.1}", rad.to_degrees()));
+        warnings.push(ReturnNoDirection { operation, above_deg, below_deg }.notice());
     }
     warnings
 }

@@ -3,13 +3,17 @@
 //! In: what [`crate::process::shaping::gcode::judge`] found. Out: a section of the operation, the sentences of the list
 //! of warnings, and whether numbers that are known of the scene's own strokes hold for the gear that is cut.
 
-use crate::findings::{Place, Quantity, Section, Warning};
+use crate::findings::notices::ProgramOff;
+use crate::findings::{Notice, Place, Quantity, Section};
 use crate::measure::damage::gouge_mm;
 use crate::output::text::significant;
 use crate::process::shaping::ShapingJob;
 use crate::process::shaping::axes_report::OperationAxes;
 use crate::process::shaping::gcode::Judgement;
 use crate::process::shaping::measure::GearReport;
+use crate::process::shaping::notices::{
+    ProgramBack, ProgramBetween, ProgramForeign, ProgramMissing, ProgramSpeed, ProgramTwice,
+};
 use crate::steps::axes::AxesOfOperation as _;
 use gearcut_core::units::UM_PER_MM;
 
@@ -112,88 +116,79 @@ pub fn of_scene(quantity: Quantity, other: Option<&str>) -> Quantity {
 }
 
 /// What a reader must know of the programs under test.
-pub fn warnings(job: &ShapingJob, motion: &[OperationAxes]) -> Vec<Warning> {
+pub fn warnings(job: &ShapingJob, motion: &[OperationAxes]) -> Vec<Notice> {
     let of = |operation: &OperationAxes| operation.program().map(|program| told(job, operation, program));
     motion.iter().filter_map(of).flatten().collect()
 }
 
-fn told(job: &ShapingJob, motion: &OperationAxes, judgement: &Judgement) -> Vec<Warning> {
+fn told(job: &ShapingJob, motion: &OperationAxes, judgement: &Judgement) -> Vec<Notice> {
     let (name, mut warnings) = (motion.name(), Vec::new());
     let gouges = |mm: f64| mm > gouge_mm(job.scene.gear.module_mm);
-    let graded = |gouges: bool, text: String| if gouges { Warning::fault(text) } else { Warning::warn(text) };
     let asked_mm = job.scene.output.gcode_contour_error_mm;
     let distance_mm = judgement.distance_mm;
     if judgement.is_off(asked_mm) {
-        let text = format!(
-            "operation {name}: the program lies up to {} um off the scene's own strokes, at stroke {}; {} um are asked \
-             (output.gcode_contour_error_um)",
-            significant(UM_PER_MM * distance_mm, 4),
-            significant(judgement.distance_at, 6),
-            significant(UM_PER_MM * asked_mm, 3)
-        );
-        warnings.push(graded(gouges(distance_mm), text));
+        let off = ProgramOff {
+            operation: name,
+            distance_um: significant(UM_PER_MM * distance_mm, 4),
+            of: "strokes",
+            place: format!("stroke {}", significant(judgement.distance_at, 6)),
+            asked_um: significant(UM_PER_MM * asked_mm, 3),
+        };
+        warnings.push(off.notice().fault_where(gouges(distance_mm)));
     }
     // Between strokes the cutter is drawn back: the nearest flank is this far away.
     let clearance_mm = motion.relief.clearance_mm(job.machine.back_off_mm).max(0.0);
     let scraping_mm = judgement.between_mm - clearance_mm;
     if scraping_mm > asked_mm {
-        let text = format!(
-            "operation {name}: between strokes the program lies up to {} um off the straight way from the one to the \
-             next, at stroke {}; relief clears a flank by {} um (machine.back_off_mm); let the axes go straight, or \
-             draw back",
-            significant(UM_PER_MM * judgement.between_mm, 4),
-            significant(judgement.between_at, 6),
-            significant(UM_PER_MM * clearance_mm, 3)
-        );
-        warnings.push(graded(gouges(scraping_mm), text));
+        let between = ProgramBetween {
+            operation: name,
+            distance_um: significant(UM_PER_MM * judgement.between_mm, 4),
+            stroke: significant(judgement.between_at, 6),
+            clearance_um: significant(UM_PER_MM * clearance_mm, 3),
+        };
+        warnings.push(between.notice().fault_where(gouges(scraping_mm)));
     }
     if let Some(back) = judgement.falls_short(asked_mm) {
-        let text = format!(
-            "operation {name}: while the ram returns the program has the cutter up to {} um short of where \
-             machine.retraction draws it back to, {} um away, at stroke {}; {}",
-            significant(UM_PER_MM * back.short_mm, 4),
-            significant(UM_PER_MM * back.asked_mm, 4),
-            significant(back.at, 6),
-            if back.drags() {
+        let back_off = ProgramBack {
+            operation: name,
+            short_um: significant(UM_PER_MM * back.short_mm, 4),
+            asked_um: significant(UM_PER_MM * back.asked_mm, 4),
+            stroke: significant(back.at, 6),
+            so: if back.drags() {
                 "it drags over the flanks: draw back before the return stroke enters the face, and come in after it \
                  has left it"
             } else {
                 "it clears the flanks by less than the scene says"
-            }
-        );
-        warnings.push(graded(back.drags(), text));
+            },
+        };
+        warnings.push(back_off.notice().fault_where(back.drags()));
     }
-    for (strokes, one, several) in [
-        (
-            &judgement.missing,
-            "1 of the scene's strokes is missing from the program",
-            "of the scene's strokes are missing from the program",
-        ),
-        (&judgement.doubled, "1 stroke of the program is made twice", "strokes of the program are made twice"),
-        (
-            &judgement.off,
-            "1 stroke of the program is none of the scene's",
-            "strokes of the program are none of the scene's",
-        ),
-    ] {
-        warnings.extend(match strokes.as_slice() {
-            [] => None,
-            [stroke] => Some(Warning::fault(format!("operation {name}: {one}, stroke {stroke}"))),
-            [first, ..] => {
-                let count = strokes.len();
-                let text = format!("operation {name}: {count} {several}, the first is stroke {first}");
-                Some(Warning::fault(text))
-            }
-        });
+    // How many, with the verb, and which is the first.
+    let counted = |strokes: &[usize], one: &str, several: &str| {
+        let count = strokes.len();
+        let first = strokes.first()?;
+        Some(if count == 1 {
+            (format!("1 {one}"), format!("stroke {first}"))
+        } else {
+            (format!("{count} {several}"), format!("the first is stroke {first}"))
+        })
+    };
+    let operation = name;
+    if let Some((strokes, first)) =
+        counted(&judgement.missing, "of the scene's strokes is", "of the scene's strokes are")
+    {
+        warnings.push(ProgramMissing { operation, strokes, first }.notice());
+    }
+    let of_program = |strokes: &[usize]| counted(strokes, "stroke of the program is", "strokes of the program are");
+    if let Some((strokes, first)) = of_program(&judgement.doubled) {
+        warnings.push(ProgramTwice { operation, strokes, first }.notice());
+    }
+    if let Some((strokes, first)) = of_program(&judgement.off) {
+        warnings.push(ProgramForeign { operation, strokes, first }.notice());
     }
     if judgement.is_at_another_speed() {
-        let [program, scene] = judgement.strokes_per_minute;
-        warnings.push(Warning::fault(format!(
-            "operation {name}: the program's S is {} double strokes per minute, the scene says {}: times, speeds, \
-             drifts and lags are those of the program",
-            significant(program, 6),
-            significant(scene, 6)
-        )));
+        let [program_per_minute, scene_per_minute] = judgement.strokes_per_minute.map(|rate| significant(rate, 6));
+        warnings.push(ProgramSpeed { operation, program_per_minute, scene_per_minute }.notice());
     }
     warnings
 }

@@ -5,8 +5,9 @@
 //! `tables/returns_<operation>.csv`; its warning.
 
 use super::answers::answered;
-use crate::findings::{Datum, Place, Quantity, Section, Table, TableColumn};
+use crate::findings::{Datum, Notice, Place, Quantity, Section, Table, TableColumn};
 use crate::process::shaping::linkage::retraction::RetractionLaw;
+use crate::process::shaping::notices::{ReturnEnters, ReturnTight};
 use crate::process::shaping::returns::facts::{Offer, ReturnFacts, TiltCost};
 use crate::process::shaping::returns::plan::CLEAR_MM;
 use crate::process::shaping::returns::survey::PlacedRoom;
@@ -152,23 +153,17 @@ fn tilt_words(per_minute: f64, tilts_rad: [f64; 2], cost: TiltCost) -> String {
 }
 
 /// What must be known before cutting.
-pub fn warning(operation: &str, section: &Section) -> Option<String> {
+pub fn warning(operation: &str, section: &Section) -> Option<Notice> {
     let clearance = section.quantity("smallest_clearance")?;
     let clearance_um = clearance.value().filter(|&um| um < UM_PER_MM * CLEAR_MM)?;
     let place = clearance.place().map(Place::words)?;
     let way_out = section.words("smallest_clearance_advice");
     Some(if clearance_um >= 0.0 {
-        format!(
-            "operation {operation}: by the surfaces that it generates, the returning cutter clears the teeth near \
-             {place} by {clearance_um:.2} um only: {way_out}"
-        )
+        ReturnTight { operation, place, clearance_um: format!("{clearance_um:.2}"), way_out }.notice()
     } else {
-        let overlap_mm2 = section.number("overlap")?;
-        format!(
-            "operation {operation}: by the surfaces that it generates, the returning cutter stands {:.1} um deep in \
-             the teeth near {place}, over {overlap_mm2:.4} mm2 of their section: {way_out}",
-            -clearance_um
-        )
+        let overlap_mm2 = format!("{:.4}", section.number("overlap")?);
+        let depth_um = format!("{:.1}", -clearance_um);
+        ReturnEnters { operation, depth_um, place, overlap_mm2, way_out }.notice()
     })
 }
 

@@ -6,10 +6,11 @@
 //! `tables/ring.csv`.
 
 use super::answers::answered;
-use crate::findings::{Datum, Place, Quantity, Section, Table, TableColumn, Warning};
+use crate::findings::{Datum, Notice, Place, Quantity, Section, Table, TableColumn};
 use crate::measure::damage::LEAST_DEPTH_MM;
 use crate::output::text::significant;
 use crate::process::shaping::ShapingJob;
+use crate::process::shaping::notices::{TipCorners, Trimmed};
 use crate::process::shaping::ring::{CornerPath, RingFacts, RingTooth, ToothPlace, rolling_module_mm, rolling_teeth};
 use gearcut_core::gear::GearKind;
 use gearcut_core::units::UM_PER_MM;
@@ -225,23 +226,21 @@ fn trimming(section: Section, job: &ShapingJob, facts: &RingFacts) -> Section {
 }
 
 /// What must be known before cutting: a fault where it is deeper than a gouge.
-pub fn warnings(section: &Section, gouge_mm: f64) -> Vec<Warning> {
-    let told = |depth_mm: f64, key: &str, what: String| {
-        let quantity = section.quantity(key)?;
-        let place = quantity.place().map(Place::words)?;
-        let way_out = section.words(&format!("{key}_advice"));
-        let text = format!("{what} ({place}): {way_out}");
-        Some(if depth_mm > gouge_mm { Warning::fault(text) } else { Warning::warn(text) })
+pub fn warnings(section: &Section, gouge_mm: f64) -> Vec<Notice> {
+    let place_and_way_out = |key: &str| {
+        let place = section.quantity(key)?.place().map(Place::words)?;
+        Some((place, section.words(&format!("{key}_advice"))))
     };
     let corner = section.number("tip_corner_clearance").filter(|&mm| mm < 0.0).and_then(|clearance_mm| {
-        let what = format!("the tip corners of the cutter cut {:.3} mm into teeth beside their space", -clearance_mm);
-        told(-clearance_mm, "tip_corner_clearance", what)
+        let (place, way_out) = place_and_way_out("tip_corner_clearance")?;
+        let corners = TipCorners { depth_mm: format!("{:.3}", -clearance_mm), place, way_out };
+        Some(corners.notice().fault_where(-clearance_mm > gouge_mm))
     });
     let trimmed = section.number("trimming").map(|um| um / UM_PER_MM).filter(|&mm| mm >= LEAST_DEPTH_MM);
     let trimmed = trimmed.and_then(|depth_mm| {
-        let what =
-            format!("going in, the cutter trims the ring's teeth by {} um", significant(UM_PER_MM * depth_mm, 3));
-        told(depth_mm, "trimming", what)
+        let (place, way_out) = place_and_way_out("trimming")?;
+        let trimmed = Trimmed { depth_um: significant(UM_PER_MM * depth_mm, 3), place, way_out };
+        Some(trimmed.notice().fault_where(depth_mm > gouge_mm))
     });
     corner.into_iter().chain(trimmed).collect()
 }

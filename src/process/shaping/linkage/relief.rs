@@ -25,6 +25,8 @@
 use std::f64::consts::TAU;
 
 use super::ShapingLinkage;
+use crate::findings::Notice;
+use crate::process::shaping::notices::{ReliefRubs, ReliefTight};
 use gearcut_core::math::extremum::maximum;
 
 /// Below this share of a circular gear's clearance a warning is due.
@@ -114,8 +116,8 @@ impl SmallestRelief {
         back_off_mm * self.pressure_angle_rad.sin() * self.ratio
     }
 
-    /// Text for the user unless the cutter clears.
-    pub fn warning(&self, back_off_mm: f64) -> Option<String> {
+    /// What must be known of an operation unless the cutter clears.
+    pub fn warning(&self, operation: &str, back_off_mm: f64) -> Option<Notice> {
         let flank = match self.flank {
             ReliefFlank::Left => "left",
             ReliefFlank::Right => "right",
@@ -124,18 +126,15 @@ impl SmallestRelief {
         let clearance_um = 1e3 * self.clearance_mm(back_off_mm);
         match self.verdict() {
             ReliefVerdict::Clears => None,
-            ReliefVerdict::Tight => Some(format!(
-                "backing off by {back_off_mm} mm along the line of centres clears {place} by only {clearance_um:.1} \
-                um to first order, {:.0} % of what a circular gear gets: back off further, or along the normal of the \
-                pitch curve",
-                100.0 * self.ratio
-            )),
-            ReliefVerdict::Rubs => Some(format!(
-                "the return stroke rubs: backing off along the line of centres moves the cutter into {place} by \
-                 {:.1} um to first order for {back_off_mm} mm; back off along the normal of the pitch curve, or take a \
-                 larger pressure angle or a cutter with more teeth",
-                -clearance_um
-            )),
+            ReliefVerdict::Tight => {
+                let percent = format!("{:.0}", 100.0 * self.ratio);
+                let clearance_um = format!("{clearance_um:.1}");
+                Some(ReliefTight { operation, back_off_mm, place, clearance_um, percent }.notice())
+            }
+            ReliefVerdict::Rubs => {
+                let depth_um = format!("{:.1}", -clearance_um);
+                Some(ReliefRubs { operation, place, depth_um, back_off_mm }.notice())
+            }
         }
     }
 }

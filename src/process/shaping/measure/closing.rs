@@ -4,9 +4,10 @@
 //! between teeth that strokes more than half a turn apart have left.
 
 use super::{FlankReport, GearReport};
-use crate::findings::Warning;
+use crate::findings::Notice;
 use crate::output::text::significant;
 use crate::process::shaping::ShapingJob;
+use crate::process::shaping::notices::{ClosingPitch, ClosingStep};
 use gearcut_core::terms::Side;
 use gearcut_core::units::UM_PER_MM;
 
@@ -14,29 +15,27 @@ use gearcut_core::units::UM_PER_MM;
 const LEAST_STEP_MM: f64 = 1e-3;
 
 /// The sentences.
-pub fn warnings(job: &ShapingJob, report: &GearReport) -> Vec<Warning> {
+pub fn warnings(job: &ShapingJob, report: &GearReport) -> Vec<Notice> {
     step(job, report).into_iter().chain(pitch(job, report)).collect()
 }
 
-fn step(job: &ShapingJob, report: &GearReport) -> Option<Warning> {
+fn step(job: &ShapingJob, report: &GearReport) -> Option<Notice> {
     let steps = report.flanks.iter().filter_map(|flank| Some((flank, flank.own.witness?)));
     let (flank, step) = steps.max_by(|a, b| a.1.value_mm.abs().total_cmp(&b.1.value_mm.abs()))?;
     (step.value_mm.abs() > LEAST_STEP_MM).then(|| {
-        Warning::warn(format!(
-            "operation {}: where its end meets its beginning, on tooth {} {}, the later strokes lie {} um {} the \
-             earlier ones: see runout_um and pitch_errors_um of the cutter, which cuts there with another tooth than a \
-             turn before, machine.errors and machine.compliance; where all are left out, try finer dexels",
-            job.finishing().spec.name,
-            flank.tooth,
-            flank.side.name(),
-            significant(UM_PER_MM * step.value_mm.abs(), 3),
-            if step.value_mm < 0.0 { "deeper than" } else { "above" }
-        ))
+        let closing = ClosingStep {
+            operation: &job.finishing().spec.name,
+            tooth: flank.tooth,
+            side: flank.side.name(),
+            step_um: significant(UM_PER_MM * step.value_mm.abs(), 3),
+            way: if step.value_mm < 0.0 { "deeper than" } else { "above" },
+        };
+        closing.notice()
     })
 }
 
 /// The largest single pitch deviation, if strokes of different turns made it.
-fn pitch(job: &ShapingJob, report: &GearReport) -> Option<Warning> {
+fn pitch(job: &ShapingJob, report: &GearReport) -> Option<Notice> {
     let of_side = |(side, index): (Side, usize)| {
         let single_mm = &report.inspection.pitch[index].as_ref()?.single_mm;
         let worst = (0..single_mm.len()).max_by(|&a, &b| single_mm[a].abs().total_cmp(&single_mm[b].abs()))?;
@@ -53,12 +52,7 @@ fn pitch(job: &ShapingJob, report: &GearReport) -> Option<Warning> {
     };
     let closes = stroke(tooth)?.abs_diff(stroke(before)?) > job.finishing().half_turn();
     (closes && single_mm.abs() > LEAST_STEP_MM).then(|| {
-        Warning::note(format!(
-            "the largest f_p, {} um from tooth {before} to tooth {tooth} {}, is measured where operation {} closes: it \
-             is what drifted during a turn, and no error of pitch of the machine",
-            significant(UM_PER_MM * single_mm, 3),
-            side.name(),
-            job.finishing().spec.name
-        ))
+        let (single_um, side) = (significant(UM_PER_MM * single_mm, 3), side.name());
+        ClosingPitch { single_um, before, tooth, side, operation: &job.finishing().spec.name }.notice()
     })
 }

@@ -1,6 +1,6 @@
 //! A program in straight lines, with everything in its head that the operator must know.
 
-use crate::findings::Warning;
+use crate::findings::Notice;
 use crate::gcode::{AxisColumn, Ram, Script, StraightLine};
 use crate::machine::Axis;
 use crate::output::text::plain;
@@ -19,7 +19,7 @@ pub fn script(
     operation: &PreparedOperation,
     program: &AxisProgram,
     (error_mm, worst): (f64, f64),
-    warnings: &[Warning],
+    warnings: &[Notice],
 ) -> Script {
     let output = &job.scene.output;
     let tip_radius_mm = job.cutter.tip_radius_mm;
@@ -72,7 +72,7 @@ pub fn script(
             "Relief on the return stroke is the machine's own; approach and clamping are the operator's".to_owned(),
         ]
     };
-    let told = warnings.iter().map(Warning::line);
+    let told = warnings.iter().map(Notice::line);
     let [work, cutter, distance] = &AXES;
     // The work turns by -psi_c.
     let position = |knot: &Knot| {

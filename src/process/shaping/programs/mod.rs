@@ -5,7 +5,7 @@
 mod linear;
 mod paper;
 
-use crate::findings::Warning;
+use crate::findings::Notice;
 use crate::output::text::{plain, significant};
 use crate::process::shaping::gcode::AxisProgram;
 use crate::process::shaping::job::{PreparedOperation, ShapingJob};
@@ -14,7 +14,7 @@ use gearcut_core::units::UM_PER_MM;
 
 /// The program of an operation, `warnings` in its head; an error is the reason why there is none, `None`: none is
 /// wanted.
-pub fn text(job: &ShapingJob, operation: &PreparedOperation, warnings: &[Warning]) -> Option<Result<String, String>> {
+pub fn text(job: &ShapingJob, operation: &PreparedOperation, warnings: &[Notice]) -> Option<Result<String, String>> {
     if job.gcode == GcodeDialect::None {
         return None;
     }
@@ -28,7 +28,7 @@ pub fn text(job: &ShapingJob, operation: &PreparedOperation, warnings: &[Warning
 }
 
 /// The program in straight lines, or what keeps it from being written.
-fn straight_lines(job: &ShapingJob, operation: &PreparedOperation, warnings: &[Warning]) -> Result<String, String> {
+fn straight_lines(job: &ShapingJob, operation: &PreparedOperation, warnings: &[Notice]) -> Result<String, String> {
     let (asked_mm, post) = (job.scene.output.gcode_contour_error_mm, job.scene.output.post);
     let (schedule, tip_radius_mm) = (&operation.schedule, job.cutter.tip_radius_mm);
     let continuous = operation.spec.feed_during_stroke;

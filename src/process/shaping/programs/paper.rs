@@ -5,7 +5,7 @@
 //! delta_d (mm). On nearly every other control **G84 is a tapping cycle**: the file says DO NOT RUN before anything
 //! else.
 
-use crate::findings::Warning;
+use crate::findings::Notice;
 use crate::gcode::ascii;
 use crate::output::text::plain;
 use crate::process::shaping::job::{PreparedOperation, ShapingJob};
@@ -16,7 +16,7 @@ use gearcut_core::gear::PitchCurveShape;
 ///
 /// # Errors
 /// Why this form cannot say it.
-pub fn text(job: &ShapingJob, operation: &PreparedOperation, warnings: &[Warning]) -> Result<String, String> {
+pub fn text(job: &ShapingJob, operation: &PreparedOperation, warnings: &[Notice]) -> Result<String, String> {
     let PitchCurveShape::Ellipse { order, eccentricity, .. } = job.scene.gear.pitch_curve else {
         return Err("the one-block form knows elliptical pitch curves only; use gcode = \"linear\"".to_owned());
     };
@@ -24,7 +24,7 @@ pub fn text(job: &ShapingJob, operation: &PreparedOperation, warnings: &[Warning
         return Err("the one-block form stands for the normal linkage; use gcode = \"linear\"".to_owned());
     };
     let start_rad = operation.schedule.phi_rad(0.0);
-    let comment = |warning: &Warning| format!("({})\n", ascii(&warning.line()));
+    let comment = |warning: &Notice| format!("({})\n", ascii(&warning.line()));
     let told = warnings.iter().map(comment).collect::<Vec<_>>().concat();
     // r = a (1 - k^2) / (1 - k cos n phi) is a (1 + k) at phi = 0.
     let semi_major_axis_mm = job.curve.frame(0.0).point_mm.length() / (1.0 + eccentricity);

@@ -62,7 +62,7 @@ fn relief_of_the_paper_gear() {
     assert!((smallest.ratio - (alpha - steepest).sin() / alpha.sin()).abs() < 1e-6);
     assert!((smallest.ratio - 0.26).abs() < 0.005, "{}", smallest.ratio);
     assert_eq!(smallest.verdict(), ReliefVerdict::Tight);
-    assert!(smallest.warning(0.5).unwrap().contains("26 %"));
+    assert!(smallest.warning("rough", 0.5).unwrap().text.contains("26 %"));
     for i in 0..30 {
         let phi = f64::from(i) * 0.21;
         let ratio = relief_ratio(&linkage, phi, 0.0, alpha);
@@ -73,10 +73,10 @@ fn relief_of_the_paper_gear() {
     assert_eq!(beta(smallest.phi_rad) < 0.0, smallest.flank == ReliefFlank::Left);
     let shallow = smallest_relief(&paper_linkage(NORMAL), 0.0, 14f64.to_radians());
     assert_eq!(shallow.verdict(), ReliefVerdict::Rubs);
-    assert!(shallow.clearance_mm(0.5) < 0.0 && shallow.warning(0.5).unwrap().contains("rubs"));
+    assert!(shallow.clearance_mm(0.5) < 0.0 && shallow.warning("rough", 0.5).unwrap().text.contains("rubs"));
     let circle = Arc::new(PitchCurve::new(&PitchCurveShape::Circle, 3.0, 42).unwrap());
     let round =
         smallest_relief(&ShapingLinkage::new(GearKind::External, NORMAL, circle, 30.0, 0.0).unwrap(), 0.0, alpha);
     assert!((round.ratio - 1.0).abs() < 1e-12, "{round:?}");
-    assert!(round.warning(0.5).is_none());
+    assert!(round.warning("rough", 0.5).is_none());
 }
