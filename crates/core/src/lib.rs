@@ -19,7 +19,73 @@
 //!
 //! Lengths are in mm and angles in rad, in names as in values; points and directions say which frame they are in.
 //!
-//! # Example
+//! # The law
+//!
+//! A field of dexels, passes of a blade, a cut, heights: a round blade of 5 mm makes eleven strokes 0.4 mm apart along a
+//! plane. Between strokes scallops are left, f^2 / (8 R) high in the middle.
+//!
+//! ```
+//! use gearcut_core::cut::{Backend, cpu::Cpu};
+//! use gearcut_core::dexel::{Column, Field};
+//! use gearcut_core::frame::Rigid2;
+//! use gearcut_core::passes::CutPlan;
+//! use gearcut_core::passes::planar::strokes::{StrokeLaw, StrokeSet};
+//! use gearcut_core::tool::blade_edges::BladeEdges;
+//! use gearcut_core::tool::edge::{Edge, Segment, SegmentName};
+//! use gearcut_core::tool::{CuttingTool, PlanarTool};
+//! use glam::DVec2;
+//! use std::f64::consts::FRAC_PI_2;
+//!
+//! /// One blade, an arc round the tool's axis that looks down.
+//! struct RoundBlade(BladeEdges);
+//!
+//! impl CuttingTool for RoundBlade {
+//!     fn blade_count(&self) -> u32 {
+//!         1
+//!     }
+//!     fn edges(&self) -> &BladeEdges {
+//!         &self.0
+//!     }
+//! }
+//!
+//! impl PlanarTool for RoundBlade {
+//!     fn tool_from_blade(&self, _: u32) -> Rigid2 {
+//!         Rigid2::new(0.0, DVec2::ZERO)
+//!     }
+//! }
+//!
+//! let (radius_mm, feed_mm) = (5.0, 0.4);
+//! let angles_rad = [-FRAC_PI_2 - 0.8, -FRAC_PI_2 + 0.8];
+//! let arc = Segment::arc(SegmentName::Tip, DVec2::ZERO, radius_mm, angles_rad);
+//! let tool = RoundBlade(BladeEdges::shared(Edge::new(vec![arc])));
+//!
+//! // Rays of 1 mm stock up from the plane, 0.01 mm apart; each may record 0.1 mm below it.
+//! let ray = |i: u32| Column {
+//!     arc_mm: 0.01 * f64::from(i),
+//!     origin_mm: DVec2::new(0.01 * f64::from(i), 0.0),
+//!     normal: DVec2::Y,
+//!     low_mm: -0.1,
+//!     blank_mm: 1.0,
+//! };
+//! let field = Field { columns: (0..=400).map(ray).collect(), rows_z_mm: vec![0.0] };
+//!
+//! // Stroke k touches the plane at k times the feed.
+//! let place = |stroke: f64| Rigid2::new(0.0, DVec2::new(feed_mm * stroke, radius_mm));
+//! let strokes = StrokeSet::new(0, &tool, StrokeLaw::Frozen, 11, place);
+//! let mut left = field.blank_layer();
+//! Cpu::default().cut(&field, &CutPlan::new(&field, &strokes, &tool), &mut left)?;
+//!
+//! for (i, (&height_mm, &pass)) in left.heights_mm.iter().zip(&left.passes).enumerate() {
+//!     let from_stroke_mm = 0.01 * i as f64 - feed_mm * f64::from(pass);
+//!     let circle_mm = radius_mm - (radius_mm * radius_mm - from_stroke_mm * from_stroke_mm).sqrt();
+//!     assert!((f64::from(height_mm) - circle_mm).abs() < 1e-7);
+//! }
+//! let highest_mm = left.heights_mm.iter().copied().fold(0.0_f32, f32::max);
+//! assert!((f64::from(highest_mm) / (feed_mm * feed_mm / (8.0 * radius_mm)) - 1.0).abs() < 1e-3);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! # Curves and edges
 //!
 //! The pitch curve of an elliptical gear of third order, and the place at which a ray enters a cutter tooth.
 //!
