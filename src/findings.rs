@@ -15,19 +15,27 @@
 //! inside their sections, which a file with the headline first would have to move or to repeat.
 
 pub mod damage;
+pub mod datum;
+pub mod entry;
 mod json;
 pub mod notice;
 pub(crate) mod notices;
 pub mod place;
+pub mod quantities;
 pub mod quantity;
 mod read;
+pub mod row;
 pub mod table;
 pub mod tree;
 pub mod unit;
 
+pub use datum::Datum;
+pub use entry::Entry;
 pub use json::{RESULTS_FILE, SCHEMA, SCHEMA_VERSION};
 pub use notice::{Notice, Severity};
 pub use place::{Coordinate, Place};
 pub use quantity::Quantity;
-pub use table::{ColumnChart, Datum, Table, TableColumn};
-pub use tree::{Entry, Findings, Level, Section};
+pub(crate) use row::rows;
+pub use row::{ColumnChart, Level, QuantityGroup, QuantityRow};
+pub use table::{Columns, Table, TableColumn};
+pub use tree::{Findings, Section};

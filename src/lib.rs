@@ -101,6 +101,7 @@
 //! - [`library`]: the few items that other programs need
 //! - [`compare`]: results side by side
 //! - [`notices`]: the table of all notices, and what a command line denies and allows of them
+//! - [`quantities`]: the table of all quantities that results can have
 
 pub mod backend;
 #[doc(hidden)]
@@ -136,6 +137,8 @@ pub mod pair;
 pub mod pair_job;
 #[doc(hidden)]
 pub mod process;
+#[doc(hidden)]
+pub mod quantities;
 #[doc(hidden)]
 pub mod random;
 #[doc(hidden)]

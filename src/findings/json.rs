@@ -1,4 +1,4 @@
-//! `results.json`, schema version 3: the tree in a fixed order of keys, and its document of rules.
+//! `results.json`, schema version 4: the tree in a fixed order of keys, and its document of rules.
 //!
 //! A section is an object: `$title`, its quantities, tables and parts under their keys. Keys of the tree never begin
 //! with `$`. A quantity's title is written where it differs from its key, its level
@@ -8,15 +8,18 @@ use std::path::Path;
 
 use serde_json::{Map, Value, json};
 
+use super::datum::Datum;
+use super::entry::Entry;
 use super::notice::Notice;
 use super::quantity::Quantity;
-use super::table::{ColumnChart, Datum, Table, TableColumn};
-use super::tree::{Entry, Findings, Level, Section, title_of};
+use super::row::{ColumnChart, Level, title_of};
+use super::table::{Table, TableColumn};
+use super::tree::{Findings, Section};
 use crate::regular_file;
 use gearcut_core::{Error, Result};
 
 /// Version of the layout. A change of keys or meanings raises it; new keys that old readers may overlook do not.
-pub const SCHEMA_VERSION: u32 = 3;
+pub const SCHEMA_VERSION: u32 = 4;
 /// Largest result that is read: a gear of a thousand teeth takes some megabytes.
 const MOST_BYTES: u64 = 256 << 20;
 /// Name of the file in an output folder.
@@ -109,7 +112,7 @@ fn of_section(section: &Section) -> Value {
 
 fn of_table(table: &Table) -> Value {
     let rows: &[Vec<Datum>] = if table.rows_in_file { &[] } else { &table.rows };
-    let rows = rows.iter().map(|row| row.iter().map(of_cell).collect::<Vec<_>>());
+    let rows = rows.iter().map(|row| row.iter().map(Datum::to_json).collect::<Vec<_>>());
     let mut value = json!({
         "title": table.title,
         "columns": table.columns.iter().map(of_column).collect::<Vec<_>>(),
@@ -138,13 +141,4 @@ fn of_column(column: &TableColumn) -> Value {
         value["chart"] = json!(name);
     }
     value
-}
-
-fn of_cell(cell: &Datum) -> Value {
-    match cell {
-        Datum::Number(value) => json!(value),
-        Datum::Count(count) => json!(count),
-        Datum::Word(word) => json!(word),
-        Datum::Undefined => Value::Null,
-    }
 }

@@ -15,34 +15,39 @@ use serde::de::Error as _;
 use serde::ser::SerializeMap;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
+use super::datum::Datum;
 use super::place::Place;
 
 /// One value of the results with its unit and definition.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Quantity {
-    value: Value,
+    value: Datum,
     unit: Option<Cow<'static, str>>,
     definition: Cow<'static, str>,
+    /// Why there is no value; empty where there is one.
+    why: Cow<'static, str>,
     place: Option<Place>,
 }
 
-#[derive(Debug, Clone, PartialEq)]
-enum Value {
-    Number(f64),
-    Count(u64),
-    Text(String),
-    Undefined { why: String },
-}
-
 impl Quantity {
+    /// Of its parts; `why` says why a value is undefined.
+    pub(super) fn new(
+        value: Datum,
+        unit: Option<Cow<'static, str>>,
+        definition: Cow<'static, str>,
+        why: Cow<'static, str>,
+    ) -> Self {
+        Self { value, unit, definition, why, place: None }
+    }
+
     /// A measured or computed number; NaN and infinity become undefined.
     pub fn number(value: f64, unit: impl Into<Cow<'static, str>>, definition: impl Into<Cow<'static, str>>) -> Self {
-        let value = if value.is_finite() {
-            Value::Number(value)
+        let why = if value.is_finite() {
+            String::new()
         } else {
-            Value::Undefined { why: format!("the computation gave {value}, which is not a finite number") }
+            format!("the computation gave {value}, which is not a finite number")
         };
-        Self { value, unit: Some(unit.into()), definition: definition.into(), place: None }
+        Self::new(value.into(), Some(unit.into()), definition.into(), why.into())
     }
 
     /// A number if there is one, else undefined for the reason given.
@@ -60,12 +65,12 @@ impl Quantity {
 
     /// A count of things; the unit says of what, as in "strokes".
     pub fn count(value: u64, unit: impl Into<Cow<'static, str>>, definition: impl Into<Cow<'static, str>>) -> Self {
-        Self { value: Value::Count(value), unit: Some(unit.into()), definition: definition.into(), place: None }
+        Self::new(value.into(), Some(unit.into()), definition.into(), "".into())
     }
 
     /// A word or sentence, such as the name of a backend; its unit is null.
     pub fn text(value: impl Into<String>, definition: impl Into<Cow<'static, str>>) -> Self {
-        Self { value: Value::Text(value.into()), unit: None, definition: definition.into(), place: None }
+        Self::new(Datum::Word(value.into()), None, definition.into(), "".into())
     }
 
     /// A value that does not exist here, with the reason.
@@ -74,14 +79,13 @@ impl Quantity {
         definition: impl Into<Cow<'static, str>>,
         why: impl Into<String>,
     ) -> Self {
-        let value = Value::Undefined { why: why.into() };
-        Self { value, unit: Some(unit.into()), definition: definition.into(), place: None }
+        Self::new(Datum::Undefined, Some(unit.into()), definition.into(), why.into().into())
     }
 
     /// The same quantity where its value does not exist, with the reason.
     #[must_use]
-    pub fn without_value(self, why: impl Into<String>) -> Self {
-        Self { value: Value::Undefined { why: why.into() }, place: None, ..self }
+    pub fn without_value(self, why: impl Into<Cow<'static, str>>) -> Self {
+        Self { value: Datum::Undefined, why: why.into(), place: None, ..self }
     }
 
     /// The same value, found at `place`.
@@ -91,24 +95,37 @@ impl Quantity {
         self
     }
 
+    /// The same value in this unit.
+    #[must_use]
+    pub(super) fn in_unit(self, unit: impl Into<Cow<'static, str>>) -> Self {
+        Self { unit: Some(unit.into()), ..self }
+    }
+
+    /// The same value, with words after its definition.
+    #[must_use]
+    pub(super) fn remarked(self, remark: &str) -> Self {
+        Self { definition: format!("{}{remark}", self.definition).into(), ..self }
+    }
+
     /// The number or count as f64, in the quantity's unit; none for text and for what is undefined.
     pub fn value(&self) -> Option<f64> {
-        match self.value {
-            Value::Number(value) => Some(value),
-            Value::Count(value) => Some(value as f64),
-            Value::Text(_) | Value::Undefined { .. } => None,
-        }
+        self.value.number()
+    }
+
+    /// The value as a cell of a table.
+    pub fn datum(&self) -> &Datum {
+        &self.value
     }
 
     /// Whether it counts whole things.
     pub fn is_count(&self) -> bool {
-        matches!(self.value, Value::Count(_))
+        matches!(self.value, Datum::Count(_))
     }
 
     /// The word or sentence, if it is one.
     pub fn words(&self) -> Option<&str> {
         match &self.value {
-            Value::Text(text) => Some(text),
+            Datum::Word(text) => Some(text),
             _ => None,
         }
     }
@@ -125,10 +142,7 @@ impl Quantity {
 
     /// Why there is no value, if there is none.
     pub fn why(&self) -> Option<&str> {
-        match &self.value {
-            Value::Undefined { why } => Some(why),
-            _ => None,
-        }
+        (self.value == Datum::Undefined).then_some(&self.why)
     }
 
     /// Where the value was found, if it belongs to a place.
@@ -150,33 +164,22 @@ struct Written {
 impl<'de> Deserialize<'de> for Quantity {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         let Written { value, unit, definition, why, place } = Written::deserialize(deserializer)?;
-        let value = match (value, why) {
-            (serde_json::Value::Null, Some(why)) => Value::Undefined { why },
-            (serde_json::Value::Null, None) => return Err(D::Error::custom("a value is null without a \"why\"")),
-            (serde_json::Value::String(text), _) => Value::Text(text),
-            (serde_json::Value::Number(number), _) => match (number.as_u64(), number.as_f64()) {
-                (Some(count), _) => Value::Count(count),
-                (None, Some(value)) => Value::Number(value),
-                (None, None) => return Err(D::Error::custom(format!("{number} is out of range"))),
-            },
-            (other, _) => return Err(D::Error::custom(format!("a value is a number, a text or null, not {other}"))),
-        };
-        Ok(Self { value, unit: unit.map(Cow::Owned), definition: definition.into(), place })
+        if value.is_null() && why.is_none() {
+            return Err(D::Error::custom("a value is null without a \"why\""));
+        }
+        let value = Datum::from_json(&value).map_err(D::Error::custom)?;
+        let why = if value == Datum::Undefined { why.unwrap_or_default() } else { String::new() };
+        Ok(Self { place, ..Self::new(value, unit.map(Cow::Owned), definition.into(), why.into()) })
     }
 }
 
 impl Serialize for Quantity {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let mut map = serializer.serialize_map(None)?;
-        match &self.value {
-            Value::Number(value) => map.serialize_entry("value", value)?,
-            Value::Count(value) => map.serialize_entry("value", value)?,
-            Value::Text(value) => map.serialize_entry("value", value)?,
-            Value::Undefined { .. } => map.serialize_entry("value", &())?,
-        }
+        map.serialize_entry("value", &self.value.to_json())?;
         map.serialize_entry("unit", &self.unit)?;
         map.serialize_entry("definition", &self.definition)?;
-        if let Value::Undefined { why } = &self.value {
+        if let Some(why) = self.why() {
             map.serialize_entry("why", why)?;
         }
         if let Some(place) = &self.place {

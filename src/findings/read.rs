@@ -5,11 +5,14 @@
 
 use serde_json::{Map, Value};
 
+use super::datum::Datum;
+use super::entry::Entry;
 use super::json::{CHARTS, LEVELS};
 use super::notice::{Notice, Severity};
 use super::quantity::Quantity;
-use super::table::{Datum, Table, TableColumn};
-use super::tree::{Entry, Findings, Level, Section, title_of};
+use super::row::{Level, title_of};
+use super::table::{Table, TableColumn};
+use super::tree::{Findings, Section};
 
 /// What reads a part, or why it cannot.
 type Read<T> = Result<T, String>;
@@ -97,7 +100,7 @@ fn table(key: &str, value: &Value) -> Read<Table> {
     let columns: Vec<TableColumn> = list(all, "columns")?.iter().map(column).collect::<Read<_>>()?;
     let rows = list(all, "rows")?.iter().map(|row| {
         let cells = row.as_array().filter(|row| row.len() == columns.len()).ok_or("a row has a cell per column")?;
-        cells.iter().map(cell).collect::<Read<Vec<_>>>()
+        cells.iter().map(Datum::from_json).collect::<Read<Vec<_>>>()
     });
     let rows = rows.collect::<Read<Vec<_>>>()?;
     let mut table = Table::new(key, title, columns).with_rows(rows);
@@ -117,19 +120,6 @@ fn column(value: &Value) -> Read<TableColumn> {
         why: text("why").map(Into::into),
         chart: CHARTS.iter().find(|(_, name)| all.get("chart").is_some_and(|own| own == name)).map(|(chart, _)| *chart),
     })
-}
-
-fn cell(value: &Value) -> Read<Datum> {
-    match value {
-        Value::Null => Ok(Datum::Undefined),
-        Value::String(word) => Ok(Datum::Word(word.clone())),
-        Value::Number(number) => match (number.as_u64(), number.as_f64()) {
-            (Some(count), _) => Ok(Datum::Count(count)),
-            (None, Some(value)) => Ok(Datum::Number(value)),
-            (None, None) => Err(format!("{number} is out of range")),
-        },
-        other => Err(format!("a cell is a number, a text or null, not {other}")),
-    }
 }
 
 #[cfg(test)]
@@ -161,7 +151,7 @@ mod tests {
             scene: "made_by_hand".to_owned(),
             complete: true,
             headline: vec![
-                Entry::headline("smallest_normal_stock", "smallest normal stock", stock),
+                Entry::headline("smallest_stock", "smallest normal stock", stock),
                 Entry::headline("backend", "computed by", Quantity::text("cpu", "backend")),
             ],
             warnings: vec![
@@ -176,7 +166,7 @@ mod tests {
     fn findings_come_back_as_they_were() {
         let findings = findings();
         let text = serde_json::to_string(&findings.to_json()).expect("JSON");
-        assert!(text.starts_with(r#"{"schema_version":3,"program":"gearcut","program_version":"0.1.0","process":"#));
+        assert!(text.starts_with(r#"{"schema_version":4,"program":"gearcut","program_version":"0.1.0","process":"#));
         let back = Findings::from_json(&serde_json::from_str(&text).expect("JSON")).expect("its own document");
         assert_eq!(back, findings);
     }
@@ -192,7 +182,7 @@ mod tests {
         assert_eq!(teeth.numbers("volume").collect::<Vec<_>>(), [Some(0.25), None]);
         let document = findings.to_json();
         assert_eq!(document["sections"]["operations"]["rough"]["strokes"]["value"], 4200);
-        assert_eq!(document["headline"]["smallest_normal_stock"]["place"]["tooth"], 7);
+        assert_eq!(document["headline"]["smallest_stock"]["place"]["tooth"], 7);
     }
 
     #[test]

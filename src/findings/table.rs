@@ -6,7 +6,9 @@
 //! A table may have a CSV file of its own. Where it would swell `results.json`, its rows stand in that file alone:
 //! thousands of strokes and points, and rows whose values stand in the tree already, one section each.
 
+use super::datum::Datum;
 use super::quantity::Quantity;
+use super::row::{ColumnChart, QuantityRow};
 use std::borrow::Cow;
 
 /// Columns and rows.
@@ -43,28 +45,6 @@ pub struct TableColumn {
     pub chart: Option<ColumnChart>,
 }
 
-/// How a column is drawn.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum ColumnChart {
-    /// Bars, one for each row.
-    Bars,
-    /// A curve through all rows.
-    Curve,
-}
-
-/// One value.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Datum {
-    /// A number in the column's unit.
-    Number(f64),
-    /// A count.
-    Count(u64),
-    /// A word.
-    Word(String),
-    /// None, for the column's reason.
-    Undefined,
-}
-
 impl Table {
     /// An empty table.
     pub fn new(key: &str, title: &str, columns: Vec<TableColumn>) -> Self {
@@ -77,6 +57,13 @@ impl Table {
             file: None,
             rows_in_file: false,
         }
+    }
+
+    /// A table with a row for each of these, whose columns follow.
+    pub fn over<T>(key: &str, title: &str, of: impl IntoIterator<Item = T>) -> Columns<T> {
+        let of: Vec<T> = of.into_iter().collect();
+        let rows = of.iter().map(|_| Vec::new()).collect();
+        Columns { of, table: Self { rows, ..Self::new(key, title, Vec::new()) } }
     }
 
     /// Values of the tree side by side. A row is its name's cells, one for each of `names`, and keyed quantities, the
@@ -124,6 +111,11 @@ impl Table {
         self.columns.iter().position(|column| column.key == key)
     }
 
+    /// Numbers of the column of a row of the table of quantities; none for words and for what is undefined.
+    pub fn values(&self, row: &QuantityRow) -> impl Iterator<Item = Option<f64>> {
+        self.numbers(row.key)
+    }
+
     /// Numbers of a column, row by row; none for words, for what is undefined and for an unknown key.
     pub fn numbers(&self, key: &str) -> impl Iterator<Item = Option<f64>> {
         let column = self.column(key);
@@ -131,7 +123,69 @@ impl Table {
     }
 }
 
+/// A table in the making: what its rows are of, and its columns so far.
+#[derive(Debug)]
+pub struct Columns<T> {
+    of: Vec<T>,
+    table: Table,
+}
+
+impl<T> Columns<T> {
+    /// With a column of this row.
+    #[must_use]
+    pub fn column<V: Into<Datum>>(self, row: &QuantityRow, value: impl Fn(&T) -> V) -> Self {
+        self.keyed(row.key, row, value)
+    }
+
+    /// With a column of this row, under a key that the row cannot know.
+    #[must_use]
+    pub fn keyed<V: Into<Datum>>(
+        mut self,
+        key: impl Into<Cow<'static, str>>,
+        row: &QuantityRow,
+        value: impl Fn(&T) -> V,
+    ) -> Self {
+        self.table.columns.push(TableColumn::of_row(key.into(), row));
+        for (cells, of) in self.table.rows.iter_mut().zip(&self.of) {
+            cells.push(value(of).into());
+        }
+        self
+    }
+
+    /// The table, in a file of this name below `tables/` as well.
+    #[must_use]
+    pub fn in_file(self, name: &str) -> Table {
+        self.table.in_file(name)
+    }
+
+    /// The table, its rows in the file of this name below `tables/` alone.
+    #[must_use]
+    pub fn rows_in_file(self, name: &str) -> Table {
+        self.table.rows_in_file(name)
+    }
+}
+
+impl<T> From<Columns<T>> for Table {
+    fn from(columns: Columns<T>) -> Self {
+        columns.table
+    }
+}
+
 impl TableColumn {
+    fn of_row(key: Cow<'static, str>, row: &QuantityRow) -> Self {
+        Self {
+            key,
+            unit: (!row.unit.is_empty()).then_some(Cow::Borrowed(row.unit)),
+            definition: row.definition.into(),
+            why: match row.reasons {
+                [] => None,
+                [reason] => Some(Cow::Borrowed(*reason)),
+                reasons => Some(reasons.join("; or ").into()),
+            },
+            chart: row.chart,
+        }
+    }
+
     /// A column of numbers or counts.
     pub fn new(key: impl Into<Cow<'static, str>>, unit: &'static str, definition: &'static str) -> Self {
         Self { key: key.into(), unit: Some(unit.into()), definition: definition.into(), why: None, chart: None }
@@ -191,65 +245,9 @@ impl TableColumn {
     }
 }
 
-impl Datum {
-    /// The number or count.
-    pub fn number(&self) -> Option<f64> {
-        match self {
-            Self::Number(value) => Some(*value),
-            Self::Count(count) => Some(*count as f64),
-            Self::Word(_) | Self::Undefined => None,
-        }
-    }
-
-    /// The cell as the name of its row.
-    pub fn name(&self) -> String {
-        match self {
-            Self::Number(value) => value.to_string(),
-            Self::Count(count) => count.to_string(),
-            Self::Word(word) => word.clone(),
-            Self::Undefined => String::new(),
-        }
-    }
-}
-
-impl From<f64> for Datum {
-    /// NaN and infinity become undefined: no file has a word for them.
-    fn from(value: f64) -> Self {
-        if value.is_finite() { Self::Number(value) } else { Self::Undefined }
-    }
-}
-
-impl From<Option<f64>> for Datum {
-    fn from(value: Option<f64>) -> Self {
-        value.map_or(Self::Undefined, Self::from)
-    }
-}
-
 impl From<&Quantity> for Datum {
     fn from(quantity: &Quantity) -> Self {
-        match (quantity.value(), quantity.words()) {
-            (Some(value), _) if quantity.is_count() => Self::Count(value as u64),
-            (Some(value), _) => Self::Number(value),
-            (None, words) => words.map_or(Self::Undefined, Self::from),
-        }
-    }
-}
-
-impl From<u64> for Datum {
-    fn from(count: u64) -> Self {
-        Self::Count(count)
-    }
-}
-
-impl From<u32> for Datum {
-    fn from(count: u32) -> Self {
-        Self::Count(count.into())
-    }
-}
-
-impl From<&str> for Datum {
-    fn from(word: &str) -> Self {
-        Self::Word(word.to_owned())
+        quantity.datum().clone()
     }
 }
 

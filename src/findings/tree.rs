@@ -1,7 +1,9 @@
 //! The tree: what a run found, from the headline down to the last detail.
 
-use super::notice::Notice;
+use super::entry::Entry;
+use super::notice::{Notice, ranked};
 use super::quantity::Quantity;
+use super::row::{Level, QuantityGroup, QuantityRow};
 use super::table::Table;
 
 /// Everything that a run found.
@@ -38,56 +40,6 @@ pub struct Section {
     pub sections: Vec<Section>,
 }
 
-/// A quantity under its key.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Entry {
-    /// Key among its neighbours.
-    pub key: String,
-    /// What it is called where people read it.
-    pub title: String,
-    /// How far up it is shown.
-    pub level: Level,
-    /// The value.
-    pub quantity: Quantity,
-}
-
-/// How far up a quantity is shown.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Level {
-    /// First of all: summary, report, every comparison.
-    Headline,
-    /// On the terminal, after the headline.
-    Summary,
-    /// In files.
-    Detail,
-}
-
-/// What a key reads as when it is given no title of its own.
-pub(super) fn title_of(key: &str) -> String {
-    key.replace('_', " ")
-}
-
-impl Entry {
-    /// A detail, called as its key.
-    pub fn new(key: &str, quantity: Quantity) -> Self {
-        Self { key: key.to_owned(), title: title_of(key), level: Level::Detail, quantity }
-    }
-
-    /// A number of the headline.
-    pub fn headline(key: &str, title: &str, quantity: Quantity) -> Self {
-        Self { key: key.to_owned(), title: title.to_owned(), level: Level::Headline, quantity }
-    }
-
-    /// The name for a heading: the title with a capital. A symbol, such as f_i", keeps its letter.
-    pub fn heading(&self) -> String {
-        if self.title.chars().nth(1) == Some('_') {
-            return self.title.clone();
-        }
-        let mut letters = self.title.chars();
-        letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
-    }
-}
-
 impl Section {
     /// An empty section.
     pub fn new(key: impl Into<String>, title: impl Into<String>) -> Self {
@@ -98,6 +50,12 @@ impl Section {
         debug_assert!(self.is_free(&entry.key), "{}.{} is there twice", self.key, entry.key);
         self.entries.push(entry);
         self
+    }
+
+    /// With these entries.
+    #[must_use]
+    pub fn entries(self, entries: impl IntoIterator<Item = Entry>) -> Self {
+        entries.into_iter().fold(self, Self::add)
     }
 
     /// With a detail.
@@ -114,7 +72,8 @@ impl Section {
 
     /// With a table.
     #[must_use]
-    pub fn table(mut self, table: Table) -> Self {
+    pub fn table(mut self, table: impl Into<Table>) -> Self {
+        let table = table.into();
         debug_assert!(self.is_free(&table.key), "{}.{} is there twice", self.key, table.key);
         self.tables.push(table);
         self
@@ -139,7 +98,7 @@ impl Section {
     #[must_use]
     pub fn without_values(mut self, why: &str, keep: &[&str]) -> Self {
         for entry in self.entries.iter_mut().filter(|entry| !keep.contains(&entry.key.as_str())) {
-            entry.quantity = entry.quantity.clone().without_value(why);
+            entry.quantity = entry.quantity.clone().without_value(why.to_owned());
         }
         for table in &mut self.tables {
             table.rows.clear();
@@ -184,6 +143,26 @@ impl Section {
         self.quantity(path).and_then(Quantity::words).unwrap_or_default()
     }
 
+    /// The quantity of this row.
+    pub fn of(&self, row: &QuantityRow) -> Option<&Quantity> {
+        self.quantity(row.key)
+    }
+
+    /// The number of this row; none where there is no such quantity or it is undefined.
+    pub fn value(&self, row: &QuantityRow) -> Option<f64> {
+        self.of(row)?.value()
+    }
+
+    /// The words of this row; empty where there are none.
+    pub fn text(&self, row: &QuantityRow) -> &str {
+        self.words(row.key)
+    }
+
+    /// The part of this group.
+    pub fn group(&self, group: &QuantityGroup) -> Option<&Section> {
+        self.find(group.key)
+    }
+
     /// The table of this key.
     pub fn table_of(&self, key: &str) -> Option<&Table> {
         self.tables.iter().find(|table| table.key == key)
@@ -198,6 +177,13 @@ impl Section {
     }
 }
 
+impl QuantityGroup {
+    /// A section with these entries.
+    pub fn section(&self, entries: impl IntoIterator<Item = Entry>) -> Section {
+        Section::new(self.key, self.title).entries(entries)
+    }
+}
+
 fn find<'a>(sections: &'a [Section], path: &str) -> Option<&'a Section> {
     let (first, rest) = path.split_once('.').map_or((path, None), |(first, rest)| (first, Some(rest)));
     let section = sections.iter().find(|section| section.key == first)?;
@@ -208,6 +194,26 @@ fn find<'a>(sections: &'a [Section], path: &str) -> Option<&'a Section> {
 }
 
 impl Findings {
+    /// What a run of a process found; warnings are ranked here.
+    pub fn new(
+        process: &str,
+        scene: &str,
+        complete: bool,
+        headline: impl IntoIterator<Item = Entry>,
+        warnings: impl IntoIterator<Item = Notice>,
+        sections: Vec<Section>,
+    ) -> Self {
+        Self {
+            program_version: env!("CARGO_PKG_VERSION").to_owned(),
+            process: process.to_owned(),
+            scene: scene.to_owned(),
+            complete,
+            headline: headline.into_iter().map(Entry::first_of_all).collect(),
+            warnings: ranked(warnings),
+            sections,
+        }
+    }
+
     /// The section at a path of keys joined by dots.
     pub fn find(&self, path: &str) -> Option<&Section> {
         find(&self.sections, path)
@@ -216,6 +222,16 @@ impl Findings {
     /// The parts of a section; none where it is missing.
     pub fn parts(&self, path: &str) -> &[Section] {
         self.find(path).map_or(&[], |section| &section.sections)
+    }
+
+    /// The section of this group.
+    pub fn group(&self, group: &QuantityGroup) -> Option<&Section> {
+        self.find(group.key)
+    }
+
+    /// The quantity of this row in the headline.
+    pub fn first(&self, row: &QuantityRow) -> Option<&Quantity> {
+        self.headline(row.key)
     }
 
     /// A number of the headline.

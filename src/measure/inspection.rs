@@ -5,6 +5,7 @@
 
 use super::crossing::Crossing;
 use super::deviation::{self, PitchDeviations, Runout, Trace, TraceDeviation};
+use super::stock::Extreme;
 use super::thickness::Thickness;
 use gearcut_core::gear::blank::Blank;
 use gearcut_core::terms::Side;
@@ -34,6 +35,34 @@ pub struct InspectedFlank<Own> {
     pub untouched: u64,
     /// What only the process that cut it measures.
     pub own: Own,
+}
+
+/// Stock of an operation on a flank.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct StockRange {
+    /// Smallest and largest.
+    pub ends: [Extreme; 2],
+    /// Mean, mm.
+    pub mean_mm: f64,
+}
+
+/// What every process measures of the surface of a flank.
+pub trait FlankSurface {
+    /// Lowest and highest normal deviation of the evaluated part; none where a dexel of it was not reached.
+    fn deviations(&self) -> Option<[Extreme; 2]>;
+
+    /// Stock of an earlier operation, by its index.
+    fn stock(&self, operation: usize) -> Option<StockRange>;
+
+    /// Whether the lowest place is deeper than the rays record.
+    fn is_below_range(&self) -> bool {
+        false
+    }
+
+    /// Whether the evaluated profile is.
+    fn is_lost(&self) -> bool {
+        false
+    }
 }
 
 /// Where the traces of a flank run: every process names the places of its own traces as its inspectors do, and all of

@@ -33,7 +33,7 @@ pub fn print(findings: &Findings, sheet: &mut Sheet) {
     }
 }
 
-/// What a screen holds: the headline, the deviations and whatever else has room, then the gravest warnings; the sheet
+/// What a screen holds: the headline and whatever else has room, then the gravest warnings; the sheet
 /// has `most` lines at most.
 pub fn print_brief(findings: &Findings, sheet: &mut Sheet, most: usize) {
     let warnings = brief_warnings(&findings.warnings);
@@ -43,9 +43,7 @@ pub fn print_brief(findings: &Findings, sheet: &mut Sheet, most: usize) {
     for entry in headline.take(most.saturating_sub(sheet.count_lines())) {
         sheet.line(&entry.title, on_a_line(&entry.quantity));
     }
-    let (deviations, others): (Vec<&Section>, Vec<&Section>) =
-        findings.sections.iter().partition(|section| section.key == "deviations");
-    for section in deviations.into_iter().chain(others) {
+    for section in &findings.sections {
         let mut own = Sheet::default();
         print_section(&mut own, &section.title, section);
         sheet.append_within(&own, most.saturating_sub(sheet.count_lines()));
@@ -213,7 +211,7 @@ mod tests {
             scene: "made_by_hand".to_owned(),
             complete: true,
             headline: vec![
-                Entry::headline("smallest_normal_stock", "smallest normal stock", stock),
+                Entry::headline("smallest_stock", "smallest normal stock", stock),
                 Entry::headline("witness_mark", "witness mark", undefined),
                 Entry::headline("undercut_flanks", "undercut flanks", Quantity::count(12, "flanks", "undercut")),
             ],
@@ -242,7 +240,6 @@ mod tests {
         found.headline.extend((0..40).map(|i| Entry::headline("more", &format!("more {i}"), count(i))));
         let title = |i: u64| format!("section {i}");
         found.sections.extend((0..10).map(|i| Section::new("some", title(i)).shown("a", "of it", count(i))));
-        found.sections.push(Section::new("deviations", "Deviations").shown("a", "F_alpha", count(7)));
         found.warnings = (0..30)
             .map(|i| Notice::new("flank.made", Severity::Warning, format!("{i} {}", "many words ".repeat(30))))
             .collect();
@@ -254,12 +251,6 @@ mod tests {
         assert!(text.contains("smallest normal stock         0.6772 mm\n"), "{text}");
         assert!(!text.contains("witness mark") && !text.contains("more 0 "), "none and nothing are left out: {text}");
         assert!(text.contains(" ...\n") && text.contains("and 26 more"), "{text}");
-        found.headline.truncate(1);
-        let mut sheet = Sheet::brief();
-        print_brief(&found, &mut sheet, 33);
-        let text = sheet.into_text();
-        let [deviations, first] = ["Deviations", "Texture"].map(|words| text.find(words));
-        assert!(deviations.is_some() && deviations < first, "{text}");
     }
 
     #[test]

@@ -14,7 +14,7 @@ pub mod hobbing;
 pub mod shaping;
 
 use crate::findings::notice::NoticeRow;
-use crate::findings::{Findings, Notice};
+use crate::findings::{Findings, Notice, QuantityGroup};
 use crate::interrupt::Interrupt;
 use crate::job::GearJob;
 use crate::output::folder::OutputFolder;
@@ -44,6 +44,8 @@ pub struct Process {
     pub scene: &'static SceneProcess,
     /// What it warns of beside what all processes share.
     pub notices: &'static [NoticeRow],
+    /// Quantities that only it finds.
+    pub quantities: &'static [&'static QuantityGroup],
     /// Makes a scene ready to cut; it refuses geometry that cannot be cut, and scenes of other processes.
     pub prepare: fn(&Scene) -> Result<Box<dyn ProcessJob>>,
 }

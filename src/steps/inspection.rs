@@ -3,6 +3,9 @@
 //! In: sizes of the target, what was measured, what the scene holds it against. Out: sections of the findings, which
 //! `check`, the page and the inspection sheet print from, and warnings.
 
+pub mod headline;
+pub mod teeth;
+
 use crate::findings::notices::{BeyondLimit, NotJudged};
 use crate::findings::{Datum, Entry, Level, Notice, Quantity, Section, Table, TableColumn};
 use crate::job::CylindricalGear;
@@ -192,7 +195,7 @@ fn without_generated(sizes: &mut Section, measure: &Measure, why: &str) {
     keys.extend(measure.profile_start_height_mm.is_none().then_some("active_diameter"));
     keys.extend(measure.profile_end_height_mm.is_none().then_some("active_tip_diameter"));
     for entry in sizes.entries.iter_mut().filter(|entry| keys.contains(&entry.key.as_str())) {
-        entry.quantity = entry.quantity.clone().without_value(why);
+        entry.quantity = entry.quantity.clone().without_value(why.to_owned());
     }
 }
 

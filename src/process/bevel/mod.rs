@@ -44,8 +44,12 @@ use gearcut_core::error::Result;
 pub use job::BevelJob;
 
 /// The process.
-pub static PROCESS: Process =
-    Process { scene: &scene::SCENE, notices: notices::NOTICES, prepare: |scene| Ok(Box::new(BevelJob::new(scene)?)) };
+pub static PROCESS: Process = Process {
+    scene: &scene::SCENE,
+    notices: notices::NOTICES,
+    quantities: &[],
+    prepare: |scene| Ok(Box::new(BevelJob::new(scene)?)),
+};
 
 impl super::ProcessJob for BevelJob {
     fn cut(&self, tools: &Tools, frames: Option<u32>) -> Result<CutDone> {

@@ -19,7 +19,7 @@ use crate::output::text::{from_full_depth, plain, significant};
 use crate::steps;
 use crate::steps::axes;
 use crate::steps::report::facts::table;
-use crate::steps::report::{PageGear, RunWords, files, key_number, machine_errors, record, texture, value_and_unit};
+use crate::steps::report::{PageGear, RunWords, files, machine_errors, record, texture, value_and_unit};
 use crate::steps::view_mesh::{ViewFlank, ViewMesh};
 use gearcut_core::error::Result;
 use gearcut_core::terms::Side;
@@ -63,9 +63,8 @@ pub fn page(
         let offset = operation.number("offset").map_or_else(|| "–".to_owned(), from_full_depth);
         format!("{}: {}, head {offset}", operation.key, operation.words("linkage"))
     };
-    let key_numbers = found.headline.iter().map(|entry| key_number(&entry.heading(), &entry.quantity)).collect();
     let page_gear = PageGear { words: gear_words(job), mesh: mesh(job, whole)? };
-    Ok(steps::report::page(job, page_gear, found, &gear.maps, operation, key_numbers, sections))
+    Ok(steps::report::page(job, page_gear, found, &gear.maps, operation, sections))
 }
 
 /// Nothing where the run was stopped before.

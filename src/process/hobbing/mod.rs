@@ -44,8 +44,12 @@ pub use hob::Hob;
 pub use job::HobbingJob;
 
 /// The process.
-pub static PROCESS: Process =
-    Process { scene: &scene::SCENE, notices: notices::NOTICES, prepare: |scene| Ok(Box::new(HobbingJob::new(scene)?)) };
+pub static PROCESS: Process = Process {
+    scene: &scene::SCENE,
+    notices: notices::NOTICES,
+    quantities: &[],
+    prepare: |scene| Ok(Box::new(HobbingJob::new(scene)?)),
+};
 
 impl ProcessJob for HobbingJob {
     fn cut(&self, tools: &Tools, frames: Option<u32>) -> Result<CutDone> {

@@ -16,7 +16,7 @@ use crate::steps;
 use crate::steps::axes;
 use crate::steps::report::deviations;
 use crate::steps::report::deviations::{Inspection, InspectionWords};
-use crate::steps::report::{PageGear, RunWords, blank, files, key_number, machine_errors, record, texture};
+use crate::steps::report::{PageGear, RunWords, blank, files, machine_errors, record, texture};
 use crate::steps::view_mesh::ViewMesh;
 use gearcut_core::error::Result;
 use gearcut_core::units::UM_PER_MM;
@@ -76,10 +76,9 @@ pub fn page(
             mm("axial_feed")
         )
     };
-    let key_numbers = found.headline.iter().map(|entry| key_number(&entry.heading(), &entry.quantity)).collect();
     let words = steps::report::facts::gear_words(&cutter.job.scene.gear);
     let page_gear = PageGear { words, mesh: ViewMesh::new(cutter)? };
-    Ok(steps::report::page(cutter, page_gear, found, &gear.maps, operation, key_numbers, sections))
+    Ok(steps::report::page(cutter, page_gear, found, &gear.maps, operation, sections))
 }
 
 /// What a gear inspector would find on a hobbed gear.

@@ -24,6 +24,7 @@ pub mod measure;
 pub(crate) mod notices;
 mod prepared;
 pub mod programs;
+pub mod quantities;
 mod report;
 pub mod returns;
 pub mod ring;
@@ -51,5 +52,6 @@ pub use job::{PreparedOperation, ShapingJob};
 pub static PROCESS: Process = Process {
     scene: &scene::SCENE,
     notices: notices::NOTICES,
+    quantities: quantities::QUANTITIES,
     prepare: |scene| Ok(Box::new(prepared::PreparedShaping::new(ShapingJob::new(scene.clone())?))),
 };

@@ -10,7 +10,6 @@ use super::foreseen::foresee;
 use super::gear::cut_gear;
 use super::{findings, report, warnings};
 use crate::findings::Findings;
-use crate::findings::notice::ranked;
 use crate::process::CutDone;
 use crate::process::shaping::ShapingJob;
 use crate::process::shaping::axes_report::OperationAxes;
@@ -56,15 +55,9 @@ pub(super) fn run(job: &ShapingJob, tools: &Tools, frames: Option<u32>) -> Resul
     list.extend(warnings::after(job, &gear.report, &gear.chips, &gear.work, blank_report));
     list.extend(inspected.warnings());
     list.extend(texture::warnings(job, &textures));
-    let mut found = Findings {
-        program_version: env!("CARGO_PKG_VERSION").to_owned(),
-        process: "shaping".to_owned(),
-        scene: job.scene.name.clone(),
-        complete: !gear.work.interrupted,
-        headline: findings::headline(job, &gear.report, &gear.chips, &motion),
-        warnings: ranked(list),
-        sections,
-    };
+    let headline = findings::headline(job, &gear, &motion);
+    let complete = !gear.work.interrupted;
+    let mut found = Findings::new("shaping", &job.scene.name, complete, headline, list, sections);
     files::write(job, &gear, &motion, &found, tools, &mut attempts)?;
     if parts.has(Part::Texture) {
         attempts.of("files of texture", texture::write(job, &textures, folder, notes))?;

@@ -86,9 +86,14 @@ pub fn findings(operation: &impl AxesOfOperation) -> Section {
     Section::new("axes", "Peaks of the axes").parts(operation.peaks().iter().map(one))
 }
 
+/// Share of the tightest limit that all operations leave; none where there is no limit.
+pub fn margin<O: AxesOfOperation>(operations: &[O]) -> Option<f64> {
+    smallest_margin(operations.iter().flat_map(AxesOfOperation::peaks))
+}
+
 /// The headline's number of all operations.
 pub fn margin_entry<O: AxesOfOperation>(operations: &[O]) -> Entry {
-    let margin = smallest_margin(operations.iter().flat_map(AxesOfOperation::peaks));
+    let margin = margin(operations);
     Entry::headline(
         "axis_margin",
         "left of the tightest limit",

@@ -50,7 +50,6 @@ pub fn page(
     found: &Findings,
     maps: &GearMaps,
     operation: impl Fn(&findings::Section) -> String,
-    key_numbers: Vec<KeyNumber>,
     sections: Vec<PageSection>,
 ) -> Page {
     Page {
@@ -61,7 +60,9 @@ pub fn page(
         operations: found.parts("operations").iter().map(operation).collect(),
         complete: found.complete,
         program: format!("gearcut {}", found.program_version),
-        key_numbers: known_first(key_numbers),
+        key_numbers: known_first(
+            found.headline.iter().map(|entry| key_number(&entry.heading(), &entry.quantity)).collect(),
+        ),
         warnings: found.warnings.iter().map(Notice::with_signs).collect(),
         viewer: Some(maps::viewer(job, gear.mesh, maps)),
         sections,
@@ -85,7 +86,7 @@ pub fn value_and_unit(quantity: &Quantity) -> (String, String) {
 }
 
 /// A quantity of the results as a key number.
-pub fn key_number(name: &str, quantity: &Quantity) -> KeyNumber {
+fn key_number(name: &str, quantity: &Quantity) -> KeyNumber {
     let (value, unit) = value_and_unit(quantity);
     KeyNumber {
         name: name.to_owned(),

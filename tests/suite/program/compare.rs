@@ -28,7 +28,7 @@ fn unevenness(tooth: u32, level: f64) -> f64 {
 
 fn document(process: &str, headline: &Value, sections: &Value) -> Value {
     json!({
-        "schema_version": 3, "program": "gearcut", "program_version": "0.1.0", "process": process,
+        "schema_version": 4, "program": "gearcut", "program_version": "0.1.0", "process": process,
         "scene": "made_by_hand", "complete": true, "headline": headline, "warnings": [], "sections": sections,
     })
 }
@@ -47,7 +47,7 @@ fn results(level: f64, smallest_mm: f64) -> Value {
     witness["level"] = json!("headline");
     document(
         "shaping",
-        &json!({ "smallest_normal_stock": stock, "witness_mark": witness }),
+        &json!({ "smallest_stock": stock, "witness_mark": witness }),
         &json!({ "operations": { "$title": "Operations", "rough": {
             "$title": "Rough",
             "strokes": number(4200.0, "strokes"),
@@ -81,7 +81,7 @@ fn two_results_stand_side_by_side() {
     gearcut_in(folder.path(), &["compare", "out/traditional", "out/normal"]).done().says(&[
         "traditional and normal",
         "Changed most",
-        "Smallest normal stock",
+        "Smallest stock",
         "0.2500",
         "0.6500",
         "0.4000",
@@ -97,7 +97,7 @@ fn two_results_stand_side_by_side() {
         "{csv}"
     );
     // 0.65 - 0.25 and 0.25 / 0.65; details are in the file, on the terminal they are not.
-    assert!(csv.contains("\nsmallest_normal_stock,mm,0.25,0.65,0.4,0.3846153846153846,made by hand\n"), "{csv}");
+    assert!(csv.contains("\nsmallest_stock,mm,0.25,0.65,0.4,0.3846153846153846,made by hand\n"), "{csv}");
     assert!(csv.contains("\nwitness_mark,%,,,,,made by hand\n"), "{csv}");
     assert!(csv.contains("\noperations.rough.strokes,strokes,4200.0,4200.0,0.0,1.0,made by hand\n"), "{csv}");
     assert!(!csv.contains("u_mm"), "places are not compared");
@@ -111,7 +111,7 @@ fn two_results_stand_side_by_side() {
         }
     }
     let page = std::fs::read_to_string(written.join("report.html")).expect("written");
-    for words in ["What changed most", "Smallest normal stock", "0.2500 \u{2192} 0.6500", "Side by side", "<svg"] {
+    for words in ["What changed most", "Smallest stock", "0.2500 \u{2192} 0.6500", "Side by side", "<svg"] {
         assert!(page.contains(words), "{words} is not on the page");
     }
     assert!(!page.contains("<script"), "a page without a gear needs no scripts");
@@ -335,8 +335,8 @@ fn what_is_no_result_is_refused_with_a_reason() {
     write("{}");
     compare("bad.json").failed(1, &["schema_version"]);
     write(r#"{"schema_version": 99}"#);
-    compare("bad.json").failed(1, &["schema version 99", "reads 3"]);
-    write(r#"{"schema_version": 3, "program": "gearcut"}"#);
+    compare("bad.json").failed(1, &["schema version 99", "reads 4"]);
+    write(r#"{"schema_version": 4, "program": "gearcut"}"#);
     compare("bad.json").failed(1, &["not a complete result", "missing field"]);
     assert!(!folder.path().join("out/compare_bad.json_normal").exists());
 }
@@ -362,8 +362,8 @@ fn the_schema_refuses_what_is_not_of_the_layout() {
     refused(|all| all["schema_version"] = json!(1), "schema_version");
     refused(|all| all["more"] = json!(1), "more");
     refused(|all| all["headline"]["witness_mark"]["why"] = Value::Null, "witness_mark");
-    refused(|all| all["headline"]["smallest_normal_stock"]["value"] = Value::Null, "smallest_normal_stock");
-    refused(|all| all["headline"]["smallest_normal_stock"]["place"]["tooth"] = json!([3]), "tooth");
+    refused(|all| all["headline"]["smallest_stock"]["value"] = Value::Null, "smallest_stock");
+    refused(|all| all["headline"]["smallest_stock"]["place"]["tooth"] = json!([3]), "tooth");
     refused(|all| all["sections"]["operations"]["rough"]["strokes"] = json!(4200), "operations");
     refused(|all| all["sections"]["operations"]["rough"]["allowance"]["columns"] = json!([]), "operations");
     refused(|all| all["sections"]["a.b"] = json!({ "$title": "a dot" }), "a.b");

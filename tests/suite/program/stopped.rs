@@ -117,7 +117,7 @@ fn ctrl_c_keeps_the_finished_flanks_beside_the_earlier_result() {
     assert_eq!(read_json(&partial.join("run.json"))["complete"], false);
     let maps = std::fs::read_dir(partial.join("allowance")).expect("maps").count();
     assert!(maps >= 2, "the finished flanks' maps are there");
-    assert!(results["headline"]["smallest_normal_stock"]["value"].is_number());
+    assert!(results["headline"]["smallest_stock"]["value"].is_number());
     let told = String::from_utf8(stopped.stderr).expect("UTF-8");
     let last = told.lines().last().expect("words");
     assert!(last.contains(&format!("finished is in {}", partial.display())) && last.contains("untouched"), "{last}");

@@ -10,7 +10,7 @@ use std::fs;
 use std::path::Path;
 
 /// Quantities that are the same whatever is cut: how it was asked for and where it is measured. Each ends a path.
-const OF_THE_SCENE: [&str; 24] = [
+const OF_THE_SCENE: [&str; 27] = [
     "/strokes",
     "/cycle_time",
     "/idle_strokes",
@@ -36,11 +36,15 @@ const OF_THE_SCENE: [&str; 24] = [
     "/span",
     "/over_balls",
     // A spur gear cut with the feed at rest has straight teeth whatever the program says.
-    "/lead/total",
+    "/F_beta",
+    "/f_H_beta",
+    "/f_f_beta",
+    // Of the rays.
+    "/candidates",
 ];
 
 /// The same, anywhere in a path.
-const WITHIN: [&str; 4] = ["/operations/rough/", "/lead/", "/axes/", "two_flank_chips"];
+const WITHIN: [&str; 3] = ["/operations/rough/", "/axes/", "two_flank_chips"];
 
 /// All quantities below a value, with their paths.
 fn quantities(path: &str, value: &Value, found: &mut BTreeMap<String, Value>) {

@@ -273,7 +273,7 @@ fn files_pictures_page_and_texture_ask_for_no_pitch_curve() {
         warnings: Vec::new(),
         sections: Vec::new(),
     };
-    let page = report::page(&job, gear, &found, &done.maps, |_| String::new(), Vec::new(), Vec::new());
+    let page = report::page(&job, gear, &found, &done.maps, |_| String::new(), Vec::new());
     assert_eq!(page.subtitle, "Slots on cones");
     page.write(&folder.path("report.html").expect("a place")).expect("written");
 

@@ -1,18 +1,17 @@
 //! Chips and cutting forces of an operation, from the chip ledger.
 
-use crate::findings::{Place, Quantity, Section};
+use crate::findings::quantities::cutting::{IDLE, LARGEST_FORCE, REMOVAL_RATE, REMOVED_VOLUME, THICKEST_CHIP};
+use crate::findings::{Place, QuantityRow, Section};
 use crate::process::shaping::ShapingJob;
 use crate::process::shaping::chips::{ChipLedger, StrokeChips};
+use crate::process::shaping::quantities::{
+    CHIPS, CUTTER_TORQUE, ENTRY_FORCE, ENTRY_SECTION, IDLE_STROKES, LARGEST_POWER, LARGEST_SECTION, MEDIAN_FORCE,
+    MEDIAN_SECTION, NO_ENTRY, THREE_FLANK_CHIPS, TWO_FLANK_CHIPS, WORK_TORQUE,
+};
+use crate::steps::inspection::headline::Placed;
 use gearcut_core::units::UM_PER_MM;
 use std::f64::consts::PI;
 
-const IDLE: &str = "all strokes are idle";
-const ENTRY_SECTION: &str = "section of a first stroke at full depth without infeed: whole tooth spaces at once, as no \
-    machine cuts; the largest values leave it out";
-/// What the force of an entry is.
-pub const ENTRY_FORCE: &str =
-    "cutting force of a first stroke at full depth without infeed; the largest values leave it out";
-const NO_ENTRY: &str = "the cutter is fed in, or its first stroke meets nothing";
 /// N mm in a N m.
 const NMM_PER_NM: f64 = 1e3;
 
@@ -20,88 +19,37 @@ const NMM_PER_NM: f64 = 1e3;
 pub fn chips(job: &ShapingJob, ledger: &ChipLedger, operation: usize) -> Section {
     let chips = &ledger.operations[operation];
     let (schedule, count) = (&job.operations[operation].schedule, job.operations[operation].count());
-    let peak = |what: &'static str, unit: &'static str, value: &dyn Fn(&StrokeChips) -> f64| {
-        peak(job, ledger, operation, what, unit, value)
+    let largest = |row: &QuantityRow, value: &dyn Fn(&StrokeChips) -> f64| match peak(job, ledger, operation, value) {
+        Ok((value, place)) => row.of(value).at(place),
+        Err(why) => row.none(why),
     };
-    let median = |unit: &'static str, definition: &'static str, value: &dyn Fn(&StrokeChips) -> f64| {
+    let median = |row: &QuantityRow, value: &dyn Fn(&StrokeChips) -> f64| {
         let mut values: Vec<f64> = chips.strokes.iter().filter(|s| !s.is_idle()).map(value).collect();
         values.sort_unstable_by(f64::total_cmp);
-        Quantity::number_or(values.get(values.len() / 2).copied(), unit, definition, IDLE)
+        row.of_or(values.get(values.len() / 2).copied(), IDLE)
     };
-    let width_mm = job.scene.gear.face_width_mm;
-    let volume_mm3 = ledger.area_mm2(operation) * width_mm;
+    let volume_mm3 = ledger.area_mm2(operation) * job.scene.gear.face_width_mm;
     let minutes = schedule.time_s(count as f64) / 60.0;
     let largest_n = chips.largest(|s| s.cutting_n).map(|(_, stroke)| stroke.cutting_n);
     let power_w = largest_n.map(|force_n| force_n * ram_speed_mm_per_s(job, operation) / 1e3);
-    let power = "largest cutting force times the ram's largest speed, pi times stroke length times double strokes per \
-                 time";
-    let chips_of = |definition: &'static str, pick: fn(&StrokeChips) -> u32| {
-        Quantity::count(chips.strokes.iter().map(|s| u64::from(pick(s))).sum(), "chips", definition)
-    };
-    Section::new("chips", "Chips and cutting forces")
-        .with(
-            "largest_section",
-            peak("section of all chips of a stroke, in the transverse plane", "mm^2", &|s| s.area_mm2),
-        )
-        .with(
-            "largest_thickness",
-            peak("uncut chip thickness, from the edge to the surface before", "um", &|s| {
-                s.thickest_anywhere_mm() * UM_PER_MM
-            }),
-        )
-        .with("largest_force", peak("cutting force along the stroke", "N", &|s| s.cutting_n))
-        .with("entry_section", entry(chips.entry().map(|s| s.area_mm2), "mm^2", ENTRY_SECTION))
-        .with("entry_force", entry(chips.entry().map(|s| s.cutting_n), "N", ENTRY_FORCE))
-        .with(
-            "largest_work_torque",
-            peak("torque of the cut on the work spindle, without its sign", "N m", &|s| {
-                s.work_torque_nmm.abs() / NMM_PER_NM
-            }),
-        )
-        .with(
-            "largest_cutter_torque",
-            peak("torque of the cut on the cutter spindle, without its sign", "N m", &|s| {
-                s.cutter_torque_nmm.abs() / NMM_PER_NM
-            }),
-        )
-        .with(
-            "median_section",
-            median("mm^2", "section of all chips of a stroke: median over the strokes that cut", &|s| s.area_mm2),
-        )
-        .with(
-            "median_force",
-            median("N", "cutting force along the stroke: median over the strokes that cut", &|s| s.cutting_n),
-        )
-        .with("largest_power", Quantity::number_or(power_w, "W", power, IDLE))
-        .with("removed_volume", Quantity::number(volume_mm3, "mm^3", "sections of all chips times the face width"))
-        .with(
-            "removal_rate",
-            Quantity::number(
-                volume_mm3 / minutes / 1e3,
-                "cm^3/min",
-                "volume taken away over the time of the operation's double strokes",
-            ),
-        )
-        .with(
-            "idle_strokes",
-            Quantity::count(chips.idle() as u64, "strokes", "strokes in which no cutter tooth meets material"),
-        )
-        .with(
-            "two_flank_chips",
-            chips_of(
-                "chips that form on two sides of a cutter tooth's edge at once (tip and flank, or both flanks)",
-                |s| s.two_flank,
-            ),
-        )
-        .with(
-            "three_flank_chips",
-            chips_of("chips that form on tip and both flanks of a cutter tooth at once", |s| s.three_flank),
-        )
-}
-
-/// What is told of a first stroke at full depth.
-pub fn entry(value: Option<f64>, unit: &'static str, definition: &'static str) -> Quantity {
-    Quantity::number_or(value, unit, definition, NO_ENTRY)
+    let count_of = |pick: fn(&StrokeChips) -> u32| chips.strokes.iter().map(|s| u64::from(pick(s))).sum::<u64>();
+    CHIPS.section([
+        largest(&LARGEST_SECTION, &|s| s.area_mm2),
+        largest(&THICKEST_CHIP, &|s| s.thickest_anywhere_mm() * UM_PER_MM),
+        largest(&LARGEST_FORCE, &|s| s.cutting_n),
+        ENTRY_SECTION.of_or(chips.entry().map(|s| s.area_mm2), NO_ENTRY),
+        ENTRY_FORCE.of_or(chips.entry().map(|s| s.cutting_n), NO_ENTRY),
+        largest(&WORK_TORQUE, &|s| s.work_torque_nmm.abs() / NMM_PER_NM),
+        largest(&CUTTER_TORQUE, &|s| s.cutter_torque_nmm.abs() / NMM_PER_NM),
+        median(&MEDIAN_SECTION, &|s| s.area_mm2),
+        median(&MEDIAN_FORCE, &|s| s.cutting_n),
+        LARGEST_POWER.of_or(power_w, IDLE),
+        REMOVED_VOLUME.of(volume_mm3),
+        REMOVAL_RATE.of(volume_mm3 / minutes / 1e3),
+        IDLE_STROKES.of(chips.idle()),
+        TWO_FLANK_CHIPS.of(count_of(|s| s.two_flank)),
+        THREE_FLANK_CHIPS.of(count_of(|s| s.three_flank)),
+    ])
 }
 
 /// Largest speed of the ram on its crank in an operation, mm/s.
@@ -111,24 +59,14 @@ pub fn ram_speed_mm_per_s(job: &ShapingJob, operation: usize) -> f64 {
     PI * stroke_mm * job.operations[operation].schedule.double_strokes_per_minute() / 60.0
 }
 
-/// Where `value` is largest: with its stroke (counted from 0), time and work angle, the space of the stroke's largest
-/// chip (space j lies after tooth j) and the cutter tooth that takes it (counted from 0).
-pub fn peak(
-    job: &ShapingJob,
-    ledger: &ChipLedger,
-    operation: usize,
-    what: &'static str,
-    unit: &'static str,
-    value: &dyn Fn(&StrokeChips) -> f64,
-) -> Quantity {
-    let definition = format!("largest {what}");
-    let Some((stroke, chips)) = ledger.operations[operation].largest(value) else {
-        return Quantity::undefined(unit, definition, IDLE);
-    };
-    Quantity::number(value(chips), unit, definition).at(stroke_place(job, ledger, operation, stroke))
+/// The largest value of a stroke with its place: the stroke (counted from 0), time and work angle, the space of the
+/// stroke's largest chip (space j lies after tooth j) and the cutter tooth that takes it (counted from 0).
+pub fn peak(job: &ShapingJob, ledger: &ChipLedger, operation: usize, value: impl Fn(&StrokeChips) -> f64) -> Placed {
+    let (stroke, chips) = ledger.operations[operation].largest(&value).ok_or(IDLE)?;
+    Ok((value(chips), stroke_place(job, ledger, operation, stroke)))
 }
 
-/// Where a stroke that cuts stands: [`peak`] says with what.
+/// Place of a stroke that cuts: [`peak`] says with what.
 pub fn stroke_place(job: &ShapingJob, ledger: &ChipLedger, operation: usize, stroke: usize) -> Place {
     let prepared = &job.operations[operation];
     let chips = &ledger.operations[operation].strokes[stroke];

@@ -1,13 +1,16 @@
 //! One operation on a shaped gear: strokes, axes, chips, and the stock that it leaves.
 
 use super::{chips, deflection, program, returns, strokes, teeth};
-use crate::findings::{Quantity, Section};
+use crate::findings::Section;
+use crate::findings::quantities::cutting::{CYCLE_TIME, LINKAGE, OFFSET};
+use crate::findings::quantities::flanks::{LAST, NO_FLANK_REACHED};
 use crate::measure::stock::Stock;
 use crate::process::shaping::ShapingJob;
 use crate::process::shaping::axes_report::OperationAxes;
 use crate::process::shaping::chips::ChipLedger;
 use crate::process::shaping::measure::unevenness::{ToothAllowance, Unevenness as Percent, summarise};
 use crate::process::shaping::measure::{FlankReport, GearReport};
+use crate::process::shaping::quantities::{CIRCULAR_FEED, SPREAD_MAX, SPREAD_MEAN, STROKES};
 use crate::steps::axes;
 use gearcut_core::error::Refusal;
 use teeth::stock_range;
@@ -27,14 +30,13 @@ pub fn operation(
     // What is known of the scene's own strokes: of this operation, and of all that shape the gear.
     let other = program::not_of_the_operation(job, motion);
     let other_gear = program::not_of_the_gear(job, motions);
-    let of_scene = |quantity: Quantity| program::of_scene(quantity, other.as_deref());
     let withheld = |section: Section, other: &Option<String>| match other {
         Some(why) => section.without_values(why, &[]),
         None => section,
     };
     let allowance = report.allowances.iter().find(|a| a.operation == index);
     let last = index + 1 == job.operations.len();
-    let why = if last { "the last operation leaves no stock to itself" } else { "no flank was reached" };
+    let no_stock = if last { LAST } else { NO_FLANK_REACHED };
     let over_flanks: Vec<(Option<&FlankReport>, Stock)> =
         report.flanks.iter().filter_map(|f| Some((Some(f), (*f.own.stock.get(index)?)?))).collect();
     let over_fillets: Vec<(Option<&FlankReport>, Stock)> =
@@ -48,28 +50,10 @@ pub fn operation(
     let [cut, limit] = [", as cut", ", limit of many strokes"];
     let [mean, rack] = ["over the mean of AB and CD", "over delta_d tan(alpha)"];
     let spread = |key: &str, [over, of]: [&str; 2], found: Option<Percent>| {
-        let of_words = if of == cut { cut } else { ", in the limit of many strokes" };
-        Section::new(key, format!("|AB - CD| {over}{of}"))
-            .shown(
-                "max",
-                "max",
-                Quantity::number_or(
-                    found.map(|u| u.max_percent),
-                    "%",
-                    format!("largest |AB - CD| {over}{of_words}"),
-                    why,
-                ),
-            )
-            .shown(
-                "mean",
-                "mean",
-                Quantity::number_or(
-                    found.map(|u| u.mean_percent),
-                    "%",
-                    format!("mean over the teeth of |AB - CD| {over}{of_words}"),
-                    why,
-                ),
-            )
+        Section::new(key, format!("|AB - CD| {over}{of}")).entries([
+            SPREAD_MAX.of_or(found.map(|u| u.max_percent), no_stock),
+            SPREAD_MEAN.of_or(found.map(|u| u.mean_percent), no_stock),
+        ])
     };
     let unevenness = Section::new("unevenness", "Unevenness of the allowance")
         .part(spread("mean_denominator", [mean, cut], allowance.and_then(|a| by_mean(&a.strokes))))
@@ -89,24 +73,13 @@ pub fn operation(
     let strokes = operation.count();
     let stock_of_teeth = allowance.into_iter().flat_map(|of| &of.strokes);
     let section = Section::new(&spec.name, format!("Operation {}", spec.name))
-        .with("linkage", of_scene(Quantity::text(operation.linkage.words(), "linkage of cutter and work")))
-        .with(
-            "offset",
-            of_scene(Quantity::number(spec.offset_mm, "mm", "delta_d in force, thickness allowance included")),
-        )
-        .with("strokes", Quantity::count(strokes as u64, "strokes", "strokes, plunging ones included"))
-        .with(
-            "circular_feed",
-            of_scene(Quantity::number(
-                schedule.circular_feed_mm_per_stroke(),
-                "mm per stroke",
-                "mean arc of the pitch curve per double stroke",
-            )),
-        )
-        .with(
-            "cycle_time",
-            Quantity::number(schedule.time_s(strokes as f64), "s", "time of the operation's double strokes"),
-        )
+        .entries([
+            LINKAGE.of(operation.linkage.words()).unless(other.as_deref()),
+            OFFSET.of(spec.offset_mm).unless(other.as_deref()),
+            STROKES.of(strokes),
+            CIRCULAR_FEED.of(schedule.circular_feed_mm_per_stroke()).unless(other.as_deref()),
+            CYCLE_TIME.of(schedule.time_s(strokes as f64)),
+        ])
         .table(teeth::allowance(report, allowance, &spec.name, other_gear.is_some()))
         .part(axes::findings(motion))
         .parts(program::section(motion))
@@ -115,21 +88,14 @@ pub fn operation(
         .parts(returns::section(job, index, other.as_deref())?)
         .part(chips::chips(job, ledger, index).table(strokes::strokes(job, ledger, index)))
         .parts(deflection::section(job, ledger, index))
-        .part(stock_range("flank_stock", "Stock on all active flanks", &over_flanks, "on all active flanks", why))
+        .part(stock_range("flank_stock", "Stock on all active flanks", &over_flanks, no_stock))
         .part(stock_range(
             "fillet_stock",
-            "Stock where the operation's fillet stands on the flanks",
+            "Stock on all flanks below the start of the operation's own involute or of the evaluated profile",
             &over_fillets,
-            "on all flanks below the start of the operation's own involute or of the evaluated profile",
-            why,
+            no_stock,
         ))
-        .part(stock_range(
-            "root_stock",
-            "Stock in all roots",
-            &over_roots,
-            "in all roots, on rays that do not end before it",
-            why,
-        ))
+        .part(stock_range("root_stock", "Stock in all roots, on rays that do not end before it", &over_roots, no_stock))
         .part(unevenness)
         .part(
             Section::new("teeth", "Stock of each tooth")

@@ -17,6 +17,9 @@ use crate::process::shaping::notices::{
 use crate::steps::axes::AxesOfOperation as _;
 use gearcut_core::units::UM_PER_MM;
 
+/// Why what is known of whole flanks alone is not known of a tooth.
+pub const NOT_WHOLE: &str = "a flank of the tooth is cut away";
+
 /// The section; none where the operation is cut by the scene's own strokes.
 pub fn section(motion: &OperationAxes) -> Option<Section> {
     let judgement = motion.program()?;
@@ -105,14 +108,6 @@ pub fn not_of_the_operation(job: &ShapingJob, motion: &OperationAxes) -> Option<
         let told = told.join(" and ");
         format!("known of the scene's own strokes alone; the program of {name} that cuts this gear {told}")
     })
-}
-
-/// A quantity that is known of the scene's own strokes alone; `other` says why it does not hold.
-pub fn of_scene(quantity: Quantity, other: Option<&str>) -> Quantity {
-    match other {
-        Some(why) => quantity.without_value(why),
-        None => quantity,
-    }
 }
 
 /// What a reader must know of the programs under test.

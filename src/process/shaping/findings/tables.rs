@@ -1,76 +1,37 @@
 //! Flanks and teeth side by side: `tables/flanks.csv`, `tables/teeth.csv`.
 //!
-//! In: the sections of operations and teeth. Their quantities become rows, so that every number is made once; the rows
-//! stand in the files alone, since `results.json` has them in the sections.
+//! The rows are in the files alone, since `results.json` has their numbers in the sections of teeth and flanks.
 
-use crate::findings::{Quantity, Section, Table, TableColumn};
+use crate::findings::quantities::flanks::{PROFILE_LENGTH, START_OF_INVOLUTE};
+use crate::findings::quantities::teeth::{
+    CUMULATIVE_PITCH, FLANK_PITCH, PROBE_PLACE, THICKNESS_ARC, THICKNESS_CHORD, TOOTH,
+};
+use crate::findings::{Section, Table};
 use crate::process::shaping::measure::FlankReport;
+use crate::process::shaping::quantities::{SCALLOP, TIP_HEIGHT, TIP_LAND};
+use crate::steps::inspection::teeth::flank_table;
+use gearcut_core::terms::Side;
 
-/// Keys of columns, and where their quantities stand in the section of a finished flank.
-const FORM: [(&str, &str); 3] =
-    [("start_of_involute", "start_of_involute"), ("tip_height", "tip"), ("profile_length", "length")];
-const MEASURED: [(&str, &str); 9] = [
-    ("lowest", "smallest_height"),
-    ("highest", "largest_height"),
-    ("F_alpha", "profile.total"),
-    ("f_f_alpha", "profile.form"),
-    ("f_H_alpha", "profile.slope"),
-    ("F_beta", "lead.total"),
-    ("f_f_beta", "lead.form"),
-    ("f_H_beta", "lead.slope"),
-    ("largest_scallop", "largest_scallop"),
-];
-/// The same of a finished tooth.
-const TOOTH: [(&str, &str); 8] = [
-    ("thickness_arc", "thickness_arc"),
-    ("thickness_chord", "thickness_chord"),
-    ("tip_land", "tip_land"),
-    ("left_single_pitch", "left.single_pitch"),
-    ("left_cumulative_pitch", "left.cumulative_pitch"),
-    ("right_single_pitch", "right.single_pitch"),
-    ("right_cumulative_pitch", "right.cumulative_pitch"),
-    ("runout_of_space_after", "runout_of_space_after"),
-];
-
-/// All flanks that were cut: what `earlier` operations left on them, and how they are finished.
-pub fn flanks(cut: &[FlankReport], earlier: &[Section], teeth: &[Section]) -> Table {
-    let names = vec![number_of_tooth(), TableColumn::words("flank", "flank: left or right")];
-    let rows = cut.iter().map(|flank| {
-        let (tooth, side) = (&teeth[flank.tooth as usize - 1], flank.side.name());
-        let of = |section, picks: &[(&str, &str)]| {
-            picks.iter().map(|(key, path)| ((*key).to_owned(), quantity(section, path))).collect::<Vec<_>>()
-        };
-        let finished = part(tooth, side);
-        let mut row = of(finished, &FORM);
-        for operation in earlier {
-            let stock = part(operation, &format!("teeth.{}.{side}", tooth.key));
-            row.extend(
-                ["smallest", "largest", "mean"]
-                    .map(|what| (format!("{}_{what}_stock", operation.key), quantity(stock, what))),
-            );
-        }
-        row.extend(of(finished, &MEASURED));
-        (vec![flank.tooth.into(), side.into()], row)
+/// All flanks that were cut: the stock of `earlier` operations on them, and how they are finished.
+pub fn flanks<'a>(cut: &'a [FlankReport], earlier: impl IntoIterator<Item = &'a str>, teeth: &[Section]) -> Table {
+    let finished = |of: &FlankReport| teeth[of.tooth as usize - 1].find(of.side.name());
+    let own = [&START_OF_INVOLUTE, &TIP_HEIGHT, &PROFILE_LENGTH, &SCALLOP];
+    let table = own.into_iter().fold(flank_table(cut, earlier), |table, row| {
+        table.column(row, |of| finished(of).and_then(|flank| flank.value(row)))
     });
-    Table::of_quantities("flanks", "Finished flanks", names, rows).rows_in_file("flanks")
+    table.rows_in_file("flanks")
 }
 
 /// All teeth.
 pub fn teeth(teeth: &[Section]) -> Table {
-    let rows = (1_u32..).zip(teeth).map(|(number, tooth)| {
-        (vec![number.into()], TOOTH.map(|(key, path)| (key.to_owned(), quantity(tooth, path))).into())
+    let table = Table::over("all_teeth", "Finished teeth", (1_u32..).zip(teeth)).column(&TOOTH, |(number, _)| *number);
+    let of_tooth = [&THICKNESS_ARC, &THICKNESS_CHORD, &TIP_LAND, &PROBE_PLACE];
+    let table = of_tooth.into_iter().fold(table, |table, row| table.column(row, |(_, tooth)| tooth.value(row)));
+    let sides =
+        [Side::Left, Side::Right].into_iter().flat_map(|side| [(side, &FLANK_PITCH), (side, &CUMULATIVE_PITCH)]);
+    let table = sides.fold(table, |table, (side, row)| {
+        let key = format!("{}_{}", side.name(), row.key);
+        table.keyed(key, row, |(_, tooth)| tooth.find(side.name()).and_then(|flank| flank.value(row)))
     });
-    Table::of_quantities("all_teeth", "Finished teeth", vec![number_of_tooth()], rows).rows_in_file("teeth")
-}
-
-fn number_of_tooth() -> TableColumn {
-    TableColumn::new("tooth", "1", "number of the tooth, from 1")
-}
-
-fn part<'a>(section: &'a Section, path: &str) -> &'a Section {
-    section.find(path).expect("every tooth has a section")
-}
-
-fn quantity<'a>(section: &'a Section, path: &str) -> &'a Quantity {
-    section.quantity(path).expect("what is not defined is there as well")
+    table.rows_in_file("teeth")
 }

@@ -6,7 +6,7 @@
 
 use super::thin_tips;
 use crate::measure::deviation::Trace;
-use crate::measure::inspection::{InspectedFlank, TracedLines};
+use crate::measure::inspection::{FlankSurface, InspectedFlank, StockRange, TracedLines};
 use crate::measure::scallop::{Cusp, cusps, facets, step};
 use crate::measure::stock::{Extreme, Stock, extremes, stock};
 use crate::process::shaping::ShapingJob;
@@ -92,6 +92,25 @@ pub struct ShapedFlank {
     /// The evaluated profile was cut deeper than its rays record, half a module under the target: heights there are
     /// upper bounds, and nothing that follows from them is stated.
     pub is_lost: bool,
+}
+
+impl FlankSurface for ShapedFlank {
+    fn deviations(&self) -> Option<[Extreme; 2]> {
+        self.finished
+    }
+
+    fn stock(&self, operation: usize) -> Option<StockRange> {
+        let stock = (*self.stock.get(operation)?)?;
+        Some(StockRange { ends: [stock.smallest, stock.largest], mean_mm: stock.mean_mm })
+    }
+
+    fn is_below_range(&self) -> bool {
+        self.below_range > 0
+    }
+
+    fn is_lost(&self) -> bool {
+        self.is_lost
+    }
 }
 
 /// Arcs between which profiles and textures are evaluated, mm from the form point: as the scene says, else without 5 %

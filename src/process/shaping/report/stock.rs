@@ -1,11 +1,13 @@
 //! What earlier operations leave for the last one: normal stock, the allowances AB and CD, their unevenness.
 
-use crate::findings::{self, Findings};
+use crate::findings::quantities::flanks::{STOCK_LARGEST, STOCK_MEAN, STOCK_SMALLEST};
+use crate::findings::{self, Findings, QuantityRow};
 use crate::output::bar_chart::{BarChart, BarSeries};
 use crate::output::range_chart::{RangeChart, RangeSeries};
 use crate::output::report::{Block, PageSection, PageTable};
 use crate::output::text::significant;
 use crate::process::shaping::ShapingJob;
+use crate::process::shaping::quantities::{AB, CD, SPREAD_MAX, SPREAD_MEAN, UNEVENNESS};
 
 /// The section; none if the scene has a single operation.
 pub fn section(job: &ShapingJob, found: &Findings) -> Option<PageSection> {
@@ -35,8 +37,8 @@ fn stock_of_teeth(operation: &findings::Section) -> &[findings::Section] {
 }
 
 /// A column of the table of allowances.
-fn allowance(operation: &findings::Section, column: &str) -> Vec<Option<f64>> {
-    operation.table_of("allowance").map_or_else(Vec::new, |table| table.numbers(column).collect())
+fn allowance(operation: &findings::Section, column: &QuantityRow) -> Vec<Option<f64>> {
+    operation.table_of("allowance").map_or_else(Vec::new, |table| table.values(column).collect())
 }
 
 fn operation_blocks(operation: &findings::Section, finishing: &str) -> Vec<Block> {
@@ -48,11 +50,12 @@ fn operation_blocks(operation: &findings::Section, finishing: &str) -> Vec<Block
             .iter()
             .map(|tooth| {
                 let stock = tooth.find(side)?;
-                Some([stock.number("smallest")?, stock.number("mean")?, stock.number("largest")?])
+                Some([stock.value(&STOCK_SMALLEST)?, stock.value(&STOCK_MEAN)?, stock.value(&STOCK_LARGEST)?])
             })
             .collect(),
     };
-    let series = |name: &str, column: &str| BarSeries { name: name.to_owned(), values: allowance(operation, column) };
+    let series =
+        |name: &str, column: &QuantityRow| BarSeries { name: name.to_owned(), values: allowance(operation, column) };
     let bars = |title: String, value_name: &str, unit: &str, series: Vec<BarSeries>| {
         Block::Bars(BarChart {
             least_division: 0.0,
@@ -79,13 +82,13 @@ fn operation_blocks(operation: &findings::Section, finishing: &str) -> Vec<Block
             format!("Allowance on the pitch curve after {name}"),
             "chord",
             "mm",
-            vec![series("AB, left flank", "AB"), series("CD, right flank", "CD")],
+            vec![series("AB, left flank", &AB), series("CD, right flank", &CD)],
         ),
         bars(
             format!("Unevenness of the allowance after {name}"),
             "|AB − CD| / mean of AB and CD",
             "%",
-            vec![series("as cut", "unevenness_mean_denominator")],
+            vec![series("as cut", &UNEVENNESS)],
         ),
         Block::Table(spread_table(operation)),
         Block::Folded(
@@ -106,8 +109,9 @@ fn percent(value: Option<f64>) -> String {
 
 fn spread_table(operation: &findings::Section) -> PageTable {
     let row = |name: &str, key: &str| {
-        let number = |of: &str| percent(operation.number(&format!("unevenness.{key}.{of}")));
-        vec![name.to_owned(), number("max"), number("mean")]
+        let spread = operation.find(&format!("unevenness.{key}"));
+        let number = |row: &QuantityRow| percent(spread.and_then(|of| of.value(row)));
+        vec![name.to_owned(), number(&SPREAD_MAX), number(&SPREAD_MEAN)]
     };
     PageTable {
         caption: "Unevenness by both definitions".to_owned(),
@@ -123,15 +127,16 @@ fn spread_table(operation: &findings::Section) -> PageTable {
 
 fn tooth_table(operation: &findings::Section) -> PageTable {
     let mm = |value: Option<f64>| value.map_or_else(|| "–".to_owned(), |value| format!("{value:.4}"));
-    let [ab, cd, unevenness] = ["AB", "CD", "unevenness_mean_denominator"].map(|column| allowance(operation, column));
+    let [ab, cd, unevenness] = [&AB, &CD, &UNEVENNESS].map(|column| allowance(operation, column));
     let rows = stock_of_teeth(operation).iter().enumerate().map(|(row, tooth)| {
         let of = |values: &[Option<f64>]| values.get(row).copied().flatten();
+        let stock = |side: &str, row: &QuantityRow| mm(tooth.find(side).and_then(|flank| flank.value(row)));
         vec![
             (row + 1).to_string(),
-            mm(tooth.number("left.smallest")),
-            mm(tooth.number("left.largest")),
-            mm(tooth.number("right.smallest")),
-            mm(tooth.number("right.largest")),
+            stock("left", &STOCK_SMALLEST),
+            stock("left", &STOCK_LARGEST),
+            stock("right", &STOCK_SMALLEST),
+            stock("right", &STOCK_LARGEST),
             mm(of(&ab)),
             mm(of(&cd)),
             percent(of(&unevenness)),

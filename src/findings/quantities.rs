@@ -1,0 +1,14 @@
+//! What processes share: the rows of numbers that more than one of them finds, by subject.
+//!
+//! A number has one row, and so one key, unit and definition, wherever it is: in the headline (the largest or smallest
+//! of the gear), in the section of a flank or an operation (of that one), as a column of a table. What only one process
+//! finds is listed in its own folder.
+
+pub mod cutting;
+pub mod flanks;
+pub mod teeth;
+
+use super::row::QuantityGroup;
+
+/// The groups of this table.
+pub static SHARED: &[&QuantityGroup] = &[&flanks::FLANKS, &flanks::STOCK, &teeth::TEETH, &cutting::CUTTING];

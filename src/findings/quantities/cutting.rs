@@ -1,0 +1,41 @@
+//! Quantities of cutting: chips, forces, times, axes, work of the computer.
+
+use crate::findings::rows;
+
+/// No chip.
+pub const IDLE: &str = "no pass of the tool meets material";
+/// No chips of a stopped run.
+pub const STOPPED: &str = "the run was stopped before the whole blank was cut";
+/// No forces.
+pub const NO_MATERIAL: &str = "the scene names no material: write [material]";
+/// No limit of an axis.
+pub const NO_LIMITS: &str = "the scene gives no axis limits";
+
+rows! {
+    /// Chips, forces, times, axes, work.
+    CUTTING: "cutting", "Cutting", "headline (of all operations); operations.<operation>; work";
+
+    LINKAGE: "linkage", "", "linkage of the tool and the work";
+    OFFSET: "offset", "mm", "distance of the tool from full depth, thickness allowance included" => symbol("δ_d");
+    PASSES: "passes", "passes", "passes of the tool's teeth or blades over all tooth spaces";
+    AXIS_MARGIN: "axis_margin", "1", "share of the tightest axis limit that is left, all axes and operations"
+        => titled("left of the tightest limit"), or(&[NO_LIMITS]);
+    CYCLE_TIME: "cycle_time", "s",
+        "time of the operation, in the headline of all: double strokes of a shaper; feed, approach, overrun and idle \
+         travel of a hob; roll and idle time of all slots of a face-mill head"
+        => titled("cutting time"), symbol("t");
+    THICKEST_CHIP: "largest_chip_thickness", "um",
+        "largest uncut chip thickness of any pass, from the edge to the surface before it"
+        => titled("thickest chip"), symbol("h"), or(&[IDLE, STOPPED]);
+    LARGEST_FORCE: "largest_cutting_force", "N",
+        "largest cutting force: of a shaper along the stroke, of a hob's tooth referred to its tip, of a blade of a \
+         face-mill head"
+        => titled("largest cutting force"), symbol("F_c"), or(&[IDLE, STOPPED, NO_MATERIAL]);
+    REMOVED_VOLUME: "removed_volume", "mm^3",
+        "volume of the chips of all operations: of a shaper their sections times the face width, else as missing from \
+         the rays through the blank"
+        => symbol("V"), or(&[STOPPED]);
+    REMOVAL_RATE: "removal_rate", "cm^3/min", "removed volume over the cutting time" => symbol("Q"), or(&[STOPPED]);
+    CANDIDATES: "candidates", "passes", "passes visited per dexel of a flank and operation; two or three touch it"
+        => titled("passes visited per dexel");
+}

@@ -1,0 +1,167 @@
+//! What the headline has of every gear, whatever cut it: stock, deviations, pitch, thickness, axes, chips, times, work.
+//!
+//! In: measured flanks, the pitch and thickness of teeth where the gear has a pitch curve, and the few numbers that
+//! only the process can give ([`Cutting`]): a process that leaves one out does not compile. Out: entries in a fixed
+//! order, to which the process adds its own.
+
+use super::teeth::{HELIX, PROFILE, place};
+use crate::findings::quantities::cutting::{
+    AXIS_MARGIN, CANDIDATES, CYCLE_TIME, LARGEST_FORCE, NO_LIMITS, REMOVAL_RATE, REMOVED_VOLUME, STOPPED, THICKEST_CHIP,
+};
+use crate::findings::quantities::flanks::{
+    BELOW_RANGE, DEEPEST_CUT, HIGHEST_DEVIATION, LARGEST_STOCK, NO_STOCK, NO_TRACE, SINGLE, SMALLEST_STOCK, UNREACHED,
+    UNTOUCHED_DEXELS,
+};
+use crate::findings::quantities::teeth::{
+    LARGEST_THICKNESS, MOST_GONE, NO_THICKNESS, NOT_CROSSED, RUNOUT, SINGLE_PITCH, SMALLEST_THICKNESS, TOTAL_PITCH,
+};
+use crate::findings::{Entry, Place, QuantityRow};
+use crate::measure::deviation::PitchDeviations;
+use crate::measure::inspection::{FlankSurface, GearInspection, InspectedFlank};
+use crate::measure::stock::Extreme;
+use crate::steps::Work;
+use gearcut_core::units::UM_PER_MM;
+
+/// A value with its place, or the reason why there is none.
+pub type Placed = Result<(f64, Place), &'static str>;
+
+/// What only the process knows of cutting.
+#[derive(Debug)]
+pub struct Cutting {
+    /// Operations, in order.
+    pub operations: usize,
+    /// Time of all of them, s.
+    pub cycle_s: f64,
+    /// Share of the tightest axis limit that is left, [`crate::machine::smallest_margin`]; none without limits.
+    pub margin: Option<f64>,
+    /// Thickest chip, um.
+    pub thickest_um: Placed,
+    /// Largest cutting force, N.
+    pub force_n: Placed,
+    /// Volume that all operations removed, mm^3; none where the run was stopped before it was known.
+    pub removed_mm3: Option<f64>,
+}
+
+/// Entries of the headline that all processes have.
+pub fn headline<Own: FlankSurface>(
+    flanks: &[InspectedFlank<Own>],
+    teeth: Option<&GearInspection>,
+    cutting: Cutting,
+    work: &Work,
+) -> Vec<Entry> {
+    let mut entries = stock(flanks, cutting.operations);
+    entries.extend(deviations(flanks));
+    entries.extend(traces(flanks));
+    entries.extend(teeth.map(pitch).into_iter().flatten());
+    let lost = flanks.iter().filter(|flank| flank.own.is_lost()).count();
+    entries.extend(teeth.map(|teeth| thickness(teeth, lost)).into_iter().flatten());
+    let placed = |row: &QuantityRow, found: Placed| match found {
+        Ok((value, place)) => row.of(value).at(place),
+        Err(why) => row.none(why),
+    };
+    let rate = cutting.removed_mm3.map(|mm3| mm3 / (cutting.cycle_s / 60.0) / 1e3);
+    entries.extend([
+        AXIS_MARGIN.of_or(cutting.margin, NO_LIMITS),
+        CYCLE_TIME.of(cutting.cycle_s),
+        placed(&THICKEST_CHIP, cutting.thickest_um),
+        placed(&LARGEST_FORCE, cutting.force_n),
+        REMOVED_VOLUME.of_or(cutting.removed_mm3, STOPPED),
+        REMOVAL_RATE.of_or(rate, STOPPED),
+        UNTOUCHED_DEXELS.of(flanks.iter().map(|flank| flank.untouched).sum::<u64>()),
+        candidates(work),
+    ]);
+    entries
+}
+
+/// Passes that the backend looked at for a dexel.
+pub fn candidates(work: &Work) -> Entry {
+    CANDIDATES.of(work.stats.dexel_passes as f64 / work.dexels.max(1) as f64)
+}
+
+/// The flank on which `size` of a value is largest, the first of several, with its value there.
+fn worst<Own>(
+    flanks: &[InspectedFlank<Own>],
+    size: fn(f64) -> f64,
+    of: impl Fn(&InspectedFlank<Own>) -> Option<Extreme>,
+) -> Option<(Extreme, Place)> {
+    let found = flanks.iter().filter_map(|flank| Some((of(flank)?, flank)));
+    let worst = found.reduce(|best, next| if size(next.0.value_mm) > size(best.0.value_mm) { next } else { best });
+    worst.map(|(of, flank)| (of, place(flank, &of)))
+}
+
+/// The entry of a value that was found, `per_mm` of its unit in a mm.
+fn entry(row: &QuantityRow, per_mm: f64, found: Option<(Extreme, Place)>, why: &'static str) -> Entry {
+    match found {
+        Some((of, place)) => row.of(of.value_mm * per_mm).at(place),
+        None => row.none(why),
+    }
+}
+
+/// Stock that the last operation finds.
+fn stock<Own: FlankSurface>(flanks: &[InspectedFlank<Own>], operations: usize) -> Vec<Entry> {
+    let why = if operations < 2 { SINGLE } else { NO_STOCK };
+    let of =
+        |end: usize| move |flank: &InspectedFlank<Own>| Some(flank.own.stock(operations.checked_sub(2)?)?.ends[end]);
+    vec![
+        entry(&SMALLEST_STOCK, 1.0, worst(flanks, |mm| -mm, of(0)), why),
+        entry(&LARGEST_STOCK, 1.0, worst(flanks, |mm| mm, of(1)), why),
+    ]
+}
+
+/// Heights of the finished surface.
+fn deviations<Own: FlankSurface>(flanks: &[InspectedFlank<Own>]) -> [Entry; 2] {
+    let of = |end: usize| move |flank: &InspectedFlank<Own>| Some(flank.own.deviations()?[end]);
+    let below = flanks.iter().any(|flank| flank.own.is_below_range());
+    [
+        entry(&HIGHEST_DEVIATION, UM_PER_MM, worst(flanks, |mm| mm, of(1)), UNREACHED),
+        if below {
+            DEEPEST_CUT.none(BELOW_RANGE)
+        } else {
+            entry(&DEEPEST_CUT, -UM_PER_MM, worst(flanks, |mm| -mm, of(0)), UNREACHED)
+        },
+    ]
+}
+
+/// Figures of profiles and helices: the worst of each, slopes with their sign.
+fn traces<Own>(flanks: &[InspectedFlank<Own>]) -> Vec<Entry> {
+    let along_profile = PROFILE.map(|(row, value)| {
+        let found = worst(flanks, f64::abs, |flank| {
+            let arc_mm = 0.5 * (flank.evaluated_mm[0] + flank.evaluated_mm[1]);
+            Some(Extreme { value_mm: value(flank.profile.as_ref()?), arc_mm, z_mm: flank.lines.profile_v_mm })
+        });
+        entry(row, UM_PER_MM, found, NO_TRACE)
+    });
+    let along_tooth = HELIX.map(|(row, value)| {
+        let found = worst(flanks, f64::abs, |flank| {
+            Some(Extreme { value_mm: value(flank.lead.as_ref()?), arc_mm: flank.lines.lead_arc_mm, z_mm: 0.0 })
+        });
+        entry(row, UM_PER_MM, found, NO_TRACE)
+    });
+    along_profile.into_iter().chain(along_tooth).collect()
+}
+
+fn pitch(teeth: &GearInspection) -> [Entry; 3] {
+    let of = |row: &QuantityRow, pick: fn(&PitchDeviations) -> f64| {
+        let largest = teeth.pitch.iter().flatten().map(pick).reduce(f64::max);
+        row.of_or(largest.map(|mm| mm * UM_PER_MM), NOT_CROSSED)
+    };
+    [
+        of(&SINGLE_PITCH, PitchDeviations::largest_single_mm),
+        of(&TOTAL_PITCH, PitchDeviations::total_mm),
+        RUNOUT.of_or(teeth.runout.as_ref().map(|of| of.total_mm() * UM_PER_MM), NOT_CROSSED),
+    ]
+}
+
+/// Thinnest and thickest tooth. Of a gear that is cut away the teeth that are left say nothing where most are gone.
+fn thickness(teeth: &GearInspection, lost: usize) -> [Entry; 2] {
+    let all = teeth.thickness.len();
+    let left_mm: Vec<f64> = teeth.thickness.iter().flatten().map(|of| of.arc_mm).collect();
+    let are_most_gone = lost > 0 && 2 * left_mm.len() < all;
+    let remark = format!(", of {} of {all} teeth; the others are cut away", left_mm.len());
+    let of = |row: &QuantityRow, pick: fn(f64, f64) -> f64| {
+        let value_mm = left_mm.iter().copied().reduce(pick).filter(|_| !are_most_gone);
+        let entry = row.of_or(value_mm, if are_most_gone { MOST_GONE } else { NO_THICKNESS });
+        if lost > 0 { entry.remarked(&remark) } else { entry }
+    };
+    [of(&SMALLEST_THICKNESS, f64::min), of(&LARGEST_THICKNESS, f64::max)]
+}
