@@ -1,24 +1,20 @@
 //! Damage to the target, and the work of cutting a whole blank, as findings of any process.
 
 use super::notices::{BelowTarget, Gouge};
-use super::{Datum, Notice, Place, Quantity, Section, Table, TableColumn};
-use crate::measure::damage::{Damage, LEAST_DEPTH_MM, gouge_mm};
+use super::quantities::blank::{
+    DEEPEST, DEPTH, HEIGHT, KIND, NO_DAMAGE, NO_TARGET, NOT_COUNTED, OPERATION, PAIRS_REMOVING, PAIRS_VISITED, PLACES,
+    SIDE, VOLUME, VOLUME_OF_PLACE, X, Y, Z, ZONE,
+};
+use super::quantities::teeth::TOOTH;
+use super::{Columns, Entry, Notice, Place, QuantityRow, Section, Table};
+use crate::measure::damage::Damage;
 use gearcut_core::units::UM_PER_MM;
 use std::collections::BTreeSet;
 
-/// All places of one kind of damage together; each of them is a row of [`damage_table`].
+/// All places of one kind of damage together, named by the section's title; each of them is a row of [`damage_table`].
 ///
-/// `what` says which material it is; `made_by` adds to the deepest place what made it.
-pub fn damage(
-    key: &str,
-    title: &str,
-    places: &[Damage],
-    what: &'static str,
-    made_by: impl Fn(Place, &Damage) -> Place,
-) -> Section {
-    let none = format!("there is none deeper than {LEAST_DEPTH_MM} mm");
-    let depth = "largest depth along the normal; at its place the height over the pitch curve and the distance z from \
-                 the middle of the face";
+/// `made_by` adds to the deepest place what made it.
+pub fn damage(key: &str, title: &str, places: &[Damage], made_by: impl Fn(Place, &Damage) -> Place) -> Section {
     let deepest = places.iter().max_by(|a, b| a.depth_mm.total_cmp(&b.depth_mm)).map(|d| {
         let place = Place::default()
             .and("tooth", d.place.tooth)
@@ -26,25 +22,19 @@ pub fn damage(
             .and("zone", d.place.zone.name())
             .and("height_mm", d.place.height_mm)
             .and("z_mm", d.z_mm);
-        Quantity::number(d.depth_mm, "mm", depth).at(made_by(place, d))
+        DEEPEST.of(d.depth_mm).at(made_by(place, d))
     });
-    let count = sides_of_teeth(places) as u64;
-    Section::new(key, title)
-        .shown(
-            "places",
-            "sides of teeth",
-            Quantity::count(count, "sides of teeth", format!("{what}, deeper than {LEAST_DEPTH_MM} mm")),
-        )
-        .shown("deepest", "deepest", deepest.unwrap_or_else(|| Quantity::undefined("mm", depth, none)))
-        .with(
-            "volume",
-            // From +0, so that no damage is not -0.
-            Quantity::number(
-                places.iter().fold(0.0, |sum, d| sum + d.volume_mm3),
-                "mm^3",
-                "volume, all places together",
-            ),
-        )
+    Section::new(key, title).entries([
+        PLACES.of(sides_of_teeth(places)),
+        deepest.unwrap_or_else(|| DEEPEST.none(NO_DAMAGE)),
+        // From +0, so that no damage is not -0.
+        VOLUME.of(places.iter().fold(0.0, |sum, d| sum + d.volume_mm3)),
+    ])
+}
+
+/// The same where there is no target.
+pub fn without_target(key: &str, title: &str) -> Section {
+    Section::new(key, title).entries([&PLACES, &DEEPEST, &VOLUME].map(|row| row.none(NO_TARGET)))
 }
 
 /// How many sides of teeth these places lie on: a side has three zones, and operations damage it each for themselves.
@@ -81,56 +71,34 @@ pub fn kind(damage: &Damage, gouge_mm: f64, gouged: &'static str) -> &'static st
     if damage.depth_mm > gouge_mm { gouged } else { "deviation" }
 }
 
-/// The depth that tells gouges from deviations, as a quantity.
-pub fn gouge_from(module_mm: f64) -> Quantity {
-    let definition = "depth from which on a cut below the target is a gouge and no deviation: form deviation that ISO \
-                      1328-1:2013 allows a profile in class 8";
-    Quantity::number(gouge_mm(module_mm), "mm", definition)
+/// A place of damage with what a row of the table says of it beside: its kind, and the operation that did it.
+pub struct DamagePlace<'a> {
+    /// Kind, as [`kind`] calls it.
+    pub kind: &'static str,
+    /// Name of the operation.
+    pub operation: &'a str,
+    /// The place.
+    pub damage: Damage,
 }
 
-/// Every place of damage of the whole blank; `pass` names what did it, which differs between processes.
-pub fn damage_table(pass: [TableColumn; 2], rows: impl IntoIterator<Item = Vec<Datum>>) -> Table {
-    let none = "a stroke has no place on the gear";
-    let number = |key, unit, definition| TableColumn::new(key, unit, definition).or(none);
-    let mut columns = vec![
-        TableColumn::words("kind", "what is wrong: a deviation, a gouge, interference, rubbing on the way back"),
-        TableColumn::words("operation", "operation that did it"),
-        TableColumn::new("tooth", "1", "tooth, from 1"),
-        TableColumn::words("side", "side of the tooth: left or right"),
-        TableColumn::words("zone", "part of the side"),
-        number("height", "mm", "height over the pitch curve along its normal, deepest place"),
-        number("z", "mm", "z of the gear frame, from the middle of the face, deepest place"),
-        number("x", "mm", "x of the gear frame, deepest place"),
-        number("y", "mm", "y of the gear frame, deepest place"),
-        number("depth", "mm", "largest depth along the normal"),
-        number("volume", "mm^3", "volume"),
-    ];
-    columns.extend(pass);
-    Table::new("damage", "Places of damage", columns).with_rows(rows).in_file("damage")
+/// Every place of damage of the whole blank; columns of the pass that did it, which differ between processes, follow.
+pub fn damage_table<'a>(places: impl IntoIterator<Item = DamagePlace<'a>>) -> Columns<DamagePlace<'a>> {
+    Table::over("damage", "Places of damage", places)
+        .column(&KIND, |of| of.kind)
+        .column(&OPERATION, |of| of.operation)
+        .column(&TOOTH, |of| of.damage.place.tooth)
+        .column(&SIDE, |of| of.damage.place.side.name())
+        .column(&ZONE, |of| of.damage.place.zone.name())
+        .column(&HEIGHT, |of| of.damage.place.height_mm)
+        .column(&Z, |of| of.damage.z_mm)
+        .column(&X, |of| of.damage.point_mm.x)
+        .column(&Y, |of| of.damage.point_mm.y)
+        .column(&DEPTH, |of| of.damage.depth_mm)
+        .column(&VOLUME_OF_PLACE, |of| of.damage.volume_mm3)
 }
 
-/// A row of it but for the pass.
-pub fn damage_row(kind: &str, operation: &str, damage: &Damage) -> Vec<Datum> {
-    vec![
-        kind.into(),
-        operation.into(),
-        damage.place.tooth.into(),
-        damage.place.side.name().into(),
-        damage.place.zone.name().into(),
-        damage.place.height_mm.into(),
-        damage.z_mm.into(),
-        damage.point_mm.x.into(),
-        damage.point_mm.y.into(),
-        damage.depth_mm.into(),
-        damage.volume_mm3.into(),
-    ]
-}
-
-/// Pairs of ray and pass that the native backend counts.
-pub fn pairs(count: u64, definition: &'static str) -> Quantity {
-    if count > 0 {
-        Quantity::count(count, "pairs", definition)
-    } else {
-        Quantity::undefined("pairs", definition, "the GPU does not count them")
-    }
+/// Pairs of ray and pass that the native backend counts: in which the ray crosses the tool, and that removed material.
+pub fn pairs([visited, removing]: [u64; 2]) -> [Entry; 2] {
+    let counted = |row: &QuantityRow, count: u64| if count > 0 { row.of(count) } else { row.none(NOT_COUNTED) };
+    [counted(&PAIRS_VISITED, visited), counted(&PAIRS_REMOVING, removing)]
 }

@@ -4,11 +4,23 @@
 //! of the gear), in the section of a flank or an operation (of that one), as a column of a table. What only one process
 //! finds is listed in its own folder.
 
+pub mod blank;
 pub mod cutting;
 pub mod flanks;
+pub mod inspection;
+pub mod program;
 pub mod teeth;
 
 use super::row::QuantityGroup;
 
 /// The groups of this table.
-pub static SHARED: &[&QuantityGroup] = &[&flanks::FLANKS, &flanks::STOCK, &teeth::TEETH, &cutting::CUTTING];
+pub static SHARED: &[&QuantityGroup] = &[
+    &flanks::FLANKS,
+    &flanks::STOCK,
+    &teeth::TEETH,
+    &inspection::INSPECTION,
+    &cutting::CUTTING,
+    &cutting::AXES,
+    &blank::BLANK,
+    &blank::DAMAGE,
+];

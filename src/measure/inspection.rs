@@ -37,6 +37,35 @@ pub struct InspectedFlank<Own> {
     pub own: Own,
 }
 
+/// Heights over many dexels.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SurfaceHeights {
+    /// Lowest and highest, the first of several.
+    pub ends: [Extreme; 2],
+    /// Arithmetic mean, mm.
+    pub mean_mm: f64,
+    /// Root mean square about the mean, mm: Sq of the marks where the form is exact (ISO 25178-2).
+    pub rms_mm: f64,
+}
+
+impl SurfaceHeights {
+    /// Of values with their places; none of no value.
+    pub fn of(values: &[Extreme]) -> Option<Self> {
+        let pick = |best: &Extreme, next: &Extreme, is_better: bool| if is_better { *next } else { *best };
+        let lowest = values.iter().copied().reduce(|a, b| pick(&a, &b, b.value_mm < a.value_mm))?;
+        let highest = values.iter().copied().reduce(|a, b| pick(&a, &b, b.value_mm > a.value_mm))?;
+        let count = values.len() as f64;
+        let mean_mm = values.iter().map(|of| of.value_mm).sum::<f64>() / count;
+        let squares: f64 = values.iter().map(|of| (of.value_mm - mean_mm).powi(2)).sum();
+        Some(Self { ends: [lowest, highest], mean_mm, rms_mm: (squares / count).sqrt() })
+    }
+
+    /// As a stock.
+    pub fn stock(&self) -> StockRange {
+        StockRange { ends: self.ends, mean_mm: self.mean_mm }
+    }
+}
+
 /// Stock of an operation on a flank.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StockRange {

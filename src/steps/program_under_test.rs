@@ -5,7 +5,10 @@
 //! program may be is warned of, what is as deep as a gouge is a fault, and so is motion that is missing.
 
 use crate::findings::notices::{ProgramLimit, ProgramOff, ProgramShare, ProgramTime};
-use crate::findings::{Notice, Place, Quantity, Section};
+use crate::findings::quantities::program::{
+    LARGEST_DISTANCE, MISSING_SHARE, PROGRAM, PROGRAM_TIME, SCENE_TIME, SHARE_BEYOND,
+};
+use crate::findings::{Notice, Place, Section};
 use crate::measure::damage::gouge_mm;
 use crate::output::text::significant;
 use gearcut_core::units::UM_PER_MM;
@@ -35,26 +38,14 @@ pub struct ProgramUnderTest {
 impl ProgramUnderTest {
     /// The section of its operation.
     pub fn section(&self) -> Section {
-        let [program, scene] = self.time_s;
-        let distance = "largest displacement of the tool in the work from the scene's own motion";
-        Section::new("program", "Program under test")
-            .shown(
-                "largest_distance",
-                "off the scene's motion",
-                Quantity::number(UM_PER_MM * self.distance_mm, "um", distance)
-                    .at(Place::default().and("time_s", self.at_s)),
-            )
-            .shown(
-                "missing_share",
-                "missing",
-                Quantity::number(100.0 * self.missing, "%", "share of the scene's motion that the program leaves out"),
-            )
-            .with(
-                "share_beyond",
-                Quantity::number(100.0 * self.beyond, "%", "motion beyond the ends of the scene's, as a share of it"),
-            )
-            .with("time", Quantity::number(program, "s", "time of the program for what both make"))
-            .with("scene_time", Quantity::number(scene, "s", "time of the scene for the same"))
+        let [program_s, scene_s] = self.time_s;
+        PROGRAM.section([
+            LARGEST_DISTANCE.of(UM_PER_MM * self.distance_mm).at(Place::default().and("time_s", self.at_s)),
+            MISSING_SHARE.of(100.0 * self.missing),
+            SHARE_BEYOND.of(100.0 * self.beyond),
+            PROGRAM_TIME.of(program_s),
+            SCENE_TIME.of(scene_s),
+        ])
     }
 
     /// What a reader must know of it; `name` is the operation's.

@@ -31,11 +31,24 @@ rows! {
         "largest cutting force: of a shaper along the stroke, of a hob's tooth referred to its tip, of a blade of a \
          face-mill head"
         => titled("largest cutting force"), symbol("F_c"), or(&[IDLE, STOPPED, NO_MATERIAL]);
+    FORCE_PER_AREA: "force_per_area", "N/mm^2", "K_c of the material: cutting force per area of chip" => symbol("K_c");
+    FORCE_PER_LENGTH: "force_per_length", "N/mm",
+        "K_ce of the material: cutting force per length of edge that a chip of no thickness would need"
+        => symbol("K_ce");
     REMOVED_VOLUME: "removed_volume", "mm^3",
-        "volume of the chips of all operations: of a shaper their sections times the face width, else as missing from \
-         the rays through the blank"
-        => symbol("V"), or(&[STOPPED]);
+        "volume that the operation removed, in the headline all of them: by the sections of a shaper's chips times the \
+         face width, elsewhere by the rays through the blank"
+        => titled("removed"), symbol("V"), or(&[STOPPED]);
     REMOVAL_RATE: "removal_rate", "cm^3/min", "removed volume over the cutting time" => symbol("Q"), or(&[STOPPED]);
     CANDIDATES: "candidates", "passes", "passes visited per dexel of a flank and operation; two or three touch it"
         => titled("passes visited per dexel");
+}
+
+rows! {
+    /// Peaks of an axis against its limit.
+    AXES: "axes", "Peaks of the axes", "operations.<operation>.axes.<axis and order>";
+
+    PEAK: "peak", "that of the axis", "largest magnitude of the axis's speed or acceleration during the operation";
+    LIMIT: "limit", "that of the axis", "largest magnitude that the machine allows";
+    MARGIN: "margin", "1", "1 - peak / limit";
 }

@@ -57,6 +57,10 @@ rows! {
     LOWEST_DEVIATION: "lowest_deviation", "um",
         "smallest normal deviation of the finished surface on the evaluated part"
         => or(&[UNREACHED, BELOW_RANGE, NOT_CUT]);
+    MEAN_DEVIATION: "mean_deviation", "um", "mean normal deviation of the finished surface on the evaluated part"
+        => or(&[UNREACHED]);
+    SQ: "Sq", "um", "root mean square of the normal deviations of the evaluated part about their mean"
+        => symbol("Sq"), source("ISO 25178-2"), or(&[UNREACHED]);
     EVALUATED_FROM: "evaluated_from", "mm", "arc from the start of the profile at which its evaluated part begins"
         => or(&[NOT_CUT, BELOW_RANGE]);
     EVALUATED_TO: "evaluated_to", "mm", "arc from the start of the profile at which its evaluated part ends"

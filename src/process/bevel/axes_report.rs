@@ -247,8 +247,7 @@ fn named(peak: &Peak) -> Named {
     let name = peak.name();
     Named {
         key: name.to_lowercase().replace(' ', "_"),
-        title: name.clone(),
-        quantity: name,
+        title: name,
         unlimited: "machine.bevel_limits gives none for this axis".to_owned(),
     }
 }

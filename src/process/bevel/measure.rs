@@ -10,7 +10,8 @@
 use super::job::{BevelJob, index};
 use super::surfaces::MARGIN;
 use crate::measure::deviation::Trace;
-use crate::measure::inspection::{InspectedFlank, TracedLines};
+use crate::measure::inspection::{FlankSurface, InspectedFlank, StockRange, SurfaceHeights, TracedLines};
+use crate::measure::stock::Extreme;
 use gearcut_core::bevel::ease_off::{Explained, explain};
 use gearcut_core::bevel::face_mill::FaceMill;
 use gearcut_core::cut::Backend;
@@ -35,9 +36,9 @@ pub type BevelReport = InspectedFlank<BevelSurface>;
 #[derive(Debug, Clone, PartialEq)]
 pub struct BevelSurface {
     /// Heights of the finished surface; `None` where a dexel of the evaluated part was not reached.
-    pub finished: Option<FlankHeights>,
+    pub finished: Option<SurfaceHeights>,
     /// What each earlier operation left over the finished surface.
-    pub stock: Vec<Option<FlankHeights>>,
+    pub stock: Vec<Option<SurfaceHeights>>,
     /// The grid, row by row along the tooth from the toe, each from the root to the tip.
     pub grid: Vec<GridPoint>,
     /// Shares of the profile and places along the tooth, mm, of the grid.
@@ -48,17 +49,14 @@ pub struct BevelSurface {
     pub on_pitch_cone_mm: Vec<Option<f64>>,
 }
 
-/// Heights over many dexels, mm.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct FlankHeights {
-    /// Lowest and highest.
-    pub range_mm: [f64; 2],
-    /// Where they stand: arc from the form point in the middle of the face, and place along the tooth, mm.
-    pub at_mm: [[f64; 2]; 2],
-    /// Mean.
-    pub mean_mm: f64,
-    /// Root mean square about the mean.
-    pub rms_mm: f64,
+impl FlankSurface for BevelSurface {
+    fn deviations(&self) -> Option<[Extreme; 2]> {
+        self.finished.map(|of| of.ends)
+    }
+
+    fn stock(&self, operation: usize) -> Option<StockRange> {
+        (*self.stock.get(operation)?).map(|of| of.stock())
+    }
 }
 
 /// A point of the grid.
@@ -111,9 +109,11 @@ pub fn measure(job: &BevelJob, tooth: u32, side: Side, rays: &FreeRays, layers: 
         columns.clone().flat_map(move |column| rows.clone().map(move |row| [column, row]))
     };
     let over = |height: &dyn Fn(usize) -> Option<f64>| {
-        let value =
-            |[column, row]: [usize; 2]| Some((height(rays.field.index(column, row))?, [arcs_mm[column], rows_mm[row]]));
-        evaluated().map(value).collect::<Option<Vec<_>>>().and_then(|values| FlankHeights::of(&values))
+        let value = |[column, row]: [usize; 2]| {
+            let value_mm = height(rays.field.index(column, row))?;
+            Some(Extreme { value_mm, arc_mm: arcs_mm[column], z_mm: rows_mm[row] })
+        };
+        evaluated().map(value).collect::<Option<Vec<_>>>().and_then(|values| SurfaceHeights::of(&values))
     };
     let trace = |places_mm: &[f64], index: &dyn Fn(usize) -> usize| Trace {
         places_mm: places_mm.to_vec(),
@@ -182,22 +182,6 @@ pub(super) fn inner(count: usize) -> Range<usize> {
 fn grid_places(inner: &Range<usize>, count: usize) -> Vec<usize> {
     let last = (inner.len() - 1) as f64;
     (0..count).map(|i| inner.start + (last * i as f64 / (count - 1) as f64).round() as usize).collect()
-}
-
-impl FlankHeights {
-    /// Of values with their places; `None` of none.
-    fn of(values: &[(f64, [f64; 2])]) -> Option<Self> {
-        let low = values.iter().min_by(|a, b| a.0.total_cmp(&b.0))?;
-        let high = values.iter().max_by(|a, b| a.0.total_cmp(&b.0))?;
-        let mean_mm = values.iter().map(|value| value.0).sum::<f64>() / values.len() as f64;
-        let squares: f64 = values.iter().map(|value| (value.0 - mean_mm).powi(2)).sum();
-        Some(Self {
-            range_mm: [low.0, high.0],
-            at_mm: [low.1, high.1],
-            mean_mm,
-            rms_mm: (squares / values.len() as f64).sqrt(),
-        })
-    }
 }
 
 /// The slot behind a tooth at the rows of the grid: its width from both flanks, its depth from rays into its bottom.

@@ -23,6 +23,7 @@ pub mod net;
 pub(crate) mod notices;
 pub mod operation;
 pub mod pair;
+pub mod quantities;
 mod report;
 mod rolled_axes;
 mod run;
@@ -47,7 +48,7 @@ pub use job::BevelJob;
 pub static PROCESS: Process = Process {
     scene: &scene::SCENE,
     notices: notices::NOTICES,
-    quantities: &[],
+    quantities: quantities::QUANTITIES,
     prepare: |scene| Ok(Box::new(BevelJob::new(scene)?)),
 };
 

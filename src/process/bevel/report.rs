@@ -10,7 +10,12 @@ use super::gear::BevelGear;
 use super::job::BevelJob;
 use super::measure::BevelReport;
 use super::net;
-use crate::findings::{self, Findings};
+use super::quantities::{
+    BLADES, BODY, CHIPS, FLANK_BLADES, FORM, LAW, MARK_HEIGHT, MARK_SPACING, MARKS, POSITION, SETTINGS,
+};
+use crate::findings::quantities::blank::{BLANK_VOLUME, LEFT_VOLUME};
+use crate::findings::quantities::cutting::{LINKAGE, OFFSET};
+use crate::findings::{self, Findings, QuantityRow};
 use crate::job::rows_z_mm;
 use crate::output::folder::OutputFolder;
 use crate::output::line_chart::{LineChart, LineSeries, Panel};
@@ -60,8 +65,8 @@ pub fn page(
     sections.push(files::section(folder)?);
     sections.push(record(gear.flanks.len(), &gear.work, run));
     let operation = |operation: &findings::Section| {
-        let offset = operation.number("offset").map_or_else(|| "–".to_owned(), from_full_depth);
-        format!("{}: {}, head {offset}", operation.key, operation.words("linkage"))
+        let offset = operation.value(&OFFSET).map_or_else(|| "–".to_owned(), from_full_depth);
+        format!("{}: {}, head {offset}", operation.key, operation.text(&LINKAGE))
     };
     let page_gear = PageGear { words: gear_words(job), mesh: mesh(job, whole)? };
     Ok(steps::report::page(job, page_gear, found, &gear.maps, operation, sections))
@@ -69,11 +74,11 @@ pub fn page(
 
 /// Nothing where the run was stopped before.
 fn chips(found: &Findings, (bars, lines): ChipCharts) -> Option<PageSection> {
-    let blank = found.find("blank")?;
-    let number = |key: &str| blank.number(key).map_or_else(|| "–".to_owned(), |value| significant(value, 5));
+    let blank = found.group(&BODY)?;
+    let number = |row: &QuantityRow| blank.value(row).map_or_else(|| "–".to_owned(), |value| significant(value, 5));
     let mut blocks: Vec<Block> = lines.into_iter().map(|(_, chart)| Block::Lines(chart)).collect();
     blocks.extend(bars.into_iter().map(|(_, chart)| Block::Bars(chart)));
-    if let Some(law) = found.find("chips").map(|chips| chips.words("law")).filter(|law| !law.is_empty()) {
+    if let Some(law) = found.group(&CHIPS).map(|chips| chips.text(&LAW)).filter(|law| !law.is_empty()) {
         blocks.push(Block::Note(format!("Cutting force: {law}.")));
     }
     Some(PageSection {
@@ -82,8 +87,8 @@ fn chips(found: &Findings, (bars, lines): ChipCharts) -> Option<PageSection> {
         lead: format!(
             "What the passes take from the slot behind tooth 1, in order of time. The whole ring has {} mm³ of the {} \
             mm³ of its blank left. {}",
-            number("left_volume"),
-            number("blank_volume"),
+            number(&LEFT_VOLUME),
+            number(&BLANK_VOLUME),
             page_words()
         ),
         blocks,
@@ -135,7 +140,7 @@ fn deviations(job: &BevelJob, gear: &BevelGear, found: &Findings) -> PageSection
 
 /// Thickness, spiral and pressure angle error, means of all teeth.
 fn positions(found: &Findings) -> PageTable {
-    let section = found.find("position");
+    let section = found.group(&POSITION);
     let entries = section.into_iter().flat_map(|section| &section.entries);
     let rows = entries.map(|entry| {
         let (value, unit) = value_and_unit(&entry.quantity);
@@ -201,14 +206,14 @@ fn slot(gear: &BevelGear) -> PageSection {
 }
 
 fn blades(found: &Findings) -> PageSection {
-    let rows = found.parts("marks").iter().map(|side| {
-        let number = |key: &str| side.number(key).map_or_else(|| "–".to_owned(), |value| significant(value, 3));
+    let rows = found.group(&MARKS).into_iter().flat_map(|marks| &marks.sections).map(|side| {
+        let number = |row: &QuantityRow| side.value(row).map_or_else(|| "–".to_owned(), |value| significant(value, 3));
         vec![
             side.title.clone(),
-            side.words("blades").to_owned(),
-            side.words("form").to_owned(),
-            number("height"),
-            number("spacing"),
+            side.text(&FLANK_BLADES).to_owned(),
+            side.text(&FORM).to_owned(),
+            number(&MARK_HEIGHT),
+            number(&MARK_SPACING),
         ]
     });
     let marks = PageTable {
@@ -216,7 +221,7 @@ fn blades(found: &Findings) -> PageSection {
         columns: ["Flanks", "Blades", "Form", "Height [µm]", "Apart [mm]"].map(str::to_owned).into(),
         rows: rows.collect(),
     };
-    let by_blade = found.find("blades").and_then(|section| section.table_of("blades"));
+    let by_blade = found.group(&BLADES).and_then(|section| section.tables.first());
     let mut blocks = vec![Block::Table(marks)];
     blocks.extend(by_blade.map(|table| {
         Block::Table(PageTable {
@@ -243,7 +248,7 @@ fn blades(found: &Findings) -> PageSection {
 }
 
 fn setup(job: &BevelJob, found: &Findings) -> PageSection {
-    let settings = found.find("settings");
+    let settings = found.group(&SETTINGS);
     let rows = settings.map_or_else(Vec::new, |section| {
         let value = |entry: &findings::Entry| {
             let quantity = &entry.quantity;

@@ -178,8 +178,7 @@ fn named(peak: &Peak) -> Named {
     let name = peak.name();
     Named {
         key: name.to_lowercase().replace(' ', "_"),
-        title: name.clone(),
-        quantity: name,
+        title: name,
         unlimited: "machine.limits gives none for this axis".to_owned(),
     }
 }

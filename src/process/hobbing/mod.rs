@@ -17,6 +17,7 @@ mod kept;
 pub mod linkage;
 pub mod measure;
 pub(crate) mod notices;
+pub mod quantities;
 pub mod rack_generation;
 pub mod rack_root;
 mod report;
@@ -47,7 +48,7 @@ pub use job::HobbingJob;
 pub static PROCESS: Process = Process {
     scene: &scene::SCENE,
     notices: notices::NOTICES,
-    quantities: &[],
+    quantities: quantities::QUANTITIES,
     prepare: |scene| Ok(Box::new(HobbingJob::new(scene)?)),
 };
 

@@ -3,7 +3,8 @@
 
 mod facts;
 
-use crate::findings::{self, Findings};
+use crate::findings::quantities::cutting::{LINKAGE, OFFSET};
+use crate::findings::{self, Findings, QuantityRow};
 use crate::measure::verdict::GearVerdict;
 use crate::output::bar_chart::BarChart;
 use crate::output::folder::OutputFolder;
@@ -11,6 +12,9 @@ use crate::output::line_chart::LineChart;
 use crate::output::report::{Block, Page, PageSection, PageTable};
 use crate::output::text::{from_full_depth, plain, significant};
 use crate::process::hobbing::axes_report::HobbingAxesReport;
+use crate::process::hobbing::quantities::{
+    ACCURACY, ASSUMPTION, AXIAL_FEED, FORCE, LAW, LENGTH, LOAD, MARKS, TO_AXIS, TO_TRACE,
+};
 use crate::process::hobbing::{HobCutter, HobbedGear, HobbingJob};
 use crate::steps;
 use crate::steps::axes;
@@ -67,13 +71,12 @@ pub fn page(
     sections.push(files::section(folder)?);
     sections.push(record(gear.flanks.len(), &gear.work, run));
     let operation = |operation: &findings::Section| {
-        let mm = |key: &str| operation.number(key).map_or_else(|| "–".to_owned(), plain);
         format!(
             "{}: {}, hob {}, {} mm axial feed per revolution",
             operation.key,
-            operation.words("linkage"),
-            operation.number("offset").map_or_else(|| "–".to_owned(), from_full_depth),
-            mm("axial_feed")
+            operation.text(&LINKAGE),
+            operation.value(&OFFSET).map_or_else(|| "–".to_owned(), from_full_depth),
+            operation.value(&AXIAL_FEED).map_or_else(|| "–".to_owned(), plain)
         )
     };
     let words = steps::report::facts::gear_words(&cutter.job.scene.gear);
@@ -124,15 +127,16 @@ fn marks_section(found: &Findings) -> PageSection {
     // Rounded first, so that no zero bears a sign.
     let degrees = |deg: f64| format!("{:.2}", (deg * 100.0).round() / 100.0 + 0.0).replace('-', "−");
     let apart = |value: f64| significant(value.abs(), 2);
-    let rows = found.parts("marks").iter().flat_map(|flank| {
+    let rows = found.group(&MARKS).map_or(&[][..], |marks| &marks.sections).iter().flat_map(|flank| {
         flank.sections.iter().map(move |step| {
             let mut row = vec![format!("{}, {}", flank.title, step.title)];
             for source in ["kinematic", "surface"] {
-                let number = |key: &str| step.number(&format!("{source}.{key}"));
-                row.push(text(number("length"), &mm));
-                row.extend(["angle_to_trace", "angle_to_axis"].map(|key| text(number(key), &degrees)));
+                let number = |row: &QuantityRow| step.find(source).and_then(|of| of.value(row));
+                row.push(text(number(&LENGTH), &mm));
+                row.extend([&TO_TRACE, &TO_AXIS].map(|of| text(number(of), &degrees)));
             }
-            row.extend(["difference.length", "difference.angle_to_trace"].map(|key| text(step.number(key), &apart)));
+            let difference = step.find("difference");
+            row.extend([&LENGTH, &TO_TRACE].map(|of| text(difference.and_then(|step| step.value(of)), &apart)));
             row
         })
     });
@@ -176,19 +180,15 @@ fn load_section(
     }
     let mut blocks: Vec<Block> = loads.into_iter().map(|(_, chart)| Block::Bars(chart)).collect();
     blocks.extend(forces.into_iter().map(|(_, chart)| Block::Lines(chart)));
-    if let Some(force) = found.find("hob_force") {
-        blocks.push(Block::Note(format!(
-            "Cutting force: {}. Accuracy {}.",
-            force.words("law"),
-            force.words("accuracy")
-        )));
+    if let Some(force) = found.group(&FORCE) {
+        blocks.push(Block::Note(format!("Cutting force: {}. Accuracy {}.", force.text(&LAW), force.text(&ACCURACY))));
     }
     Some(PageSection {
         id: "load",
         title: "Work of the hob's teeth".to_owned(),
         lead: format!(
             "What each tooth of the hob does in the whole process, approach and overrun included. The load is the {}.",
-            found.find("hob_load").map_or("", |load| load.words("assumption"))
+            found.group(&LOAD).map_or("", |load| load.text(&ASSUMPTION))
         ),
         blocks,
     })

@@ -2,7 +2,6 @@
 
 pub mod blank;
 mod findings;
-mod flank_table;
 pub mod force;
 pub mod load;
 mod marks;

@@ -143,7 +143,7 @@ fn of_flanks(cutter: &HobCutter, gear: &HobbedGear) -> Vec<Notice> {
     let job = cutter.job;
     let mut warnings = Vec::new();
     let reach_mm = RAY_DEPTH_MODULES * job.scene.gear.module_mm;
-    let lowest_mm = gear.flanks.iter().filter_map(|f| f.own.finished).map(|h| h.lowest_mm).fold(0.0, f64::min);
+    let lowest_mm = gear.flanks.iter().filter_map(|f| f.own.finished).map(|h| h.ends[0].value_mm).fold(0.0, f64::min);
     if lowest_mm < -0.999 * reach_mm {
         warnings.push(BeyondRecord { reach_mm }.notice());
     }

@@ -223,7 +223,6 @@ fn named(peak: &Peak) -> Named {
     Named {
         key: format!("{}_{order}", axis.stem),
         title: format!("{capital}, {order}"),
-        quantity: format!("{order} of the {}", axis.name),
         unlimited: format!("machine.limits.{} is not given", axis.column(peak.order)),
     }
 }

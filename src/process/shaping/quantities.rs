@@ -31,7 +31,8 @@ pub const NO_WITNESS: &str =
 pub const NO_ALLOWANCE: &str = "no tooth has an allowance on both flanks";
 
 /// The groups of this table.
-pub static QUANTITIES: &[&QuantityGroup] = &[&SHAPED_GEAR, &SHAPED_FLANK, &ALLOWANCE, &OPERATION, &CHIPS];
+pub static QUANTITIES: &[&QuantityGroup] =
+    &[&SHAPED_GEAR, &SHAPED_FLANK, &ALLOWANCE, &OPERATION, &CHIPS, &STROKES_OF_PROGRAM];
 
 rows! {
     /// What the headline of a shaped gear adds.
@@ -149,4 +150,24 @@ rows! {
         => shown(), or(&[LAST, NO_FLANK_REACHED]);
     SPREAD_MEAN: "mean", "%", "mean over the teeth of |AB - CD| over what the section names"
         => shown(), or(&[LAST, NO_FLANK_REACHED]);
+}
+
+rows! {
+    /// What a program of strokes adds.
+    STROKES_OF_PROGRAM: "program_strokes", "A program of strokes under test", "operations.<operation>.program";
+
+    SHORT_OF_DRAWN_BACK: "short_of_drawn_back", "um",
+        "largest displacement of the cutter's edge while the ram returns through the face from where the scene has it \
+         drawn back to; drawn back further is none";
+    DISTANCE_BETWEEN: "largest_distance_between_strokes", "um",
+        "largest displacement of the cutter's edge between two strokes from the straight way from the one to the \
+         other; drawing back is none";
+    MISSING_STROKES: "missing_strokes", "strokes", "strokes of the scene that the program does not make"
+        => titled("missing"), shown();
+    DOUBLED_STROKES: "doubled_strokes", "strokes", "strokes of the program that repeat one before"
+        => titled("made twice"), shown();
+    STROKES_OFF: "strokes_off", "strokes", "strokes of the program that are none of the scene's"
+        => titled("none of the scene's"), shown();
+    STROKES_PER_MINUTE: "strokes_per_minute", "1/min", "S of the program: double strokes per minute";
+    SCENE_STROKES_PER_MINUTE: "asked_strokes_per_minute", "1/min", "double strokes per minute of the scene";
 }

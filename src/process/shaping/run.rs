@@ -16,6 +16,7 @@ use crate::process::shaping::axes_report::OperationAxes;
 use crate::process::shaping::stage_costs::STAGE_COSTS;
 use crate::steps::attempts::Attempts;
 use crate::steps::inspection::Inspected;
+use crate::steps::inspection::headline::quality;
 use crate::steps::parts::Part;
 use crate::steps::planar::blank_findings;
 use crate::steps::report::{RunWords, deviations};
@@ -55,7 +56,7 @@ pub(super) fn run(job: &ShapingJob, tools: &Tools, frames: Option<u32>) -> Resul
     list.extend(warnings::after(job, &gear.report, &gear.chips, &gear.work, blank_report));
     list.extend(inspected.warnings());
     list.extend(texture::warnings(job, &textures));
-    let headline = findings::headline(job, &gear, &motion);
+    let headline = quality(&inspected).into_iter().chain(findings::headline(job, &gear, &motion));
     let complete = !gear.work.interrupted;
     let mut found = Findings::new("shaping", &job.scene.name, complete, headline, list, sections);
     files::write(job, &gear, &motion, &found, tools, &mut attempts)?;

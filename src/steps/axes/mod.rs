@@ -12,7 +12,7 @@ mod table;
 #[cfg(test)]
 mod tests;
 
-pub use peaks::{Named, PeakWords, STEADY, findings, margin, margin_entry};
+pub use peaks::{Named, PeakWords, STEADY, findings, margin};
 pub use table::{Own, write_table};
 
 use crate::findings::notices::NoProgram;

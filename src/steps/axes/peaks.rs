@@ -2,7 +2,8 @@
 
 use super::AxesOfOperation;
 use crate::findings::notices::AxisLimit;
-use crate::findings::{Entry, Notice, Place, Quantity, Section};
+use crate::findings::quantities::cutting::{AXES, LIMIT, MARGIN, PEAK};
+use crate::findings::{Notice, Place, Section};
 use crate::machine::{Peak, smallest_margin};
 use crate::output::text::significant;
 
@@ -35,8 +36,6 @@ pub struct Named {
     pub key: String,
     /// Title.
     pub title: String,
-    /// What is largest, such as `speed of the work spindle`.
-    pub quantity: String,
     /// Why there is no limit.
     pub unlimited: String,
 }
@@ -74,36 +73,21 @@ pub(super) fn exceeded(operation: &impl AxesOfOperation) -> impl Iterator<Item =
 pub fn findings(operation: &impl AxesOfOperation) -> Section {
     let words = operation.peak_words();
     let one = |peak: &Peak| {
-        let Named { key, title, quantity, unlimited } = (words.named)(peak);
-        let definition = format!("largest {quantity} during the operation{}", words.place_note);
+        let Named { key, title, unlimited } = (words.named)(peak);
         let at = Place::default().and(words.place, operation.place(peak));
-        let allowed = format!("largest {quantity} that the machine allows");
-        Section::new(key, title)
-            .with("peak", Quantity::number(zero_below(words.zero_below, peak.shown()), peak.unit(), definition).at(at))
-            .with("limit", Quantity::number_or(peak.shown_limit(), peak.unit(), allowed, unlimited.clone()))
-            .with("margin", Quantity::number_or(peak.margin(), "1", "1 - peak / limit", unlimited))
+        let remark = words.place_note;
+        Section::new(key, title).entries([
+            PEAK.of(zero_below(words.zero_below, peak.shown())).in_unit(peak.unit()).remarked(remark).at(at),
+            LIMIT.of_or(peak.shown_limit(), unlimited.clone()).in_unit(peak.unit()),
+            MARGIN.of_or(peak.margin(), unlimited),
+        ])
     };
-    Section::new("axes", "Peaks of the axes").parts(operation.peaks().iter().map(one))
+    AXES.section([]).parts(operation.peaks().iter().map(one))
 }
 
 /// Share of the tightest limit that all operations leave; none where there is no limit.
 pub fn margin<O: AxesOfOperation>(operations: &[O]) -> Option<f64> {
     smallest_margin(operations.iter().flat_map(AxesOfOperation::peaks))
-}
-
-/// The headline's number of all operations.
-pub fn margin_entry<O: AxesOfOperation>(operations: &[O]) -> Entry {
-    let margin = margin(operations);
-    Entry::headline(
-        "axis_margin",
-        "left of the tightest limit",
-        Quantity::number_or(
-            margin,
-            "1",
-            "what is left of the tightest axis limit, as a share of it",
-            "the scene gives no axis limits",
-        ),
-    )
 }
 
 fn zero_below(least: f64, value: f64) -> f64 {

@@ -21,12 +21,7 @@ const WORDS: PeakWords = PeakWords {
     place_unit: ("s", 3),
     place_note: "",
     way_out: "go slower",
-    named: |peak| Named {
-        key: peak.name().replace(' ', "_"),
-        title: peak.name(),
-        quantity: peak.name(),
-        unlimited: "no limit".to_owned(),
-    },
+    named: |peak| Named { key: peak.name().replace(' ', "_"), title: peak.name(), unlimited: "no limit".to_owned() },
     zero_below: 0.0,
 };
 
@@ -161,7 +156,7 @@ fn findings_carry_units_limits_and_places() {
     assert!((cradle.number("margin").expect("given") - (1.0 - 9.9 / 20.0)).abs() < 1e-12);
     let free = found.find("cradle_speed").and_then(|part| part.quantity("limit")).expect("a limit");
     assert_eq!((free.value(), free.why()), (None, Some("no limit")));
-    assert!((margin_entry(&[made]).quantity.value().expect("a limit") - (1.0 - 9.9 / 20.0)).abs() < 1e-12);
+    assert!((margin(&[made]).expect("a limit") - (1.0 - 9.9 / 20.0)).abs() < 1e-12);
 }
 
 #[test]

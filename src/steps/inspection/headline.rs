@@ -5,6 +5,7 @@
 //! order, to which the process adds its own.
 
 use super::teeth::{HELIX, PROFILE, place};
+use super::{Inspected, class_words, verdict_words};
 use crate::findings::quantities::cutting::{
     AXIS_MARGIN, CANDIDATES, CYCLE_TIME, LARGEST_FORCE, NO_LIMITS, REMOVAL_RATE, REMOVED_VOLUME, STOPPED, THICKEST_CHIP,
 };
@@ -12,6 +13,7 @@ use crate::findings::quantities::flanks::{
     BELOW_RANGE, DEEPEST_CUT, HIGHEST_DEVIATION, LARGEST_STOCK, NO_STOCK, NO_TRACE, SINGLE, SMALLEST_STOCK, UNREACHED,
     UNTOUCHED_DEXELS,
 };
+use crate::findings::quantities::inspection::{CLASS_REACHED, LARGEST_OF_LIMIT};
 use crate::findings::quantities::teeth::{
     LARGEST_THICKNESS, MOST_GONE, NO_THICKNESS, NOT_CROSSED, RUNOUT, SINGLE_PITCH, SMALLEST_THICKNESS, TOTAL_PITCH,
 };
@@ -19,6 +21,7 @@ use crate::findings::{Entry, Place, QuantityRow};
 use crate::measure::deviation::PitchDeviations;
 use crate::measure::inspection::{FlankSurface, GearInspection, InspectedFlank};
 use crate::measure::stock::Extreme;
+use crate::measure::verdict::JudgedFigure;
 use crate::steps::Work;
 use gearcut_core::units::UM_PER_MM;
 
@@ -71,6 +74,27 @@ pub fn headline<Own: FlankSurface>(
         candidates(work),
     ]);
     entries
+}
+
+/// Class with its verdict, and the figure that comes nearest to its limit or is furthest beyond it.
+pub fn quality(inspected: &Inspected) -> Vec<Entry> {
+    let verdict = &inspected.verdict;
+    let words = format!("{}, {}", class_words(verdict.class()), verdict_words(verdict.passes()));
+    let class = verdict.no_class.is_none().then(|| CLASS_REACHED.of(words));
+    let used = |judged: &JudgedFigure| Some(judged.worst()?.value_um.abs() / judged.limit?.0);
+    let nearest = verdict.figures.iter().filter_map(|judged| Some((used(judged)?, judged)));
+    let nearest = nearest.max_by(|a, b| a.0.total_cmp(&b.0)).and_then(|(share, judged)| {
+        let (worst, limit) = (judged.worst()?, judged.limit?);
+        let mut place = Place::default()
+            .and("figure", judged.figure.symbol())
+            .and("value_um", worst.value_um)
+            .and("limit_um", limit.0);
+        if let (Some(tooth), Some(side)) = (worst.tooth, worst.side) {
+            place = place.and("tooth", tooth).and("flank", side.name());
+        }
+        Some(LARGEST_OF_LIMIT.of(100.0 * share).at(place))
+    });
+    class.into_iter().chain(nearest).collect()
 }
 
 /// Passes that the backend looked at for a dexel.

@@ -1,20 +1,24 @@
 //! The whole gear from rays through the blank, on the page: volumes, gouges, interference, rubbing.
 
 use super::quantities;
-use crate::findings::{Findings, Place, Quantity, Section, unit};
+use crate::findings::quantities::blank::{
+    BLANK, BLANK_VOLUME, DEEPEST, GOUGE_FROM, LEFT_VOLUME, PLACES, SECTION_AREA, TARGET_AREA, VOLUME,
+};
+use crate::findings::quantities::cutting::REMOVED_VOLUME;
+use crate::findings::{Findings, Place, Quantity, QuantityRow, Section, unit};
 use crate::output::report::{Block, PageSection, PageTable};
 
 /// Quantities of the whole that say what was made; how the rays stand is a matter of `results.json`.
-const OF_THE_GEAR: [&str; 5] = ["blank_volume", "left_volume", "end_face_area", "target_end_face_area", "gouge_from"];
+static OF_THE_GEAR: [&QuantityRow; 5] = [&BLANK_VOLUME, &LEFT_VOLUME, &SECTION_AREA, &TARGET_AREA, &GOUGE_FROM];
 
 /// The section; none where the whole blank was not cut.
 pub fn section(found: &Findings) -> Option<PageSection> {
-    let blank = found.find("blank")?;
-    let shown = blank.entries.iter().filter(|entry| OF_THE_GEAR.contains(&entry.key.as_str()));
+    let blank = found.group(&BLANK)?;
+    let shown = blank.entries.iter().filter(|entry| OF_THE_GEAR.iter().any(|row| row.key == entry.key));
     let removed = blank.find("operations").map_or(&[][..], |operations| &operations.sections);
     let volumes =
         shown.map(|entry| row(&entry.heading(), &entry.quantity)).chain(removed.iter().filter_map(|operation| {
-            let volume = operation.quantity("removed_volume")?;
+            let volume = operation.of(&REMOVED_VOLUME)?;
             Some(row(&format!("Removed by {}", operation.key), volume))
         }));
     let volumes = PageTable {
@@ -47,10 +51,10 @@ fn row(name: &str, quantity: &Quantity) -> Vec<String> {
 
 /// How many, how deep, where, how much; none for a part that is no damage.
 fn damage_row(part: &Section) -> Option<Vec<String>> {
-    let deepest = part.quantity("deepest")?;
-    let value = |key: &str| part.quantity(key).map_or_else(String::new, quantities::value_with_unit);
+    let deepest = part.of(&DEEPEST)?;
     let place = deepest.place().map(Place::words_with_signs);
     let place = place.or_else(|| deepest.why().map(str::to_owned)).unwrap_or_default();
-    let places = part.quantity("places").map_or_else(String::new, quantities::value_alone);
-    Some(vec![part.title.clone(), places, quantities::value_with_unit(deepest), place, value("volume")])
+    let places = part.of(&PLACES).map_or_else(String::new, quantities::value_alone);
+    let volume = part.of(&VOLUME).map_or_else(String::new, quantities::value_with_unit);
+    Some(vec![part.title.clone(), places, quantities::value_with_unit(deepest), place, volume])
 }

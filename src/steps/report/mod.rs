@@ -12,6 +12,7 @@ mod measured;
 pub mod quantities;
 pub mod texture;
 
+use crate::findings::quantities::cutting::{AXES, LIMIT, MARGIN, PEAK};
 use crate::findings::{self, Findings, Notice, Place, Quantity, unit};
 use crate::job::GearJob;
 use crate::output::folder::OutputFolder;
@@ -114,16 +115,16 @@ fn known_first(numbers: Vec<KeyNumber>) -> Vec<KeyNumber> {
 pub fn peak_table(operation: &findings::Section) -> PageTable {
     let number = |value: f64| significant(if value.abs() < 1e-9 { 0.0 } else { value }, 4);
     let dash = || "–".to_owned();
-    let peaks = operation.find("axes").map_or(&[][..], |axes| &axes.sections);
+    let peaks = operation.group(&AXES).map_or(&[][..], |axes| &axes.sections);
     let rows = peaks.iter().map(|peak| {
-        let largest = peak.quantity("peak");
+        let largest = peak.of(&PEAK);
         vec![
             peak.title.clone(),
             largest.and_then(Quantity::value).map_or_else(dash, number),
             unit::signs(largest.and_then(Quantity::unit).unwrap_or("")),
             largest.and_then(Quantity::place).map_or_else(dash, Place::words_with_signs),
-            peak.number("limit").map_or_else(dash, number),
-            peak.number("margin").map_or_else(dash, |share| format!("{:.0} %", 100.0 * share)),
+            peak.value(&LIMIT).map_or_else(dash, number),
+            peak.value(&MARGIN).map_or_else(dash, |share| format!("{:.0} %", 100.0 * share)),
         ]
     });
     PageTable {

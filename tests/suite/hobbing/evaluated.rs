@@ -44,8 +44,8 @@ fn heights_of_the_scene_bound_what_is_evaluated() {
     );
     // Heights are those inside: their extremes stand there, and they reach no further than the whole flank's.
     let [inside, all] = [part.own.finished, whole.own.finished].map(|heights| heights.expect("complete"));
-    assert!(inside.extremes_at_mm.iter().all(|at| at[0] >= arcs_mm[0] - 1e-9 && at[0] <= arcs_mm[1] + 1e-9));
-    assert!(inside.highest_mm <= all.highest_mm && inside.lowest_mm >= all.lowest_mm);
+    assert!(inside.ends.iter().all(|at| at.arc_mm >= arcs_mm[0] - 1e-9 && at.arc_mm <= arcs_mm[1] + 1e-9));
+    assert!(inside.ends[1].value_mm <= all.ends[1].value_mm && inside.ends[0].value_mm >= all.ends[0].value_mm);
     // The helix is traced over the same face.
     assert_eq!(part.lead, whole.lead);
 }

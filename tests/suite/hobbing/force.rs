@@ -123,12 +123,12 @@ fn findings_say_force_power_and_place() {
     let forces = force::measure(&cutter, &cut(&cutter));
     let found = force::findings(&job, &forces).expect("a material");
     let number = |key: &str| found.number(&format!("operations.finish.{key}")).expect("a number");
-    let [force_n, power_w] = ["largest_force", "largest_power"].map(number);
+    let [force_n, power_w] = ["largest_cutting_force", "largest_power"].map(number);
     // 200 turns a minute of a tip at 40 + 1.25 x 3 mm.
     let speed_m_per_s = std::f64::consts::TAU * 200.0 / 60.0 * 43.75e-3;
     assert!((power_w / (force_n * speed_m_per_s) - 1.0).abs() < 1e-3, "{force_n} N, {power_w} W");
     assert!(number("mean_force") < force_n && number("mean_power") > 0.0);
-    let place = found.quantity("operations.finish.largest_force").and_then(|q| q.place()).expect("a place");
+    let place = found.quantity("operations.finish.largest_cutting_force").and_then(|q| q.place()).expect("a place");
     assert!(place.get("hob_tooth").is_some() && place.get("time_s").is_some());
     let table = found.table_of("over_time").expect("a table");
     assert_eq!(table.rows.len(), forces[0].passes.len());

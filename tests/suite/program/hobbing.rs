@@ -269,7 +269,7 @@ mod slow {
         }
         // Every pitch deviation is less than the marks are high.
         let highest = number(&results["headline"]["highest_deviation"]);
-        assert!(number(&results["headline"]["single_pitch_deviation"]) < 2.0 * highest);
+        assert!(number(&results["headline"]["f_p"]) < 2.0 * highest);
         let window = parts(&sections["texture"]["finish"]).next().expect("a window");
         let sz = &window["parameters"]["Sz"];
         assert!(number(sz) <= 1.1 * highest, "{sz}");

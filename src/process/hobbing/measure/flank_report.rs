@@ -12,7 +12,8 @@
 //! line of action.
 
 use crate::measure::deviation::Trace;
-use crate::measure::inspection::{InspectedFlank, TracedLines};
+use crate::measure::inspection::{FlankSurface, InspectedFlank, StockRange, SurfaceHeights, TracedLines};
+use crate::measure::stock::Extreme;
 use crate::process::hobbing::HobbedFlank;
 use gearcut_core::dexel::NO_PASS;
 use gearcut_core::terms::Side;
@@ -23,22 +24,6 @@ const MARGIN: f64 = 0.05;
 
 /// Rounding of places, mm: a dexel so near to an end of the evaluated part belongs to it.
 const PLACE_MM: f64 = 1e-9;
-
-/// Heights over many dexels, mm.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct HeightSummary {
-    /// Lowest.
-    pub lowest_mm: f64,
-    /// Highest.
-    pub highest_mm: f64,
-    /// Where the lowest and the highest one stand: arc of the middle section from the form point, and place along the
-    /// tooth, mm.
-    pub extremes_at_mm: [[f64; 2]; 2],
-    /// Arithmetic mean.
-    pub mean_mm: f64,
-    /// Root mean square about the mean: Sq of the marks where the form is exact (ISO 25178-2).
-    pub rms_mm: f64,
-}
 
 /// One hobbed flank, measured: profiles stand over the place on the line of action
 /// ([`crate::process::hobbing::flank_patch::FlankPatch::on_line_of_action_mm`]), the line along the tooth runs in the
@@ -54,9 +39,19 @@ pub struct HobbedSurface {
     /// Whether the hob's tip corner has undercut the flank in any section.
     pub undercut: bool,
     /// Normal deviations of the finished surface; `None` where a dexel of the evaluated part was not reached.
-    pub finished: Option<HeightSummary>,
+    pub finished: Option<SurfaceHeights>,
     /// What each earlier operation left over the finished surface.
-    pub stock: Vec<Option<HeightSummary>>,
+    pub stock: Vec<Option<SurfaceHeights>>,
+}
+
+impl FlankSurface for HobbedSurface {
+    fn deviations(&self) -> Option<[Extreme; 2]> {
+        self.finished.map(|of| of.ends)
+    }
+
+    fn stock(&self, operation: usize) -> Option<StockRange> {
+        (*self.stock.get(operation)?).map(|of| of.stock())
+    }
 }
 
 /// Measures a cut flank.
@@ -70,11 +65,11 @@ pub fn measure(tooth: u32, side: Side, flank: &HobbedFlank) -> HobbedReport {
         columns.clone().flat_map(move |column| rows.clone().map(move |row| flank.rays.field.index(column, row)))
     };
     let over = |height: &dyn Fn(usize) -> Option<f64>| {
-        let values: Option<Vec<f64>> = dexels().map(height).collect();
-        values.filter(|v| !v.is_empty()).map(|v| {
-            let at = |k: usize| [arcs_mm[columns.start + k / rows.len()], rows_z_mm[rows.start + k % rows.len()]];
-            heights(&v, at)
-        })
+        let placed = |(k, i): (usize, usize)| {
+            let [arc_mm, z_mm] = [arcs_mm[columns.start + k / rows.len()], rows_z_mm[rows.start + k % rows.len()]];
+            Some(Extreme { value_mm: height(i)?, arc_mm, z_mm })
+        };
+        dexels().enumerate().map(placed).collect::<Option<Vec<_>>>().and_then(|values| SurfaceHeights::of(&values))
     };
     let at = |layer: usize, i: usize| {
         let layer = &flank.layers[layer];
@@ -135,20 +130,4 @@ fn between(places_mm: &[f64], inner: Range<usize>, [from_mm, to_mm]: [Option<f64
 fn inner(count: usize) -> Range<usize> {
     let margin = (MARGIN * count as f64).ceil() as usize;
     margin..count.saturating_sub(margin).max(margin)
-}
-
-/// Of values that are not none; `at` gives the place of each.
-fn heights(values: &[f64], at: impl Fn(usize) -> [f64; 2]) -> HeightSummary {
-    let count = values.len() as f64;
-    let mean_mm = values.iter().sum::<f64>() / count;
-    let [low, high] = (1..values.len()).fold([0, 0], |[low, high], k| {
-        [if values[k] < values[low] { k } else { low }, if values[k] > values[high] { k } else { high }]
-    });
-    HeightSummary {
-        lowest_mm: values[low],
-        highest_mm: values[high],
-        extremes_at_mm: [at(low), at(high)],
-        mean_mm,
-        rms_mm: (values.iter().map(|v| (v - mean_mm).powi(2)).sum::<f64>() / count).sqrt(),
-    }
 }

@@ -2,34 +2,33 @@
 
 mod headline;
 
-use super::{blank, flank_table, force, load, marks, points};
-use crate::findings::notice::ranked;
-use crate::findings::{Findings, Notice, Quantity, Section};
+use super::{blank, force, load, marks, points};
+use crate::findings::quantities::cutting::{CYCLE_TIME, LINKAGE, OFFSET, PASSES};
+use crate::findings::quantities::flanks::{MEAN_DEVIATION, PROFILE_LENGTH, SQ, START_OF_INVOLUTE};
+use crate::findings::{Findings, Notice, Section, Table};
 use crate::machine_errors::ErrorLayer;
 use crate::process::hobbing::axes_report::HobbingAxesReport;
 use crate::process::hobbing::job::PreparedHobbing;
 use crate::process::hobbing::linkage::dynamics::AXES;
+use crate::process::hobbing::measure::flank_report::HobbedReport;
 use crate::process::hobbing::measure::hob_force::OperationForce;
 use crate::process::hobbing::measure::hob_load::OperationLoad;
 use crate::process::hobbing::measure::marks::MarkLattice;
+use crate::process::hobbing::quantities::{
+    AXIAL_FEED, EVALUATED, IDLE_TIME, IS_UNDERCUT, NOT_NAMED, PROFILE_END, PROFILE_START,
+};
 use crate::process::hobbing::{HobCutter, HobbedGear, HobbingJob, warnings};
 use crate::steps::axes::{self, AxesOfOperation as _};
 use crate::steps::inspection::Inspected;
+use crate::steps::inspection::headline::candidates;
+use crate::steps::inspection::teeth::{self, flank_table};
 use crate::steps::machine_errors::{self, tool_words};
 use crate::steps::program_under_test::ProgramUnderTest;
 use crate::texture::{self, WindowTexture};
 use gearcut_core::error::Result;
+use gearcut_core::terms::Side;
 use gearcut_core::units::UM_PER_MM;
 use headline::headline;
-
-/// Why a pitch is not known.
-const NOT_CROSSED: &str = "a flank was not cut or does not cross the pitch curve";
-
-/// What the ends of the evaluated profile are.
-const START: &str = "lower end of the evaluated profile, as height over the pitch curve along its normal in the middle \
-    of the face; heights and profile deviations are those inside of it";
-const END: &str = "upper end of the evaluated profile, as height over the pitch curve along its normal in the middle \
-    of the face; heights and profile deviations are those inside of it";
 
 /// What was measured beside the flanks.
 pub struct Measured<'a> {
@@ -62,22 +61,11 @@ pub fn findings(cutter: &HobCutter, gear: &HobbedGear, measured: &Measured) -> R
         points::findings(gear),
         marks::findings(measured.lattices),
         Section::new("teeth", "Finished teeth")
-            .table(flank_table::flanks(
-                &gear.flanks,
-                earlier.iter().map(|operation| operation.spec.name.as_str()),
-                job.scene.measure.heights_mm().iter().any(Option::is_some),
-            ))
+            .table(flanks(&gear.flanks, earlier.iter().map(|operation| operation.spec.name.as_str())))
             .parts((1..=job.scene.gear.teeth).map(|number| tooth(gear, number))),
         texture::findings(cutter, measured.textures),
         texture::roughness(cutter, measured.textures),
-        Section::new("work", "Work of cutting").with(
-            "candidates",
-            Quantity::number(
-                work.stats.dexel_passes as f64 / work.dexels.max(1) as f64,
-                "passes",
-                "passes visited per dexel and operation; two or three touch it",
-            ),
-        ),
+        Section::new("work", "Work of cutting").entries([candidates(work)]),
     ];
     let mut tool = vec![tool_words(&job.hob_spec.mounting)];
     if job.hob_spec.has_pitch_errors() {
@@ -98,86 +86,54 @@ pub fn findings(cutter: &HobCutter, gear: &HobbedGear, measured: &Measured) -> R
     list.extend(warnings::after(cutter, gear, of_blank)?);
     list.extend(measured.inspected.warnings());
     list.extend(texture::warnings(cutter, measured.textures));
-    Ok(Findings {
-        program_version: env!("CARGO_PKG_VERSION").to_owned(),
-        process: "hobbing".to_owned(),
-        scene: job.scene.name.clone(),
-        complete: !work.interrupted,
-        headline: headline(job, gear, measured),
-        warnings: ranked(list),
-        sections,
-    })
+    let headline = headline(job, gear, measured);
+    Ok(Findings::new("hobbing", &job.scene.name, !work.interrupted, headline, list, sections))
+}
+
+/// All flanks that were cut.
+fn flanks<'a>(cut: &'a [HobbedReport], earlier: impl IntoIterator<Item = &'a str>) -> Table {
+    let um = |mm: f64| mm * UM_PER_MM;
+    flank_table(cut, earlier)
+        .column(&START_OF_INVOLUTE, |of| of.own.form_height_mm)
+        .column(&IS_UNDERCUT, |of| if of.own.undercut { "yes" } else { "no" })
+        .column(&PROFILE_LENGTH, |of| of.length_mm)
+        .column(&MEAN_DEVIATION, |of| of.own.finished.map(|of| um(of.mean_mm)))
+        .column(&SQ, |of| of.own.finished.map(|of| um(of.rms_mm)))
+        .in_file("flanks")
 }
 
 /// Where the scene has profiles evaluated, if it names it.
 fn evaluated(job: &HobbingJob) -> Option<Section> {
-    let heights_mm = job.scene.measure.heights_mm();
-    let end = |height_mm: Option<f64>, definition: &'static str| {
-        Quantity::number_or(height_mm, "mm", definition, "not named: 5 % of the profile are left out")
-    };
-    heights_mm.iter().any(Option::is_some).then(|| {
-        Section::new("measure", "Evaluated profile")
-            .with("profile_start_height", end(heights_mm[0], START))
-            .with("profile_end_height", end(heights_mm[1], END))
-    })
+    let [from_mm, to_mm] = job.scene.measure.heights_mm();
+    let ends = [PROFILE_START.of_or(from_mm, NOT_NAMED), PROFILE_END.of_or(to_mm, NOT_NAMED)];
+    from_mm.or(to_mm).map(|_| EVALUATED.section(ends))
 }
 
 fn operation(operation: &PreparedHobbing, motion: &HobbingAxesReport, passes: u32) -> Section {
     let spec = &operation.spec;
     Section::new(&spec.name, format!("Operation {}", spec.name))
-        .with("linkage", Quantity::text(motion.linkage_words(), "linkage of hob and work"))
-        .with(
-            "offset",
-            Quantity::number(
-                operation.offset_mm,
-                "mm",
-                "how far the hob stays back from full depth, allowance included",
-            ),
-        )
-        .with("passes", Quantity::count(passes.into(), "passes", "teeth times turns of the hob"))
-        .with(
-            "axial_feed",
-            Quantity::number(
-                spec.axial_feed_mm_per_revolution,
-                "mm",
-                "feed along the gear's axis in the time of one cycle",
-            ),
-        )
-        .shown("cycle_time", "time", Quantity::number(operation.linkage.end_s(), "s", "time of the operation"))
-        .shown("idle_time", "idle", Quantity::number(operation.plan.idle_s, "s", "time in which the hob does not cut"))
+        .entries([
+            LINKAGE.of(motion.linkage_words()),
+            OFFSET.of(operation.offset_mm),
+            PASSES.of(passes),
+            AXIAL_FEED.of(spec.axial_feed_mm_per_revolution),
+            CYCLE_TIME.of(operation.linkage.end_s()).shown(),
+            IDLE_TIME.of(operation.plan.idle_s),
+        ])
         .part(axes::findings(motion))
         .parts(motion.program().map(ProgramUnderTest::section))
 }
 
-/// Pitch and thickness of a tooth, middle of the face.
+/// Pitch and thickness of a tooth, middle of the face, and the deviations of its flanks.
 fn tooth(gear: &HobbedGear, number: u32) -> Section {
-    let row = number as usize - 1;
-    let side = |key: &str, index: usize| {
-        let pitch = gear.inspection.pitch[index].as_ref();
-        let um = |value: Option<f64>, definition: &'static str| {
-            Quantity::number_or(value.map(|mm| mm * UM_PER_MM), "um", definition, NOT_CROSSED)
-        };
-        Section::new(key, format!("{key} flank"))
-            .with(
-                "single_pitch",
-                um(
-                    pitch.map(|p| p.single_mm[row]),
-                    "f_p: arc of the pitch curve from the tooth before, less the mean pitch",
-                ),
-            )
-            .with(
-                "cumulative_pitch",
-                um(pitch.map(|p| p.cumulative_mm[row]), "arc of the pitch curve from tooth 1, less its mean pitches"),
-            )
+    let flank = |side: Side| {
+        let found = gear.flanks.iter().find(|flank| flank.tooth == number && flank.side == side);
+        Section::new(side.name(), format!("{} flank", side.name()))
+            .entries(teeth::pitch(&gear.inspection, number, side))
+            .entries(teeth::flank(found))
     };
-    let thickness = gear.inspection.thickness.get(row).copied().flatten();
-    let mm = |value: Option<f64>, definition: &'static str| Quantity::number_or(value, "mm", definition, NOT_CROSSED);
     Section::new(format!("tooth_{number:02}"), format!("tooth {number}"))
-        .with("thickness_arc", mm(thickness.map(|t| t.arc_mm), "tooth thickness along the pitch curve"))
-        .with(
-            "thickness_chord",
-            mm(thickness.map(|t| t.chord_mm), "tooth thickness straight between its crossings with the pitch curve"),
-        )
-        .part(side("left", 0))
-        .part(side("right", 1))
+        .entries(teeth::tooth(&gear.inspection, number))
+        .part(flank(Side::Left))
+        .part(flank(Side::Right))
 }

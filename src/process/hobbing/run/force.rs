@@ -2,25 +2,30 @@
 //! `tables/hob_force_over_time.csv`.
 
 use super::load::labels;
-use crate::findings::{Datum, Place, Quantity, Section, Table, TableColumn};
+use crate::findings::quantities::blank::OPERATION;
+use crate::findings::quantities::cutting::{FORCE_PER_AREA, FORCE_PER_LENGTH, IDLE, LARGEST_FORCE};
+use crate::findings::{Place, QuantityRow, Section, Table};
 use crate::material::CuttingForce;
 use crate::output::bar_chart::{BarChart, BarSeries};
 use crate::output::line_chart::{LineChart, LineSeries, Panel};
 use crate::process::hobbing::measure::hob_force::{OperationForce, PassForce, ToothForce};
+use crate::process::hobbing::quantities::{
+    ACCURACY, FORCE, HOB_TOOTH, HOB_TURN, LARGEST_EDGE, LARGEST_POWER, LARGEST_SECTION, LAW, MEAN_EDGE, MEAN_FORCE,
+    MEAN_POWER, NOTHING, TIME, WORK,
+};
 use crate::process::hobbing::{HobCutter, HobbedBlank, HobbingJob};
 
 /// How the force of a tooth is defined.
-const LAW: &str = "K_c times the section of the chip in the rake face plus K_ce times the length of edge in engagement \
+const LAW_OF_FORCE: &str = "K_c times the section of the chip in the rake face plus K_ce times the length of edge in engagement \
     across its motion; means over the travel through a slice of the blank, referred to the hob's tip: moment about the \
     hob's axis over the tip's radius";
 /// How far rays know it.
-const ACCURACY: &str = "of one slice: the length of edge is at most sqrt(2) ray distances off for each stretch of edge \
+const ACCURACY_OF_RAYS: &str = "of one slice: the length of edge is at most sqrt(2) ray distances off for each stretch of edge \
     that rays of one direction count, and without bias in the mean; the section of a chip 3 mm long and 0.1 mm thick \
     is 17 % off, root mean square, by rays 0.3 mm apart and 5 % by rays 0.15 mm apart; largest values of many \
     slices are therefore too high rather than too low";
 /// Curves of single teeth on the chart over time.
 const SHOWN_TEETH: usize = 6;
-const NOTHING: &str = "the tooth takes nothing";
 /// N mm in a joule, and W in N mm/s.
 const NMM_PER_J: f64 = 1e3;
 
@@ -106,154 +111,80 @@ pub fn findings(job: &HobbingJob, forces: &[OperationForce]) -> Option<Section> 
     let CuttingForce { per_area_n_per_mm2, per_length_n_per_mm } = job.material?;
     let names = job.operations.iter().map(|operation| operation.spec.name.as_str());
     let operations = names.zip(forces).map(|(name, force)| of_operation(job, name, force));
-    Some(
-        Section::new("hob_force", "Cutting forces of the hob's teeth")
-            .with("law", Quantity::text(LAW, "how the cutting force of a hob tooth is defined"))
-            .with("accuracy", Quantity::text(ACCURACY, "how far the blank's rays know forces"))
-            .with(
-                "force_per_area",
-                Quantity::number(per_area_n_per_mm2, "N/mm^2", "K_c of the material: cutting force per area of chip"),
-            )
-            .with(
-                "force_per_length",
-                Quantity::number(
-                    per_length_n_per_mm,
-                    "N/mm",
-                    "K_ce of the material: cutting force per length of edge that a chip of no thickness would need",
-                ),
-            )
-            .table(by_tooth(job, forces))
-            .table(by_pass(job, forces))
-            .part(Section::new("operations", "By operation").parts(operations)),
-    )
+    let section = FORCE
+        .section([
+            LAW.of(LAW_OF_FORCE),
+            ACCURACY.of(ACCURACY_OF_RAYS),
+            FORCE_PER_AREA.of(per_area_n_per_mm2),
+            FORCE_PER_LENGTH.of(per_length_n_per_mm),
+        ])
+        .table(by_tooth(job, forces))
+        .table(by_pass(job, forces))
+        .part(Section::new("operations", "By operation").parts(operations));
+    Some(section)
 }
 
 fn of_operation(job: &HobbingJob, name: &str, force: &OperationForce) -> Section {
     let labels = labels(job);
-    let nothing = "the operation takes nothing";
-    let largest = |unit: &'static str, definition: &'static str, value: &dyn Fn(&PassForce) -> f64| {
-        let Some(pass) = force.peak(value) else { return Quantity::undefined(unit, definition, nothing) };
+    let largest = |row: &QuantityRow, value: fn(&PassForce) -> f64| {
+        let Some(pass) = force.peak(value) else { return row.none(NOTHING) };
         let place = Place::default()
             .and("time_s", pass.time_s)
             .and("hob_turn", pass.turn.max(0) as u64)
             .and("hob_tooth", labels[pass.tooth].clone());
-        Quantity::number(value(pass), unit, definition).at(place)
+        row.of(value(pass)).at(place)
+    };
+    let largest_n = match force.peak(|pass| pass.peak_n) {
+        Some(_) => largest(&LARGEST_FORCE, |pass| pass.peak_n),
+        None => LARGEST_FORCE.none(IDLE),
     };
     let travel_mm: f64 = force.teeth.iter().map(|tooth| tooth.travel_mm).sum();
-    let mean_n = (travel_mm > 0.0).then(|| force.work_nmm() / travel_mm);
-    Section::new(name, format!("Operation {name}"))
-        .shown(
-            "largest_force",
-            "largest force of a tooth",
-            largest("N", "largest cutting force of a hob tooth, referred to the tip", &|pass| pass.peak_n),
-        )
-        .shown(
-            "mean_force",
-            "mean force of a tooth",
-            Quantity::number_or(
-                mean_n,
-                "N",
-                "work of all hob teeth over their travel in the cut: mean force of a cutting tooth, referred to the \
-                 tip",
-                nothing,
-            ),
-        )
-        .with(
-            "largest_section",
-            largest("mm^2", "largest section of a chip in the rake face, referred to the tip", &|pass| {
-                pass.section_mm2
-            }),
-        )
-        .with(
-            "largest_engaged_edge",
-            largest(
-                "mm",
-                "largest length of edge of a hob tooth that takes material at once, across its motion, referred to the \
-                tip",
-                &|pass| pass.edge_mm,
-            ),
-        )
-        .shown(
-            "largest_power",
-            "largest power of a tooth",
-            largest("W", "largest cutting force of a pass times the speed of the hob's tip in it", &|pass| {
-                pass.power_nmm_per_s() / NMM_PER_J
-            }),
-        )
-        .with(
-            "mean_power",
-            Quantity::number(
-                force.work_nmm() / force.duration_s / NMM_PER_J,
-                "W",
-                "work of all hob teeth over the time of the operation, approach, overrun and idle travel included",
-            ),
-        )
-        .with("work", Quantity::number(force.work_nmm() / NMM_PER_J, "J", "work of all hob teeth"))
+    Section::new(name, format!("Operation {name}")).entries([
+        largest_n.shown(),
+        MEAN_FORCE.of_or((travel_mm > 0.0).then(|| force.work_nmm() / travel_mm), NOTHING),
+        largest(&LARGEST_SECTION, |pass| pass.section_mm2),
+        largest(&LARGEST_EDGE, |pass| pass.edge_mm),
+        largest(&LARGEST_POWER, |pass| pass.power_nmm_per_s() / NMM_PER_J),
+        MEAN_POWER.of(force.work_nmm() / force.duration_s / NMM_PER_J),
+        WORK.of(force.work_nmm() / NMM_PER_J),
+    ])
 }
 
 /// All operations, tooth by tooth.
 fn by_tooth(job: &HobbingJob, forces: &[OperationForce]) -> Table {
-    let missing = "no finite number was computed";
-    let number = |key, unit, definition| TableColumn::new(key, unit, definition).or(missing);
-    let columns = vec![
-        TableColumn::words("operation", "operation"),
-        TableColumn::words("hob_tooth", "hob tooth along the thread, from the entering end"),
-        number("largest_force", "N", "its largest cutting force, referred to the tip"),
-        TableColumn::new("mean_force", "N", "its mean cutting force over its travel in the cut, referred to the tip")
-            .or(NOTHING),
-        number("largest_section", "mm^2", "its largest section of a chip"),
-        number("largest_engaged_edge", "mm", "largest length of its edge that takes material at once"),
-        number("mean_engaged_edge", "mm", "mean length of its edge that takes material, over its travel in the cut"),
-        number("largest_power", "W", "its largest cutting force in a pass times the speed of the tip"),
-        number("work", "J", "its work"),
-    ];
     let labels = labels(job);
-    let rows = job.operations.iter().zip(forces).flat_map(|(operation, force)| {
-        force.teeth.iter().zip(&labels).map(|(tooth, label)| {
-            vec![
-                Datum::from(operation.spec.name.as_str()),
-                label.as_str().into(),
-                tooth.peak_n.into(),
-                tooth.mean_n().into(),
-                tooth.section_mm2.into(),
-                tooth.edge_mm.into(),
-                tooth.mean_edge_mm.into(),
-                (tooth.power_nmm_per_s / NMM_PER_J).into(),
-                (tooth.work_nmm / NMM_PER_J).into(),
-            ]
-        })
+    let teeth = job.operations.iter().zip(forces).flat_map(|(operation, force)| {
+        force.teeth.iter().zip(&labels).map(|(tooth, label)| (operation.spec.name.as_str(), label.as_str(), tooth))
     });
-    Table::new("all_teeth", "Force by operation and hob tooth", columns).with_rows(rows).in_file("hob_force")
+    Table::over("all_teeth", "Force by operation and hob tooth", teeth)
+        .column(&OPERATION, |&(operation, ..)| operation)
+        .column(&HOB_TOOTH, |&(_, label, _)| label)
+        .column(&LARGEST_FORCE, |(.., tooth)| tooth.peak_n)
+        .column(&MEAN_FORCE, |(.., tooth)| tooth.mean_n())
+        .column(&LARGEST_SECTION, |(.., tooth)| tooth.section_mm2)
+        .column(&LARGEST_EDGE, |(.., tooth)| tooth.edge_mm)
+        .column(&MEAN_EDGE, |(.., tooth)| tooth.mean_edge_mm)
+        .column(&LARGEST_POWER, |(.., tooth)| tooth.power_nmm_per_s / NMM_PER_J)
+        .column(&WORK, |(.., tooth)| tooth.work_nmm / NMM_PER_J)
+        .in_file("hob_force")
 }
 
 /// All operations, pass by pass: thousands of rows, in the file alone.
 fn by_pass(job: &HobbingJob, forces: &[OperationForce]) -> Table {
-    let missing = "no finite number was computed";
-    let number = |key, unit, definition| TableColumn::new(key, unit, definition).or(missing);
-    let columns = vec![
-        TableColumn::words("operation", "operation"),
-        number("time", "s", "when the hob tooth points to the work"),
-        number("hob_turn", "1", "turn of the hob"),
-        TableColumn::words("hob_tooth", "hob tooth along the thread, from the entering end"),
-        number("largest_force", "N", "largest cutting force in the pass, referred to the tip"),
-        number("mean_force", "N", "mean cutting force over the travel in the cut, referred to the tip"),
-        number("largest_section", "mm^2", "largest section of the chip"),
-        number("largest_engaged_edge", "mm", "largest length of edge that takes material at once"),
-    ];
     let labels = labels(job);
-    let rows = job.operations.iter().zip(forces).flat_map(|(operation, force)| {
-        force.passes.iter().map(|pass| {
-            vec![
-                Datum::from(operation.spec.name.as_str()),
-                pass.time_s.into(),
-                (pass.turn as f64).into(),
-                labels[pass.tooth].as_str().into(),
-                pass.peak_n.into(),
-                pass.mean_n().into(),
-                pass.section_mm2.into(),
-                pass.edge_mm.into(),
-            ]
-        })
-    });
-    Table::new("over_time", "Force over time", columns).with_rows(rows).rows_in_file("hob_force_over_time")
+    let passes = job
+        .operations
+        .iter()
+        .zip(forces)
+        .flat_map(|(operation, force)| force.passes.iter().map(|pass| (operation.spec.name.as_str(), pass)));
+    Table::over("over_time", "Force over time", passes)
+        .column(&OPERATION, |&(operation, _)| operation)
+        .column(&TIME, |(_, pass)| pass.time_s)
+        .column(&HOB_TURN, |(_, pass)| pass.turn as f64)
+        .column(&HOB_TOOTH, |(_, pass)| labels[pass.tooth].as_str())
+        .column(&LARGEST_FORCE, |(_, pass)| pass.peak_n)
+        .column(&MEAN_FORCE, |(_, pass)| pass.mean_n())
+        .column(&LARGEST_SECTION, |(_, pass)| pass.section_mm2)
+        .column(&LARGEST_EDGE, |(_, pass)| pass.edge_mm)
+        .rows_in_file("hob_force_over_time")
 }

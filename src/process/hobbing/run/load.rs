@@ -1,12 +1,19 @@
 //! The hob's load in a run: bar charts by tooth, and its findings with `tables/hob_load.csv`.
 
-use crate::findings::{Datum, Quantity, Section, Table, TableColumn};
+use crate::findings::quantities::blank::OPERATION;
+use crate::findings::quantities::cutting::{IDLE, THICKEST_CHIP};
+use crate::findings::{Section, Table};
 use crate::output::bar_chart::{BarChart, BarSeries};
 use crate::process::hobbing::measure::hob_load::{OperationLoad, ToothLoad};
+use crate::process::hobbing::quantities::{
+    ASSUMPTION, AXIAL, HARDEST_TOOTH, HOB_TOOTH, LARGEST_VOLUME, LENGTH_OF_TEETH, LOAD, LOAD_VOLUME, NOTHING,
+    PEAK_TO_MEAN, TEETH_IN_USE, THICKEST_OF_TOOTH, TOOTH_PASSES, TOOTH_THICKNESS, TRAVEL, VOLUME_SHARE,
+};
 use crate::process::hobbing::{HobCutter, HobbedBlank, HobbingJob};
+use gearcut_core::units::UM_PER_MM;
 
 /// What the load rests on.
-const ASSUMPTION: &str = "volume that a tooth takes, as a measure of the work that it does with the specific \
+const ASSUMPTION_OF_LOAD: &str = "volume that a tooth takes, as a measure of the work that it does with the specific \
     cutting force the same everywhere; wear follows heat and chip thickness besides, so this is no life";
 
 /// One chart: its file, its title, what it shows, its unit and a tooth's value.
@@ -54,40 +61,20 @@ pub fn labels(job: &HobbingJob) -> Vec<String> {
 
 /// All operations in one table, its rows in the file alone: the operations' own tables have most of it.
 fn table(job: &HobbingJob, loads: &[OperationLoad]) -> Table {
-    let missing = "no finite number was computed";
-    let columns = vec![
-        TableColumn::words("operation", "operation"),
-        TableColumn::words("hob_tooth", "hob tooth along the thread, from the entering end"),
-        TableColumn::new("axial", "mm", "its place along the hob's axis"),
-        TableColumn::new("volume", "mm^3", "volume that it takes").or(missing),
-        TableColumn::new("volume_share", "1", "its share of the operation's volume").or("the operation takes nothing"),
-        TableColumn::new("largest_thickness", "mm", "its largest uncut chip thickness").or(missing),
-        TableColumn::new(
-            "travel",
-            "mm",
-            "travel of its tip through the work while any part of its edge takes material",
-        )
-        .or(missing),
-        TableColumn::new("passes", "passes", "passes that took anything"),
-    ];
     let labels = labels(job);
-    let rows = job.operations.iter().zip(loads).flat_map(|(operation, of_operation)| {
-        let whole_mm3 = of_operation.volume_mm3();
-        let labels = &labels;
-        of_operation.teeth.iter().enumerate().map(move |(index, tooth)| {
-            vec![
-                Datum::from(operation.spec.name.as_str()),
-                labels[index].as_str().into(),
-                job.hob.teeth[index].axial_mm.into(),
-                tooth.volume_mm3.into(),
-                (tooth.volume_mm3 / whole_mm3).into(),
-                tooth.thickness_mm.into(),
-                tooth.travel_mm.into(),
-                tooth.passes.into(),
-            ]
-        })
+    let teeth = job.operations.iter().zip(loads).flat_map(|(operation, of)| {
+        of.teeth.iter().enumerate().map(move |(index, tooth)| (operation.spec.name.as_str(), of, index, tooth))
     });
-    Table::new("all_teeth", "Load by operation and hob tooth", columns).with_rows(rows).rows_in_file("hob_load")
+    Table::over("all_teeth", "Load by operation and hob tooth", teeth)
+        .column(&OPERATION, |&(operation, ..)| operation)
+        .column(&HOB_TOOTH, |&(_, _, index, _)| labels[index].as_str())
+        .column(&AXIAL, |&(_, _, index, _)| job.hob.teeth[index].axial_mm)
+        .column(&LOAD_VOLUME, |(.., tooth)| tooth.volume_mm3)
+        .column(&VOLUME_SHARE, |(_, of, _, tooth)| tooth.volume_mm3 / of.volume_mm3())
+        .column(&TOOTH_THICKNESS, |(.., tooth)| tooth.thickness_mm)
+        .column(&TRAVEL, |(.., tooth)| tooth.travel_mm)
+        .column(&TOOTH_PASSES, |(.., tooth)| tooth.passes)
+        .rows_in_file("hob_load")
 }
 
 /// What the hob's teeth did over the whole process.
@@ -95,91 +82,31 @@ pub fn findings(job: &HobbingJob, loads: &[OperationLoad]) -> Section {
     let gear = &job.scene.gear;
     let length_mm = f64::from(gear.teeth) * gear.face_width_mm / gear.helix_angle_rad.cos();
     let operations = loads.iter().enumerate().map(|(index, load)| of_operation(job, load, index));
-    Section::new("hob_load", "Work of the hob's teeth")
-        .with("assumption", Quantity::text(ASSUMPTION, "what the load rests on"))
-        .with(
-            "length_of_teeth",
-            Quantity::number(
-                length_mm,
-                "mm",
-                "length of all teeth of the gear, z b / cos(beta): by it workshops count how long a hob lasts (Liu et \
-                 al. 2015, Eq. 22, for one gear)",
-            ),
-        )
+    LOAD.section([ASSUMPTION.of(ASSUMPTION_OF_LOAD), LENGTH_OF_TEETH.of(length_mm)])
         .table(table(job, loads))
         .part(Section::new("operations", "By operation").parts(operations))
 }
 
 fn of_operation(job: &HobbingJob, of: &OperationLoad, index: usize) -> Section {
     let labels = labels(job);
-    let nothing = "the operation takes nothing";
-    let tooth = |found: Option<usize>, definition: &'static str| {
-        found.map_or_else(
-            || Quantity::undefined("", definition, nothing),
-            |tooth| Quantity::text(labels[tooth].clone(), definition),
-        )
-    };
-    let number = |found: Option<f64>, unit: &'static str, definition: &'static str| {
-        Quantity::number_or(found, unit, definition, nothing)
-    };
     let hardest = of.peak(|load| load.volume_mm3);
     let thickest = of.peak(|load| load.thickness_mm);
-    let travel_mm: f64 = of.teeth.iter().map(|load| load.travel_mm).sum();
-    let missing = "no finite number was computed";
-    let bars = |key, unit, definition| TableColumn::new(key, unit, definition).or(missing).as_bars();
-    let columns = vec![
-        TableColumn::words("tooth", "hob tooth along the thread, from the entering end"),
-        bars("volume", "mm^3", "volume that it takes"),
-        bars("thickness", "mm", "its largest uncut chip thickness"),
-        bars("travel", "mm", "travel of its tip through the work while any part of its edge takes material"),
-    ];
-    let rows = of.teeth.iter().zip(&labels).map(|(load, label)| {
-        vec![Datum::from(label.as_str()), load.volume_mm3.into(), load.thickness_mm.into(), load.travel_mm.into()]
-    });
     let name = &job.operations[index].spec.name;
+    let teeth = Table::over("teeth", "Load by hob tooth", of.teeth.iter().zip(&labels))
+        .column(&HOB_TOOTH, |(_, label)| label.as_str())
+        .column(&LOAD_VOLUME, |(load, _)| load.volume_mm3)
+        .column(&TOOTH_THICKNESS, |(load, _)| load.thickness_mm)
+        .column(&TRAVEL, |(load, _)| load.travel_mm);
     Section::new(name, format!("Operation {name}"))
-        .with("volume", number(Some(of.volume_mm3()), "mm^3", "volume that all hob teeth take together"))
-        .shown(
-            "largest_volume",
-            "most of a tooth",
-            number(hardest.map(|t| of.teeth[t].volume_mm3), "mm^3", "volume of the hob tooth that takes the most"),
-        )
-        .shown("hardest_working_tooth", "tooth", tooth(hardest, "number of the hob tooth that takes the most"))
-        .shown(
-            "teeth_in_use",
-            "teeth in use",
-            Quantity::count(
-                of.in_use() as u64,
-                "teeth",
-                "hob teeth that take at least a hundredth of what the hardest working one takes",
-            ),
-        )
-        .shown(
-            "peak_to_mean",
-            "peak to mean",
-            number(
-                of.peak_to_mean(),
-                "1",
-                "largest volume over the mean of all teeth of the hob; 1 where all work alike",
-            ),
-        )
-        .shown(
-            "largest_thickness",
-            "thickest chip",
-            number(
-                thickest.map(|t| of.teeth[t].thickness_mm),
-                "mm",
-                "largest uncut chip thickness, across the swept surface of the edge",
-            ),
-        )
-        .with("thickest_chip_of_tooth", tooth(thickest, "hob tooth that takes the thickest chip"))
-        .with(
-            "travel",
-            Quantity::number(
-                travel_mm,
-                "mm",
-                "travel of the tips through the work while any part of their edge takes material, all teeth together",
-            ),
-        )
-        .table(Table::new("teeth", "Load by hob tooth", columns).with_rows(rows))
+        .entries([
+            LOAD_VOLUME.of(of.volume_mm3()),
+            LARGEST_VOLUME.of_or(hardest.map(|t| of.teeth[t].volume_mm3), NOTHING),
+            HARDEST_TOOTH.of_or(hardest.map(|t| labels[t].as_str()), NOTHING),
+            TEETH_IN_USE.of(of.in_use()),
+            PEAK_TO_MEAN.of_or(of.peak_to_mean(), NOTHING),
+            THICKEST_CHIP.of_or(thickest.map(|t| of.teeth[t].thickness_mm * UM_PER_MM), IDLE).shown(),
+            THICKEST_OF_TOOTH.of_or(thickest.map(|t| labels[t].as_str()), NOTHING),
+            TRAVEL.of(of.teeth.iter().map(|load| load.travel_mm).sum::<f64>()),
+        ])
+        .table(teeth)
 }

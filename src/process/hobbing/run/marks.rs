@@ -1,10 +1,12 @@
 //! The lattice of cutting marks of the texture windows' flanks, and all its steps side by side in `tables/marks.csv`.
 
-use crate::findings::{Datum, Quantity, Section, Table, TableColumn};
+use crate::findings::quantities::teeth::{FLANK, TOOTH};
+use crate::findings::{Quantity, QuantityRow, Section, Table};
 use crate::process::hobbing::HobCutter;
 use crate::process::hobbing::linkage::marks::MarkStep;
 use crate::process::hobbing::measure::marks;
 use crate::process::hobbing::measure::marks::{MarkLattice, between_rad};
+use crate::process::hobbing::quantities::{AXIAL_STEP, LENGTH, MARKS, ROLL, STEP, TO_AXIS, TO_TRACE};
 use crate::steps::Tools;
 use crate::texture::SampledWindow;
 use gearcut_core::error::Result;
@@ -42,8 +44,7 @@ fn difference(seen: &MarkStep, known: &MarkStep) -> [f64; 3] {
 
 /// The lattices, flank by flank.
 pub fn findings(lattices: &[MarkLattice]) -> Section {
-    let all = Section::new("marks", "Cutting marks: steps from mark to mark");
-    let all = lattices.iter().map(lattice).fold(all, |all, flank| {
+    let all = lattices.iter().map(lattice).fold(MARKS.section([]), |all, flank| {
         // Windows may return to a flank; its marks are the same.
         if all.is_free(&flank.key) { all.part(flank) } else { all }
     });
@@ -51,39 +52,33 @@ pub fn findings(lattices: &[MarkLattice]) -> Section {
     all.table(steps)
 }
 
-/// Columns of the table of all steps, and where their values stand in the section of a step.
-const COLUMNS: [(&str, &str, &str); 11] = [
-    ("kinematic_roll", "mm", "kinematic.roll"),
-    ("kinematic_axial", "mm", "kinematic.axial"),
-    ("kinematic_length", "mm", "kinematic.length"),
-    ("kinematic_to_trace", "deg", "kinematic.angle_to_trace"),
-    ("kinematic_to_axis", "deg", "kinematic.angle_to_axis"),
-    ("surface_length", "mm", "surface.length"),
-    ("surface_to_trace", "deg", "surface.angle_to_trace"),
-    ("surface_to_axis", "deg", "surface.angle_to_axis"),
-    ("length_difference", "mm", "difference.length"),
-    ("trace_difference", "deg", "difference.angle_to_trace"),
-    ("axis_difference", "deg", "difference.angle_to_axis"),
+/// Columns of the table of all steps: what begins their keys, the section of a step, the row.
+static COLUMNS: [(&str, &QuantityRow); 11] = [
+    ("kinematic", &ROLL),
+    ("kinematic", &AXIAL_STEP),
+    ("kinematic", &LENGTH),
+    ("kinematic", &TO_TRACE),
+    ("kinematic", &TO_AXIS),
+    ("surface", &LENGTH),
+    ("surface", &TO_TRACE),
+    ("surface", &TO_AXIS),
+    ("difference", &LENGTH),
+    ("difference", &TO_TRACE),
+    ("difference", &TO_AXIS),
 ];
 
-/// All steps side by side; the rows stand in the file alone, since their values have sections.
+/// All steps side by side; the rows are in the file alone, since their values have sections.
 fn steps(flanks: &[Section]) -> Table {
-    let mut columns = vec![
-        TableColumn::new("tooth", "1", "number of the tooth, from 1"),
-        TableColumn::words("flank", "flank: left or right"),
-        TableColumn::new("step", "1", "shortest step, then the next one"),
-    ];
-    columns.extend(
-        COLUMNS.map(|(key, unit, path)| TableColumn::new(key, unit, path).or("the section of its step tells why")),
-    );
-    let rows = flanks.iter().flat_map(|flank| {
-        let name = |key: &str| flank.quantity(key).map_or(Datum::Undefined, Datum::from);
-        (1_u32..).zip(&flank.sections).map(move |(number, step)| {
-            let values = COLUMNS.map(|(.., path)| Datum::from(step.number(path)));
-            [name("tooth"), name("flank"), number.into()].into_iter().chain(values).collect()
-        })
+    let steps = flanks.iter().flat_map(|flank| (1_u32..).zip(&flank.sections).map(move |of| (flank, of)));
+    let table = Table::over("steps", "Steps of all flanks", steps)
+        .column(&TOOTH, |(flank, _)| flank.of(&TOOTH).map(Quantity::datum).cloned())
+        .column(&FLANK, |(flank, _)| flank.text(&FLANK))
+        .column(&STEP, |&(_, (number, _))| number);
+    let table = COLUMNS.iter().fold(table, |table, &(source, row)| {
+        let key = format!("{source}_{}", row.key);
+        table.keyed(key, row, move |(_, (_, step))| step.find(source).and_then(|of| of.value(row)))
     });
-    Table::new("steps", "Steps of all flanks", columns).with_rows(rows).rows_in_file("marks")
+    table.rows_in_file("marks")
 }
 
 fn lattice(lattice: &MarkLattice) -> Section {
@@ -93,60 +88,26 @@ fn lattice(lattice: &MarkLattice) -> Section {
         let known = lattice.kinematic[i];
         let seen = lattice.surface.as_ref().ok().map(|steps| steps[i]);
         let apart = seen.map(|seen| difference(&seen, &known));
-        let less = |k: usize, unit: &'static str, definition: &'static str| {
-            Quantity::number_or(apart.map(|d| d[k]), unit, definition, why)
-        };
-        let difference = Section::new("difference", "surface less kinematics")
-            .with("length", less(0, "mm", "length on the surface less that of the kinematics"))
-            .with("angle_to_trace", less(1, "deg", "angle between both steps' directions against the tooth trace"))
-            .with(
-                "angle_to_axis",
-                less(2, "deg", "angle to the gear's axis on the surface less that of the kinematics"),
-            );
+        let [roll_mm, axial_mm] = [known.step_mm.x, known.step_mm.y];
         Section::new(format!("step_{}", i + 1), format!("step {}", i + 1))
             .part(
-                step("kinematic", Some(&known), "from the machine's motion", "")
-                    .with(
-                        "roll",
-                        Quantity::number(known.step_mm.x, "mm", "roll of the step, from the machine's motion"),
-                    )
-                    .with(
-                        "axial",
-                        Quantity::number(
-                            known.step_mm.y,
-                            "mm",
-                            "the step along the gear's axis, from the machine's motion",
-                        ),
-                    ),
+                step("kinematic", "from the machine's motion", Some(values(&known)), "")
+                    .entries([ROLL.of(roll_mm), AXIAL_STEP.of(axial_mm)]),
             )
-            .part(step("surface", seen.as_ref(), "from the autocorrelation of the heights as cut", why))
-            .part(difference)
+            .part(step("surface", "from the autocorrelation of the heights as cut", seen.as_ref().map(values), why))
+            .part(step("difference", "surface less kinematics", apart, why))
     });
     Section::new(format!("tooth_{tooth:02}_{side}"), format!("tooth {tooth} {side}"))
-        .with("tooth", Quantity::count(tooth.into(), "1", "tooth, from 1"))
-        .with("flank", Quantity::text(side, "flank: left or right"))
+        .entries([TOOTH.of(tooth), FLANK.of(side)])
         .parts(steps)
 }
 
-fn step(key: &str, step: Option<&MarkStep>, source: &str, why: &str) -> Section {
-    let number = |value: fn(&MarkStep) -> f64, unit: &'static str, definition: String| {
-        Quantity::number_or(step.map(value), unit, definition, why)
-    };
-    Section::new(key, source)
-        .with(
-            "length",
-            number(
-                MarkStep::length_mm,
-                "mm",
-                format!("length on the flank at the pitch line of a shortest step from mark to mark, {source}"),
-            ),
-        )
-        .with(
-            "angle_to_trace",
-            number(|s| s.to_trace_rad().to_degrees(), "deg", format!("its angle to the tooth trace, {source}")),
-        )
-        .with(
-            "angle_to_axis",
-            number(|s| s.to_axis_rad.to_degrees(), "deg", format!("its angle to the gear's axis, {source}")),
-        )
+/// Length (mm), angles to the trace and to the axis (deg) of a step.
+fn values(step: &MarkStep) -> [f64; 3] {
+    [step.length_mm(), step.to_trace_rad().to_degrees(), step.to_axis_rad.to_degrees()]
+}
+
+fn step(key: &str, source: &str, values: Option<[f64; 3]>, why: &str) -> Section {
+    let entry = |row: &QuantityRow, index: usize| row.of_or(values.map(|of| of[index]), why.to_owned());
+    Section::new(key, source).entries([entry(&LENGTH, 0), entry(&TO_TRACE, 1), entry(&TO_AXIS, 2)])
 }

@@ -1,10 +1,15 @@
 //! Points on five curves beside the pitch curve, as cut against as meant: histogram, findings, and
 //! `tables/offset_curves.csv`, which alone has its rows: five or more for every flank.
 
-use crate::findings::{Datum, Quantity, Section, Table, TableColumn};
+use crate::findings::quantities::teeth::{FLANK, TOOTH};
+use crate::findings::{Section, Table};
 use crate::output::line_chart::{LineChart, LineSeries, Panel};
 use crate::process::hobbing::HobbedGear;
 use crate::process::hobbing::measure::offset_curves::{CurvePoint, ErrorSpread};
+use crate::process::hobbing::quantities::{
+    COUNT, CROSSED, CURVE_OFFSET, CUT_X, CUT_Y, ERROR_ALONG, ERROR_X, ERROR_Y, FREQUENCY, INTERVAL, MEAN_ERROR, MEDIAN,
+    ON_FILLETS, POINTS, SIGMA, TARGET_X, TARGET_Y, TOO_FEW,
+};
 use gearcut_core::units::UM_PER_MM;
 
 /// Points of the curve of a normal distribution.
@@ -16,8 +21,6 @@ pub struct Errors {
     pub key: &'static str,
     /// Name in charts.
     pub name: &'static str,
-    /// What it is.
-    definition: &'static str,
     /// Spread; `None` where fewer than two points were cut.
     pub spread: Option<ErrorSpread>,
 }
@@ -29,24 +32,9 @@ pub fn errors(gear: &HobbedGear) -> [Errors; 3] {
         ErrorSpread::of(&all)
     };
     [
-        Errors {
-            key: "error_x",
-            name: "δx",
-            definition: "x of the gear frame, as cut less as meant",
-            spread: um(&|point| point.error_mm().map(|e| e.x)),
-        },
-        Errors {
-            key: "error_y",
-            name: "δy",
-            definition: "y of the gear frame, as cut less as meant",
-            spread: um(&|point| point.error_mm().map(|e| e.y)),
-        },
-        Errors {
-            key: "error_along_curve",
-            name: "along the curve",
-            definition: "distance along the offset curve, positive where material is left",
-            spread: um(&|point| point.along_mm),
-        },
+        Errors { key: "error_x", name: "δx", spread: um(&|point| point.error_mm().map(|e| e.x)) },
+        Errors { key: "error_y", name: "δy", spread: um(&|point| point.error_mm().map(|e| e.y)) },
+        Errors { key: "error_along_curve", name: "along the curve", spread: um(&|point| point.along_mm) },
     ]
 }
 
@@ -99,80 +87,41 @@ fn panel(errors: &Errors) -> Option<Panel> {
 
 /// Counts of points and the spreads of their errors.
 pub fn findings(gear: &HobbedGear) -> Section {
-    let count = points(gear).count() as u64;
-    let fillets = points(gear).filter(|(.., point)| point.on_fillet()).count() as u64;
-    Section::new("offset_curves", "Points on five curves")
-        .with(
-            "points",
-            Quantity::count(
-                count,
-                "points",
-                "crossings of five curves beside the pitch curve with all flanks, middle of the face",
-            ),
-        )
-        .with(
-            "points_on_fillets",
-            Quantity::count(fillets, "points", "those whose target the hob's tip corner has left"),
-        )
+    let fillets = points(gear).filter(|(.., point)| point.on_fillet()).count();
+    POINTS
+        .section([COUNT.of(points(gear).count()), ON_FILLETS.of(fillets)])
         .table(all_points(gear))
         .parts(errors(gear).iter().map(spread))
 }
 
 fn all_points(gear: &HobbedGear) -> Table {
-    let not_cut = "the flank was not cut there";
-    let new = |key, unit, definition| TableColumn::new(key, unit, definition);
-    let columns = vec![
-        new("tooth", "1", "number of the tooth, from 1"),
-        TableColumn::words("flank", "flank: left or right"),
-        new("curve_offset", "mm", "distance of the curve from the pitch curve, positive outwards"),
-        TableColumn::words("target", "what the curve crosses there: flank or fillet"),
-        new("target_x", "mm", "x of the gear frame, as meant"),
-        new("target_y", "mm", "y of the gear frame, as meant"),
-        new("x", "mm", "x of the gear frame, as cut").or(not_cut),
-        new("y", "mm", "y of the gear frame, as cut").or(not_cut),
-        new("error_x", "um", "x as cut less as meant").or(not_cut),
-        new("error_y", "um", "y as cut less as meant").or(not_cut),
-        new("error_along_curve", "um", "distance along the offset curve, positive where material is left").or(not_cut),
-    ];
-    let um = |value: Option<f64>| Datum::from(value.map(|mm| mm * UM_PER_MM));
-    let rows = points(gear).map(|(tooth, side, point)| {
-        vec![
-            tooth.into(),
-            side.into(),
-            point.offset_mm.into(),
-            if point.on_fillet() { "fillet" } else { "flank" }.into(),
-            point.target.point_mm.x.into(),
-            point.target.point_mm.y.into(),
-            point.cut_mm.map(|p| p.x).into(),
-            point.cut_mm.map(|p| p.y).into(),
-            um(point.error_mm().map(|e| e.x)),
-            um(point.error_mm().map(|e| e.y)),
-            um(point.along_mm),
-        ]
-    });
-    Table::new("all_points", "Points as meant and as cut", columns).with_rows(rows).rows_in_file("offset_curves")
+    let um = |value: Option<f64>| value.map(|mm| mm * UM_PER_MM);
+    Table::over("all_points", "Points as meant and as cut", points(gear))
+        .column(&TOOTH, |&(tooth, ..)| tooth)
+        .column(&FLANK, |&(_, side, _)| side)
+        .column(&CURVE_OFFSET, |(.., point)| point.offset_mm)
+        .column(&CROSSED, |(.., point)| if point.on_fillet() { "fillet" } else { "flank" })
+        .column(&TARGET_X, |(.., point)| point.target.point_mm.x)
+        .column(&TARGET_Y, |(.., point)| point.target.point_mm.y)
+        .column(&CUT_X, |(.., point)| point.cut_mm.map(|p| p.x))
+        .column(&CUT_Y, |(.., point)| point.cut_mm.map(|p| p.y))
+        .column(&ERROR_X, |(.., point)| um(point.error_mm().map(|e| e.x)))
+        .column(&ERROR_Y, |(.., point)| um(point.error_mm().map(|e| e.y)))
+        .column(&ERROR_ALONG, |(.., point)| um(point.along_mm))
+        .rows_in_file("offset_curves")
 }
 
 fn spread(errors: &Errors) -> Section {
     let spread = errors.spread.as_ref();
-    let number = |value: fn(&ErrorSpread) -> f64, definition: String| {
-        Quantity::number_or(spread.map(value), "um", definition, "fewer than two points were cut")
-    };
-    let of = errors.definition;
-    let columns = vec![
-        TableColumn::new("median", "um", "middle of an interval of the error"),
-        TableColumn::new("frequency", "points", "points whose error lies in it"),
-    ];
-    let rows = spread.into_iter().flat_map(|spread| {
-        let rows = spread.medians_um().into_iter().zip(&spread.frequencies);
-        rows.map(|(median, &frequency)| vec![Datum::from(median), Datum::from(frequency as u64)]).collect::<Vec<_>>()
-    });
+    let counted = spread.into_iter().flat_map(|spread| spread.medians_um().into_iter().zip(&spread.frequencies));
+    let frequencies = Table::over("frequencies", "Frequencies of the errors", counted)
+        .column(&MEDIAN, |&(median_um, _)| median_um)
+        .column(&FREQUENCY, |&(_, &count)| count);
     Section::new(errors.key, errors.key.replace('_', " "))
-        .with("mean", number(|s| s.mean_um, format!("mean error: {of}")))
-        .with("sigma", number(|s| s.sigma_um, format!("standard deviation of the errors about their mean: {of}")))
-        .with(
-            "interval",
-            number(|s| s.interval_um, "width of an interval; the middle one is centred on zero".to_owned()),
-        )
-        .table(Table::new("frequencies", "Frequencies of the errors", columns).with_rows(rows))
+        .entries([
+            MEAN_ERROR.of_or(spread.map(|of| of.mean_um), TOO_FEW),
+            SIGMA.of_or(spread.map(|of| of.sigma_um), TOO_FEW),
+            INTERVAL.of_or(spread.map(|of| of.interval_um), TOO_FEW),
+        ])
+        .table(frequencies)
 }

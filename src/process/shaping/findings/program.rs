@@ -4,7 +4,8 @@
 //! of warnings, and whether numbers that are known of the scene's own strokes hold for the gear that is cut.
 
 use crate::findings::notices::ProgramOff;
-use crate::findings::{Notice, Place, Quantity, Section};
+use crate::findings::quantities::program::{LARGEST_DISTANCE, PROGRAM};
+use crate::findings::{Notice, Place, QuantityRow, Section};
 use crate::measure::damage::gouge_mm;
 use crate::output::text::significant;
 use crate::process::shaping::ShapingJob;
@@ -13,6 +14,10 @@ use crate::process::shaping::gcode::Judgement;
 use crate::process::shaping::measure::GearReport;
 use crate::process::shaping::notices::{
     ProgramBack, ProgramBetween, ProgramForeign, ProgramMissing, ProgramSpeed, ProgramTwice,
+};
+use crate::process::shaping::quantities::{
+    DISTANCE_BETWEEN, DOUBLED_STROKES, MISSING_STROKES, SCENE_STROKES_PER_MINUTE, SHORT_OF_DRAWN_BACK, STROKES_OFF,
+    STROKES_PER_MINUTE,
 };
 use crate::steps::axes::AxesOfOperation as _;
 use gearcut_core::units::UM_PER_MM;
@@ -24,55 +29,22 @@ pub const NOT_WHOLE: &str = "a flank of the tooth is cut away";
 pub fn section(motion: &OperationAxes) -> Option<Section> {
     let judgement = motion.program()?;
     let Judgement { distance_mm, distance_at, between_mm, between_at, missing, doubled, off, .. } = judgement;
-    let count = |of: &[usize], definition: &'static str| {
-        let quantity = Quantity::count(of.len() as u64, "strokes", definition);
-        match of.first() {
-            Some(&first) => quantity.at(Place::default().and("stroke", first as u64)),
-            None => quantity,
-        }
+    let at = |stroke: f64| Place::default().and("stroke", stroke);
+    let count = |row: &QuantityRow, of: &[usize]| {
+        row.of(of.len()).at(of.first().map(|&first| Place::default().and("stroke", first as u64)))
     };
     let [program, scene] = judgement.strokes_per_minute;
-    let distance = "largest displacement of the cutter's edge in the work from the scene's own strokes";
-    let between = "largest displacement of the cutter's edge between two strokes from the straight way from the one to \
-                   the other; drawing back is none";
-    let short = "largest displacement of the cutter's edge while the ram returns through the face from where the scene \
-                 has it drawn back to; drawn back further is none";
-    let section = Section::new("program", "Program under test");
-    let section = match judgement.back {
-        Some(back) => section.with(
-            "short_of_drawn_back",
-            Quantity::number(UM_PER_MM * back.short_mm, "um", short).at(Place::default().and("stroke", back.at)),
-        ),
-        None => section,
-    };
-    Some(
-        section
-            .shown(
-                "largest_distance",
-                "off the scene's strokes",
-                Quantity::number(UM_PER_MM * distance_mm, "um", distance)
-                    .at(Place::default().and("stroke", *distance_at)),
-            )
-            .with(
-                "largest_distance_between_strokes",
-                Quantity::number(UM_PER_MM * between_mm, "um", between).at(Place::default().and("stroke", *between_at)),
-            )
-            .shown("missing_strokes", "missing", count(missing, "strokes of the scene that the program does not make"))
-            .shown("doubled_strokes", "made twice", count(doubled, "strokes of the program that repeat one before"))
-            .shown(
-                "strokes_off",
-                "none of the scene's",
-                count(off, "strokes of the program that are none of the scene's"),
-            )
-            .with(
-                "strokes_per_minute",
-                Quantity::number(program, "1/min", "S of the program: double strokes per minute"),
-            )
-            .with(
-                "asked_strokes_per_minute",
-                Quantity::number(scene, "1/min", "double strokes per minute of the scene"),
-            ),
-    )
+    let back = judgement.back.map(|back| SHORT_OF_DRAWN_BACK.of(UM_PER_MM * back.short_mm).at(at(back.at)));
+    let section = PROGRAM.section(back).entries([
+        LARGEST_DISTANCE.of(UM_PER_MM * distance_mm).at(at(*distance_at)),
+        DISTANCE_BETWEEN.of(UM_PER_MM * between_mm).at(at(*between_at)),
+        count(&MISSING_STROKES, missing),
+        count(&DOUBLED_STROKES, doubled),
+        count(&STROKES_OFF, off),
+        STROKES_PER_MINUTE.of(program),
+        SCENE_STROKES_PER_MINUTE.of(scene),
+    ]);
+    Some(section)
 }
 
 /// Whether what is known of the scene's own strokes holds for the gear that is cut: a reason where it does not.

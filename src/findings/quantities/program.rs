@@ -1,0 +1,17 @@
+//! Quantities of a program under test: how far it is off the scene's own motion, and what it leaves out.
+
+use crate::findings::rows;
+
+rows! {
+    /// A program under test.
+    PROGRAM: "program", "Program under test", "operations.<operation>.program";
+
+    LARGEST_DISTANCE: "largest_distance", "um",
+        "largest displacement of the tool in the work from the scene's own motion"
+        => titled("off the scene's motion"), shown();
+    MISSING_SHARE: "missing_share", "%", "share of the scene's motion that the program does not make"
+        => titled("missing"), shown();
+    SHARE_BEYOND: "share_beyond", "%", "motion beyond the ends of the scene's, as a share of it";
+    PROGRAM_TIME: "time", "s", "time of the program for the motion that both make";
+    SCENE_TIME: "scene_time", "s", "time of the scene for the motion that both make";
+}
