@@ -1,6 +1,6 @@
-//! Results of one process side by side: numbers with their differences, and bars tooth by tooth.
+//! Results side by side: numbers with their differences, and bars tooth by tooth.
 //!
-//! In: two to seven [`Findings`] of one process with the names to show them by; the others are compared with the first.
+//! In: two to seven [`Findings`] with the names to show them by; the others are compared with the first.
 //! Out: [`Comparison`], which prints itself and writes into a folder:
 //!
 //! | file | what |
@@ -15,8 +15,9 @@
 //! | `difference_allowance_b_minus_a.png` | the same of what the operation before leaves |
 //!
 //! Everything is read from the trees by path, whatever the process: what joins the tree joins the comparison. Results
-//! of different gears may be compared: what one of them lacks stays empty. Places are not compared. The terminal shows
-//! what changed most, and all of headline and summary where that is wanted.
+//! of different gears may be compared: what one of them lacks stays empty. Of results of different processes, such as a
+//! hobbed and a shaped gear of one drawing, the numbers are compared that two of them have, without charts. Places are
+//! not compared. The terminal shows what changed most, and all of headline and summary where that is wanted.
 
 mod charts;
 mod lines;
@@ -54,23 +55,18 @@ pub struct Compared {
 pub struct Comparison {
     results: Vec<Compared>,
     lines: Vec<Line>,
+    /// Whether they are of more than one process.
+    is_mixed: bool,
 }
 
 impl Comparison {
     /// Compares; equal names are told apart by letters.
     ///
     /// # Errors
-    /// In words: results of different processes, or too few or too many of them.
+    /// In words: too few or too many results, or results of different processes without a number in common.
     pub fn new(mut results: Vec<Compared>) -> Result<Self, String> {
         if !(2..=MOST_RESULTS).contains(&results.len()) {
             return Err(format!("2 to {MOST_RESULTS} results can be compared, not {}", results.len()));
-        }
-        let first = &results[0];
-        if let Some(other) = results.iter().find(|other| other.findings.process != first.findings.process) {
-            return Err(format!(
-                "{} was made by {} and {} by {}: compare results of one process",
-                first.name, first.findings.process, other.name, other.findings.process
-            ));
         }
         let given: Vec<String> = results.iter().map(|one| one.name.clone()).collect();
         for (one, letter) in results.iter_mut().zip(letters()) {
@@ -78,8 +74,20 @@ impl Comparison {
                 one.name = format!("{} ({letter})", one.name);
             }
         }
-        let lines = lines::lines(&results);
-        Ok(Self { results, lines })
+        let mut lines = lines::lines(&results);
+        let first = &results[0];
+        let foreign = results.iter().find(|other| other.findings.process != first.findings.process);
+        if let Some(other) = foreign {
+            lines.retain(Line::is_shared);
+            if lines.is_empty() {
+                return Err(format!(
+                    "{} was made by {} and {} by {}: they have no number in common",
+                    first.name, first.findings.process, other.name, other.findings.process
+                ));
+            }
+        }
+        let is_mixed = foreign.is_some();
+        Ok(Self { results, lines, is_mixed })
     }
 
     /// Writes table, charts, maps and page.
@@ -88,7 +96,8 @@ impl Comparison {
     /// Files that cannot be written; tables of the results that cannot be read.
     pub fn write(&self, folder: &OutputFolder) -> Result<()> {
         self.write_csv(&folder.path("comparison.csv")?)?;
-        let (bars, curves) = (charts::charts(&self.results), charts::curves(&self.results)?);
+        let drawn: &[Compared] = if self.is_mixed { &[] } else { &self.results };
+        let (bars, curves) = (charts::charts(drawn), charts::curves(drawn)?);
         for (name, chart) in &bars {
             chart.write_svg(&folder.path(format!("{name}.svg"))?)?;
         }

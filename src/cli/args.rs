@@ -73,7 +73,8 @@ pub enum Command {
     #[command(after_help = "Example:\n  \
         gearcut compare out/elliptical_traditional out/elliptical_normal\n  \
         gearcut compare out/third_order_plain out/third_order_diagonal --out out/load_of_the_hob\n\n\
-        Takes 2 to 7 results of one process; the others are compared with the first. Writes a folder \
+        Takes 2 to 7 results; the others are compared with the first, those of another process in the numbers that \
+        both have. Writes a folder \
         (compare_<A>_<B>... beside the last one unless --out is given): comparison.csv with every number \
         of all results under its path in results.json, with unit and definition, its difference to the \
         first and the first over it (2 means that this result has half); and bar charts as SVG. \

@@ -6,8 +6,8 @@
 use std::collections::HashMap;
 
 use super::Compared;
+use crate::findings::quantities::inspection::{FIGURE, FIGURES, INSPECTION, LEFT, NAME, RIGHT};
 use crate::findings::{Datum, Entry, Findings, Level, Quantity};
-use crate::steps::inspection::INSPECTION;
 
 /// Section whose parts are named by themselves.
 const OPERATIONS: &str = "operations";
@@ -65,7 +65,9 @@ fn named(findings: &Findings, headline: bool) -> Vec<(String, Entry)> {
         }));
         titles.insert(path.to_owned(), titled);
     });
-    named.extend(figures(findings).into_iter().map(|entry| (format!("{INSPECTION}.figures.{}", entry.key), entry)));
+    named.extend(
+        figures(findings).into_iter().map(|entry| (format!("{}.{}.{}", INSPECTION.key, FIGURES.key, entry.key), entry)),
+    );
     named
 }
 
@@ -88,12 +90,12 @@ fn plain_title(sections: &[String], own: &str) -> String {
 
 /// Figures of the inspection: of the worst left and right flank, or of both sides together.
 fn figures(findings: &Findings) -> Vec<Entry> {
-    let Some(table) = findings.find(INSPECTION).and_then(|section| section.table_of("figures")) else {
+    let Some(table) = findings.group(&INSPECTION).and_then(|section| section.table_of(FIGURES.key)) else {
         return Vec::new();
     };
-    let [symbols, names] = ["figure", "name"].map(|key| table.column(key));
+    let [symbols, names] = [&FIGURE, &NAME].map(|row| table.column(row.key));
     let mut found = Vec::new();
-    for (row, sides) in table.rows.iter().zip(table.numbers("left").zip(table.numbers("right"))) {
+    for (row, sides) in table.rows.iter().zip(table.values(&LEFT).zip(table.values(&RIGHT))) {
         let word = |column: Option<usize>| match column.and_then(|column| row.get(column)) {
             Some(Datum::Word(word)) => Some(word),
             _ => None,
@@ -134,11 +136,19 @@ impl Line {
         self.name.rsplit('.').next().unwrap_or(&self.name)
     }
 
+    /// How many results have a number here.
+    fn count_numbers(&self) -> usize {
+        self.quantities.iter().flatten().filter(|quantity| quantity.value().is_some()).count()
+    }
+
     /// Whether some results have a number here and others none.
     pub(super) fn is_one_sided(&self) -> bool {
-        let known = |of: &Option<Quantity>| of.as_ref().is_some_and(|quantity| quantity.value().is_some());
-        let count = self.quantities.iter().filter(|of| known(of)).count();
-        count > 0 && count < self.quantities.len()
+        (1..self.quantities.len()).contains(&self.count_numbers())
+    }
+
+    /// Whether two results or more have a number here.
+    pub(super) fn is_shared(&self) -> bool {
+        self.count_numbers() > 1
     }
 
     fn is_place(&self) -> bool {

@@ -9,8 +9,8 @@
 
 use super::Compared;
 use super::lines::{Line, is_rounding};
+use crate::findings::quantities::inspection::{FIGURE, FIGURE_LIMIT, FIGURES, INSPECTION};
 use crate::findings::{Datum, Level, Quantity};
-use crate::steps::inspection::INSPECTION;
 use std::collections::{HashMap, HashSet};
 
 /// Lines that are printed first.
@@ -30,11 +30,11 @@ fn worth_telling(unit: Option<&str>) -> f64 {
 pub(super) fn limits_um(results: &[Compared]) -> HashMap<String, f64> {
     let mut limits_um = HashMap::new();
     for one in results {
-        let Some(table) = one.findings.find(INSPECTION).and_then(|section| section.table_of("figures")) else {
+        let Some(table) = one.findings.group(&INSPECTION).and_then(|section| section.table_of(FIGURES.key)) else {
             continue;
         };
-        let Some(symbols) = table.column("figure") else { continue };
-        for (row, limit_um) in table.rows.iter().zip(table.numbers("limit")) {
+        let Some(symbols) = table.column(FIGURE.key) else { continue };
+        for (row, limit_um) in table.rows.iter().zip(table.values(&FIGURE_LIMIT)) {
             if let (Some(Datum::Word(symbol)), Some(limit_um)) = (row.get(symbols), limit_um.filter(|um| *um > 0.0)) {
                 limits_um.entry(symbol.clone()).or_insert(limit_um);
             }

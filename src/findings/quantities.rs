@@ -9,6 +9,7 @@ pub mod cutting;
 pub mod flanks;
 pub mod inspection;
 pub mod program;
+pub mod sizes;
 pub mod teeth;
 
 use super::row::QuantityGroup;
@@ -18,7 +19,10 @@ pub static SHARED: &[&QuantityGroup] = &[
     &flanks::FLANKS,
     &flanks::STOCK,
     &teeth::TEETH,
+    &inspection::QUALITY,
     &inspection::INSPECTION,
+    &inspection::FIGURES,
+    &sizes::SIZES,
     &cutting::CUTTING,
     &cutting::AXES,
     &blank::BLANK,

@@ -1,6 +1,6 @@
 //! The table of quantities: what is said of a quantity is said once, in its row, and an entry is a row with a value.
 //!
-//! In: [`crate::findings::rows!`] with key, unit and definition of each quantity, and what only some have: title,
+//! In: `rows!` with key, unit and definition of each quantity, and what only some have: title,
 //! symbol, source, level, the reasons for which there may be no value. Out: a static [`QuantityRow`] for each, and the
 //! [`QuantityGroup`] of them. What processes share is in [`super::quantities`]; a process lists its own beside its
 //! scene keys.

@@ -7,7 +7,6 @@
 //! thousands of strokes and points, and rows whose values stand in the tree already, one section each.
 
 use super::datum::Datum;
-use super::quantity::Quantity;
 use super::row::{ColumnChart, QuantityRow};
 use std::borrow::Cow;
 
@@ -64,25 +63,6 @@ impl Table {
         let of: Vec<T> = of.into_iter().collect();
         let rows = of.iter().map(|_| Vec::new()).collect();
         Columns { of, table: Self { rows, ..Self::new(key, title, Vec::new()) } }
-    }
-
-    /// Values of the tree side by side. A row is its name's cells, one for each of `names`, and keyed quantities, the
-    /// same in every row; the columns take unit and definition from the first row.
-    pub fn of_quantities<'a>(
-        key: &str,
-        title: &str,
-        names: Vec<TableColumn>,
-        rows: impl IntoIterator<Item = (Vec<Datum>, Vec<(String, &'a Quantity)>)>,
-    ) -> Self {
-        let mut table = Self::new(key, title, names);
-        for (mut row, quantities) in rows {
-            if table.rows.is_empty() {
-                table.columns.extend(quantities.iter().map(|(key, of)| TableColumn::of(key.clone(), of)));
-            }
-            row.extend(quantities.into_iter().map(|(_, quantity)| Datum::from(quantity)));
-            table = table.with_rows([row]);
-        }
-        table
     }
 
     /// The table, in `tables/<name>.csv` as well.
@@ -191,17 +171,6 @@ impl TableColumn {
         Self { key: key.into(), unit: Some(unit.into()), definition: definition.into(), why: None, chart: None }
     }
 
-    /// A column of quantities like this one.
-    fn of(key: String, quantity: &Quantity) -> Self {
-        Self {
-            key: key.into(),
-            unit: quantity.unit().map(|unit| unit.to_owned().into()),
-            definition: quantity.definition().to_owned().into(),
-            why: Some("the quantity of this row in its section tells why".into()),
-            chart: None,
-        }
-    }
-
     /// Key and unit as one word for the head of a file: `AB_mm`, `removal_rate_cm3_per_min`. Pure numbers have no unit
     /// there, nor what counts the things that its key names.
     pub fn head(&self) -> String {
@@ -245,12 +214,6 @@ impl TableColumn {
     }
 }
 
-impl From<&Quantity> for Datum {
-    fn from(quantity: &Quantity) -> Self {
-        quantity.datum().clone()
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -267,20 +230,18 @@ mod tests {
     }
 
     #[test]
-    fn quantities_of_sections_become_rows() {
-        let known = [Quantity::number(0.5, "um", "range"), Quantity::count(3, "strokes", "strokes made")];
-        let unknown = [Quantity::undefined("um", "range", "not cut"), Quantity::text("none", "strokes made")];
-        let row = |tooth: u32, of| {
-            let keyed = ["F_alpha", "strokes"].map(str::to_owned).into_iter().zip(of).collect();
-            (vec![Datum::from(tooth)], keyed)
-        };
-        let rows = [row(1, &known), row(2, &unknown)];
-        let table = Table::of_quantities("flanks", "Flanks", vec![TableColumn::new("tooth", "1", "number")], rows);
+    fn columns_of_rows_know_unit_and_reasons() {
+        static TOOTH: QuantityRow = QuantityRow::new("tooth", "1", "number");
+        static RANGE: QuantityRow = QuantityRow::new("F_alpha", "um", "range").or(&["not cut", "cut away"]).bars();
+        let teeth = [(1_u32, Some(0.5)), (2, None)];
+        let table: Table =
+            Table::over("flanks", "Flanks", teeth).column(&TOOTH, |of| of.0).column(&RANGE, |of| of.1).into();
         let heads: Vec<String> = table.columns.iter().map(TableColumn::head).collect();
-        assert_eq!(heads, ["tooth", "F_alpha_um", "strokes"]);
-        assert_eq!(table.columns[1].definition, "range");
-        assert_eq!(table.rows[0], [Datum::Count(1), Datum::Number(0.5), Datum::Count(3)]);
-        assert_eq!(table.rows[1], [Datum::Count(2), Datum::Undefined, Datum::Word("none".to_owned())]);
+        assert_eq!(heads, ["tooth", "F_alpha_um"]);
+        assert_eq!(table.columns[1].why.as_deref(), Some("not cut; or cut away"));
+        assert_eq!(table.columns[1].chart, Some(ColumnChart::Bars));
+        assert_eq!(table.rows, [vec![Datum::Count(1), Datum::Number(0.5)], vec![Datum::Count(2), Datum::Undefined]]);
+        assert_eq!(table.values(&RANGE).collect::<Vec<_>>(), [Some(0.5), None]);
     }
 
     #[test]

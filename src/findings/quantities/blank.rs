@@ -66,6 +66,7 @@ rows! {
     Y: "y", "mm", "y of the deepest place in the gear frame" => or(&[NO_PLACE]);
     DEPTH: "depth", "mm", "largest depth of the place along the normal" => or(&[NO_PLACE]);
     STROKE: "stroke", "1", "number of the stroke, from 0";
-    CUTTER_TOOTH: "cutter_tooth", "1", "number of the cutter tooth, from 0";
+    CUTTER_TOOTH: "cutter_tooth", "1", "number of the cutter tooth, of several that of the largest chip, from 0"
+        => or(&["the stroke is idle"]);
     VOLUME_OF_PLACE: "volume_of_place", "mm^3", "volume of the damage at the place" => or(&[NO_PLACE]);
 }

@@ -5,7 +5,8 @@ use crate::output::text::significant;
 use crate::process::shaping::ShapingJob;
 use crate::process::shaping::chips::{ChipLedger, StrokeChips};
 use crate::process::shaping::edge_polygon::EdgeSide;
-use crate::process::shaping::findings::deflection::{KINDS, of_stroke};
+use crate::process::shaping::findings::deflection::of_stroke;
+use crate::process::shaping::quantities::strokes::DEFLECTION;
 use gearcut_core::units::UM_PER_MM;
 
 /// Charts and colours end at this many times the 90th percentile: first strokes into the full blank would flatten
@@ -88,9 +89,10 @@ fn deflection(job: &ShapingJob, operation: usize, angles_deg: &[f64]) -> Option<
     if job.operations[operation].deflections.is_empty() {
         return None;
     }
+    let names: Vec<String> = DEFLECTION.rows.iter().map(|row| row.title()).collect();
     let values: Vec<[f64; 6]> = (0..angles_deg.len()).map(|stroke| of_stroke(job, operation, stroke)).collect();
     let panel = |what: &str, unit: &str, kinds: [usize; 2]| {
-        let curve = |kind: usize| (KINDS[kind].1, values.iter().map(|of| of[kind]).collect());
+        let curve = |kind: usize| (names[kind].as_str(), values.iter().map(|of| of[kind]).collect());
         panel(what, unit, angles_deg, &kinds.map(curve))
     };
     let panels = vec![

@@ -1,5 +1,7 @@
 //! Quantities that only shaping finds.
 
+pub mod strokes;
+
 use crate::findings::quantities::cutting::IDLE;
 use crate::findings::quantities::flanks::{BELOW_RANGE, LAST, NO_FLANK_REACHED, NOT_CUT, SINGLE};
 use crate::findings::{QuantityGroup, rows};
@@ -31,8 +33,16 @@ pub const NO_WITNESS: &str =
 pub const NO_ALLOWANCE: &str = "no tooth has an allowance on both flanks";
 
 /// The groups of this table.
-pub static QUANTITIES: &[&QuantityGroup] =
-    &[&SHAPED_GEAR, &SHAPED_FLANK, &ALLOWANCE, &OPERATION, &CHIPS, &STROKES_OF_PROGRAM];
+pub static QUANTITIES: &[&QuantityGroup] = &[
+    &SHAPED_GEAR,
+    &SHAPED_FLANK,
+    &ALLOWANCE,
+    &OPERATION,
+    &CHIPS,
+    &STROKES_OF_PROGRAM,
+    &strokes::STROKE_CHIPS,
+    &strokes::DEFLECTION,
+];
 
 rows! {
     /// What the headline of a shaped gear adds.

@@ -5,6 +5,7 @@ mod charts;
 
 use super::facts::gear_words;
 use crate::findings::Findings;
+use crate::findings::quantities::sizes::SIZES;
 use crate::measure::deviation::{Trace, TraceDeviation};
 use crate::measure::flank_tolerance::InspectionFigure;
 use crate::measure::inspection::{GearInspection, InspectedFlank, TracedLines};
@@ -17,7 +18,7 @@ use crate::output::report::traces::{TraceColumn, TraceFigure, TraceSheet};
 use crate::output::report::{Block, PageSection, PageTable};
 use crate::output::text::significant;
 use crate::scene::Scene;
-use crate::steps::inspection::{NO_SIZE, SIZES, class_words, size_rows, verdict_words};
+use crate::steps::inspection::{NO_SIZE, class_words, size_rows, verdict_words};
 use crate::wrap::wrapped;
 use gearcut_core::error::Result;
 use gearcut_core::terms::Side;
@@ -161,7 +162,7 @@ pub fn write_charts(inspection: &Inspection, folder: &OutputFolder) -> Result<()
 /// # Errors
 /// Files that cannot be written.
 pub fn write_sheet(inspection: &Inspection, scene: &Scene, found: &Findings, folder: &OutputFolder) -> Result<()> {
-    let mut sizes = found.find(SIZES).map_or_else(Vec::new, size_rows);
+    let mut sizes = found.group(&SIZES).map_or_else(Vec::new, size_rows);
     // A reason is wider than its column: it stands below, once.
     let mut reasons: Vec<(String, String)> = Vec::new();
     for [_, sign, value] in &mut sizes {

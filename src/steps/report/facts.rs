@@ -1,6 +1,7 @@
 //! What was cut: the gear in words and as a table.
 
 use crate::findings::Findings;
+use crate::findings::quantities::sizes::SIZES;
 use crate::machine::{Axis, Limits, Order};
 use crate::output::report::{Block, PageTable};
 use crate::output::text::plain;
@@ -40,7 +41,7 @@ pub fn table(caption: &str, rows: Vec<(&str, String)>) -> Block {
 
 /// Sizes of a round gear as a table; none of other gears.
 pub fn round_gear_table(found: &Findings) -> Option<Block> {
-    let sizes = found.find(inspection::SIZES)?;
+    let sizes = found.group(&SIZES)?;
     Some(Block::Table(PageTable {
         caption: "Sizes of the round gear".to_owned(),
         columns: ["Size", "Sign", "Value"].map(str::to_owned).into(),

@@ -453,10 +453,30 @@ fn hobbed_gears_stand_side_by_side_with_the_load_of_every_hob_tooth() {
             .expect("written");
         assert!(["plain", "reciprocating", "repeating"].iter().all(|name| svg.contains(name)), "all are in the legend");
     }
-    // Of one process only.
+    // Of two processes without a number in common.
     gearcut_in(folder.path(), &["compare", "out/plain", "out/normal"])
-        .failed(1, &["plain was made by hobbing and normal by shaping", "one process"]);
+        .failed(1, &["plain was made by hobbing and normal by shaping", "no number in common"]);
     gearcut_in(folder.path(), &["compare", "out/plain"]).failed(2, &["2"]);
+}
+
+/// A hobbed and a shaped gear of one drawing: what both have is compared, and nothing else is shown.
+#[test]
+fn two_processes_are_compared_in_what_both_have() {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    let first = |um: f64| json!({ "value": um, "unit": "um", "definition": "made by hand", "level": "headline" });
+    let headline = |own: &str, um: f64| json!({ "F_alpha": first(um), own: first(1.0) });
+    for (process, own, um) in [("hobbing", "feed_mark_closed_form", 4.0), ("shaping", "scallop_height", 5.0)] {
+        let out = folder.path().join("out").join(process);
+        std::fs::create_dir_all(&out).expect("a folder");
+        let text = document(process, &headline(own, um), &json!({})).to_string();
+        std::fs::write(out.join("results.json"), text).expect("written");
+    }
+    let all = ["compare", "out/hobbing", "out/shaping", "--out", "both", "--all"];
+    let shown = gearcut_in(folder.path(), &all).done().says(&["F alpha", "4.000", "5.000", "1.000"]).out;
+    assert!(!shown.contains("mark") && !shown.contains("scallop"), "{shown}");
+    let csv = std::fs::read_to_string(folder.path().join("both/comparison.csv")).expect("written");
+    assert!(csv.contains("\nF_alpha,um,4.0,5.0,1.0,0.8,"), "{csv}");
+    assert_eq!(csv.lines().count(), 3, "{csv}");
 }
 
 /// Numbers that one side alone has are no "nothing changed": they are counted.

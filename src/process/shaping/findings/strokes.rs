@@ -3,87 +3,59 @@
 //! An operation has thousands of strokes, so the rows stand in the file alone.
 
 use super::deflection;
-use crate::findings::{Datum, Table, TableColumn};
+use crate::findings::Table;
+use crate::findings::quantities::blank::{CUTTER_TOOTH, STROKE};
 use crate::process::shaping::ShapingJob;
 use crate::process::shaping::chips::{ChipLedger, StrokeChips};
+use crate::process::shaping::quantities::strokes::{
+    CONTACT_LEFT, CONTACT_RIGHT, CONTACT_TIP, CUTTER_TORQUE_OF_STROKE, CUTTING_TEETH, DEFLECTION, FORCE, LARGEST_CHIP,
+    MEAN_THICKNESS, RADIAL_FORCE, RATE, SECTION, SPACE, TANGENTIAL_FORCE, THICKEST_LEFT, THICKEST_RIGHT, THICKEST_TIP,
+    TIME, VOLUME, WORK_ANGLE, WORK_TORQUE_OF_STROKE,
+};
+use crate::process::shaping::quantities::{THREE_FLANK_CHIPS, TWO_FLANK_CHIPS};
 use gearcut_core::units::UM_PER_MM;
-
-const IDLE: &str = "the stroke is idle";
 
 /// The table of one operation.
 pub fn strokes(job: &ShapingJob, ledger: &ChipLedger, operation: usize) -> Table {
     let prepared = &job.operations[operation];
-    let rows = ledger.operations[operation].strokes.iter().enumerate().map(|(stroke, s)| {
-        let coordinate = stroke as f64;
-        let angle_deg = prepared.work_angle_rad(coordinate).to_degrees();
-        let mut row: Vec<Datum> =
-            vec![(stroke as u64).into(), prepared.schedule.time_s(coordinate).into(), angle_deg.into()];
-        row.extend(cells(job, s, prepared.schedule.double_strokes_per_minute()));
-        if !prepared.deflections.is_empty() {
-            row.extend(deflection::of_stroke(job, operation, stroke).map(Datum::from));
-        }
-        row
-    });
-    let mut columns = columns();
-    if !prepared.deflections.is_empty() {
-        columns.extend(deflection::KINDS.map(|(key, _, unit, definition)| TableColumn::new(key, unit, definition)));
-    }
-    Table::new("strokes", "Chips of every stroke", columns)
-        .with_rows(rows)
-        .rows_in_file(&format!("chips_{}", prepared.spec.name))
-}
-
-fn columns() -> Vec<TableColumn> {
-    let new = |key, unit, definition| TableColumn::new(key, unit, definition);
-    vec![
-        new("stroke", "1", "stroke, from 0"),
-        new("time", "s", "time from the operation's first stroke"),
-        new("work_angle", "deg", "work angle psi_c"),
-        new("chips", "chips", "cutter teeth that cut"),
-        new("two_flank_chips", "chips", "chips on two sides of the edge: tip and flank, or both flanks"),
-        new("three_flank_chips", "chips", "chips on tip and both flanks"),
-        new("space", "1", "space of the largest chip; space j lies after tooth j").or(IDLE),
-        new("cutter_tooth", "1", "cutter tooth that takes the largest chip, from 0").or(IDLE),
-        new("section", "mm^2", "section of all chips, in the transverse plane"),
-        new("volume", "mm^3", "section of all chips times the face width"),
-        new("largest_chip_section", "mm^2", "section of the largest chip"),
-        new("contact_right", "mm", "length of right flank in contact"),
-        new("contact_tip", "mm", "length of tip in contact"),
-        new("contact_left", "mm", "length of left flank in contact"),
-        new("mean_thickness", "um", "section of all chips over the length of edge in contact").or(IDLE),
-        new("largest_thickness_right", "um", "largest uncut chip thickness on right flanks"),
-        new("largest_thickness_tip", "um", "largest uncut chip thickness on tips"),
-        new("largest_thickness_left", "um", "largest uncut chip thickness on left flanks"),
-        new("cutting_force", "N", "cutting force along the stroke"),
-        new("radial_force", "N", "force on the tool along the line of centres, away from the work axis"),
-        new("tangential_force", "N", "force on the tool across the line of centres, towards larger work angles"),
-        new("work_torque", "N m", "torque on the work spindle, counter-clockwise"),
-        new("cutter_torque", "N m", "torque on the cutter spindle, counter-clockwise"),
-        new("removal_rate", "cm^3/min", "volume taken by double strokes like this one over their time"),
-    ]
-}
-
-/// What follows stroke, time and angle, at so many double strokes per minute.
-fn cells(job: &ShapingJob, s: &StrokeChips, per_minute: f64) -> Vec<Datum> {
+    let per_minute = prepared.schedule.double_strokes_per_minute();
     let width_mm = job.scene.gear.face_width_mm;
-    let of_busy = |value: u32| if s.is_idle() { Datum::Undefined } else { value.into() };
-    let contact_mm = s.contact_length_mm();
-    let mut row = vec![
-        s.chips.into(),
-        s.two_flank.into(),
-        s.three_flank.into(),
-        of_busy(s.space),
-        of_busy(s.blade),
-        s.area_mm2.into(),
-        (s.area_mm2 * width_mm).into(),
-        s.largest_mm2.into(),
-    ];
-    row.extend(s.contact_mm.map(Datum::from));
-    row.push((contact_mm > 0.0).then(|| s.area_mm2 / contact_mm * UM_PER_MM).into());
-    row.extend(s.thickest_mm.map(|h| Datum::from(h * UM_PER_MM)));
-    row.extend(
-        [s.cutting_n, s.radial_n, s.tangential_n, s.work_torque_nmm / 1e3, s.cutter_torque_nmm / 1e3].map(Datum::from),
-    );
-    row.push((s.area_mm2 * width_mm * per_minute / 1e3).into());
-    row
+    let busy = |s: &StrokeChips, value: u32| (!s.is_idle()).then_some(value);
+    let mean_um = |s: &StrokeChips| {
+        let contact_mm = s.contact_length_mm();
+        (contact_mm > 0.0).then(|| s.area_mm2 / contact_mm * UM_PER_MM)
+    };
+    let mut table =
+        Table::over("strokes", "Chips of every stroke", ledger.operations[operation].strokes.iter().enumerate())
+            .column(&STROKE, |&(stroke, _)| stroke)
+            .column(&TIME, |&(stroke, _)| prepared.schedule.time_s(stroke as f64))
+            .column(&WORK_ANGLE, |&(stroke, _)| prepared.work_angle_rad(stroke as f64).to_degrees())
+            .column(&CUTTING_TEETH, |(_, s)| s.chips)
+            .column(&TWO_FLANK_CHIPS, |(_, s)| s.two_flank)
+            .column(&THREE_FLANK_CHIPS, |(_, s)| s.three_flank)
+            .column(&SPACE, |(_, s)| busy(s, s.space))
+            .column(&CUTTER_TOOTH, |(_, s)| busy(s, s.blade))
+            .column(&SECTION, |(_, s)| s.area_mm2)
+            .column(&VOLUME, |(_, s)| s.area_mm2 * width_mm)
+            .column(&LARGEST_CHIP, |(_, s)| s.largest_mm2);
+    for (index, row) in [&CONTACT_RIGHT, &CONTACT_TIP, &CONTACT_LEFT].into_iter().enumerate() {
+        table = table.column(row, |(_, s)| s.contact_mm[index]);
+    }
+    table = table.column(&MEAN_THICKNESS, |(_, s)| mean_um(s));
+    for (index, row) in [&THICKEST_RIGHT, &THICKEST_TIP, &THICKEST_LEFT].into_iter().enumerate() {
+        table = table.column(row, |(_, s)| s.thickest_mm[index] * UM_PER_MM);
+    }
+    table = table
+        .column(&FORCE, |(_, s)| s.cutting_n)
+        .column(&RADIAL_FORCE, |(_, s)| s.radial_n)
+        .column(&TANGENTIAL_FORCE, |(_, s)| s.tangential_n)
+        .column(&WORK_TORQUE_OF_STROKE, |(_, s)| s.work_torque_nmm / 1e3)
+        .column(&CUTTER_TORQUE_OF_STROKE, |(_, s)| s.cutter_torque_nmm / 1e3)
+        .column(&RATE, |(_, s)| s.area_mm2 * width_mm * per_minute / 1e3);
+    if !prepared.deflections.is_empty() {
+        for (index, row) in DEFLECTION.rows.iter().enumerate() {
+            table = table.column(row, |&(stroke, _)| deflection::of_stroke(job, operation, stroke)[index]);
+        }
+    }
+    table.rows_in_file(&format!("chips_{}", prepared.spec.name))
 }
