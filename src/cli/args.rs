@@ -194,7 +194,7 @@ pub enum Command {
         gearcut calibrate my.toml --measured numbers.csv --fit mounting.eccentricity_um,machine.errors.guide\n  \
         gearcut calibrate my.toml --measured out/my/inspection_charts.csv --noise-um 0.3 --fit mounting\n  \
         gearcut calibrate my.toml --measured flank.x3p --surface-percent 5 --fit machine.errors.work.noise_arcsec\n\n\
-        A CSV of numbers has a row for each: quantity (its path in results.json, such as deviations.runout; \
+        A CSV of numbers has a row for each: quantity (its path in results.json, such as headline.F_r; \
         headline.KEY for the headline), value (in the unit that it has there), uncertainty (standard). Charts and \
         figures are read as `gearcut cut` writes them (inspection_charts.csv, tables/inspection.csv), places as \
         `gearcut diagnose` reads them. A surface belongs to a [[texture]] window of the scene: the one that its notes \

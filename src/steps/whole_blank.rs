@@ -34,8 +34,8 @@ fn grid_within(scene: &Scene, blank: &Blank, outline: &BlankOutline, alike: bool
     BlankGrid::new(blank, outline, scene.gear.face_width_mm, fields.blank_spacing_mm, slice_spacing_mm)
 }
 
-/// What begins the section of the whole gear: distance of the rays (mm), slices, volumes by both families of rays (mm3),
-/// and how well they agree.
+/// What begins the section of the whole gear: distance of the rays (mm), slices, volumes by both families of rays
+/// (mm3), and how well they agree.
 pub fn findings(
     spacing_mm: f64,
     slices: usize,

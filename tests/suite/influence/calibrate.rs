@@ -35,7 +35,7 @@ fn measured(choice: &Choice) -> Vec<MeasuredNumber> {
         value: before[quantity].0 + more,
         uncertainty,
     };
-    vec![number("deviations.runout", 2.0 * (9.0 - 5.0), 0.2), number("round_gear.thickness_as_cut", thicker_mm, 2e-4)]
+    vec![number("headline.F_r", 2.0 * (9.0 - 5.0), 0.2), number("round_gear.thickness_as_cut", thicker_mm, 2e-4)]
 }
 
 #[test]
@@ -73,7 +73,7 @@ fn the_command_prints_a_fitted_scene_and_refuses_unknown_numbers() {
         gearcut_in(folder.path(), &arguments)
     };
     let words = ["fitted", "--set 'mounting.eccentricity_um=", "cannot be identified", "predicted"];
-    let done = calibrate("deviations.runout,18.0,0.2\n").done().says(&words);
+    let done = calibrate("headline.F_r,18.0,0.2\n").done().says(&words);
     assert!(done.out.lines().all(|line| line.chars().count() <= 80), "{}", done.out);
     assert!(done.err.contains("as many numbers are fitted as measured"), "{}", done.err);
     let out = folder.path().join("out/round_calibration");
@@ -94,9 +94,9 @@ fn the_command_prints_a_fitted_scene_and_refuses_unknown_numbers() {
     let again = ["calibrate", "round.toml", "--measured", "out/round_calibration/tables/numbers.csv", "--out", "again"];
     let again = [&again[..], &["--fit", "mounting.eccentricity_um@0"]].concat();
     let again: Vec<&str> = again.into_iter().chain(settings.iter().map(String::as_str)).collect();
-    gearcut_in(folder.path(), &again).done().says(&["deviations.runout"]);
-    calibrate("deviations.runaut,18.0,0.2\n").failed(1, &["deviations.runaut", "results.json"]);
-    calibrate("deviations.runout,18.0,0\n").failed(1, &["uncertainty", "above 0"]);
+    gearcut_in(folder.path(), &again).done().says(&["headline.F_r"]);
+    calibrate("headline.F_q,18.0,0.2\n").failed(1, &["headline.F_q", "results.json"]);
+    calibrate("headline.F_r,18.0,0\n").failed(1, &["uncertainty", "above 0"]);
 }
 
 /// Every number of a calibration says in its definition whether it was measured, fitted or predicted.

@@ -88,7 +88,7 @@ fn numbers_that_no_result_has_are_refused() {
     let folder = tempfile::tempdir().expect("a folder");
     fs::write(folder.path().join("round.toml"), SCENE).expect("written");
     let fit = |value: &str, uncertainty: &str| {
-        let table = format!("quantity,value,uncertainty\ndeviations.runout,{value},{uncertainty}\n");
+        let table = format!("quantity,value,uncertainty\nheadline.F_r,{value},{uncertainty}\n");
         fs::write(folder.path().join("numbers.csv"), table).expect("written");
         let fit = ["calibrate", "round.toml", "--measured", "numbers.csv", "--fit", "mounting"];
         gearcut_in(folder.path(), &fit)

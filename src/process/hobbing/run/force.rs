@@ -16,13 +16,13 @@ use crate::process::hobbing::quantities::{
 use crate::process::hobbing::{HobCutter, HobbedBlank, HobbingJob};
 
 /// How the force of a tooth is defined.
-const LAW_OF_FORCE: &str = "K_c times the section of the chip in the rake face plus K_ce times the length of edge in engagement \
-    across its motion; means over the travel through a slice of the blank, referred to the hob's tip: moment about the \
-    hob's axis over the tip's radius";
+const LAW_OF_FORCE: &str = "K_c times the section of the chip in the rake face plus K_ce times the length of edge in \
+    engagement across its motion; means over the travel through a slice of the blank, referred to the hob's tip: \
+    moment about the hob's axis over the tip's radius";
 /// How far rays know it.
-const ACCURACY_OF_RAYS: &str = "of one slice: the length of edge is at most sqrt(2) ray distances off for each stretch of edge \
-    that rays of one direction count, and without bias in the mean; the section of a chip 3 mm long and 0.1 mm thick \
-    is 17 % off, root mean square, by rays 0.3 mm apart and 5 % by rays 0.15 mm apart; largest values of many \
+const ACCURACY_OF_RAYS: &str = "of one slice: the length of edge is at most sqrt(2) ray distances off for each stretch \
+    of edge that rays of one direction count, and without bias in the mean; the section of a chip 3 mm long and 0.1 mm \
+    thick is 17 % off, root mean square, by rays 0.3 mm apart and 5 % by rays 0.15 mm apart; largest values of many \
     slices are therefore too high rather than too low";
 /// Curves of single teeth on the chart over time.
 const SHOWN_TEETH: usize = 6;

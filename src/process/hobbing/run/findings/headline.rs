@@ -2,7 +2,7 @@
 //! closed forms of marks, the work of the hob and where it can be shifted to.
 
 use super::Measured;
-use crate::findings::quantities::cutting::{IDLE, NO_MATERIAL, STOPPED};
+use crate::findings::quantities::cutting::{IDLE, LARGEST_FORCE, NO_MATERIAL, STOPPED, THICKEST_CHIP};
 use crate::findings::quantities::flanks::UNDERCUT_FLANKS;
 use crate::findings::{Entry, Place};
 use crate::process::hobbing::measure::hob_load::OperationLoad;
@@ -51,8 +51,7 @@ pub(super) fn headline(job: &HobbingJob, gear: &HobbedGear, measured: &Measured)
     };
     let undercut = gear.flanks.iter().filter(|flank| flank.own.undercut).count();
     let sharpest = job.curve.facts().largest_curvature.curvature_per_mm;
-    let mut entries = quality(measured.inspected);
-    entries.extend(headline::headline(&gear.flanks, Some(&gear.inspection), cutting, &gear.work));
+    let mut entries = headline::headline(&gear.flanks, Some(&gear.inspection), cutting, &gear.work);
     entries.extend([
         UNDERCUT_FLANKS.of(undercut),
         FEED_MARK.of(job.feed_mark_mm(job.finishing()) * UM_PER_MM),
@@ -72,5 +71,8 @@ pub(super) fn headline(job: &HobbingJob, gear: &HobbedGear, measured: &Measured)
     } else {
         SHIFT_RANGE.of((to - from).abs())
     });
-    entries
+    // What is asked of the hob comes before the flanks.
+    let first = [&THICKEST_CHIP, &HOFFMEISTER, &LARGEST_FORCE, &PEAK_TO_MEAN, &SHIFT_ROOM, &SHIFT_RANGE];
+    entries.sort_by_key(|entry| first.iter().position(|row| row.key == entry.key).unwrap_or(first.len()));
+    quality(measured.inspected).into_iter().chain(entries).collect()
 }
