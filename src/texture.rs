@@ -26,7 +26,7 @@ mod sampling;
 mod traces;
 mod window;
 
-pub use files::{NamedWindow, SURFACE_NOTE, named_windows};
+pub use files::{NamedWindow, SURFACE_NOTE, named_windows, sheet_file};
 pub use findings::{findings, foreseen, quantities};
 pub use laid_over::{MEASURED, Overlaid};
 pub use measured::MeasuredSurface;

@@ -50,13 +50,11 @@ pub fn run(arguments: &ContactArguments) -> Result<(), Failure> {
             write_bytes_atomically(&path, bearing::svg(side, rolled.marking_mm).as_bytes())?;
         }
         write_tables(&found, folder)?;
-        page::page(jobs, &rolled, &found, motion_error).write(&folder.path(REPORT_FILE)?)?;
+        let [gear, pinion] = [&gear, &pinion].map(LoadedScene::resolved_toml);
+        let end = page::ending(folder, [&gear, &pinion])?;
+        page::page(jobs, &rolled, &found, motion_error, end).write(&folder.path(REPORT_FILE)?)?;
         folder.write_json(RESULTS_FILE, &found.to_json())?;
-        let record = [
-            ("arguments", json!(words)),
-            ("scene_gear", json!(gear.resolved_toml())),
-            ("scene_pinion", json!(pinion.resolved_toml())),
-        ];
+        let record = [("arguments", json!(words)), ("scene_gear", json!(gear)), ("scene_pinion", json!(pinion))];
         Ok((record.to_vec(), found))
     });
     let (path, found) = filled.map_err(|error| match error {

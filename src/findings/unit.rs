@@ -24,7 +24,7 @@ pub fn with_signs(number: &str, unit: &str) -> String {
 
 /// A sentence whose units are written as in files, in the signs of a page.
 pub fn sentence_with_signs(text: &str) -> String {
-    text.replace(" um", " µm").replace(" deg ", "° ")
+    text.replace(" um", " µm").replace(" deg ", "° ").replace("^2", "²").replace("^3", "³")
 }
 
 /// Name and unit of a coordinate; the unit is empty where the name has none.
@@ -42,7 +42,7 @@ mod tests {
         assert_eq!(signs("deg/s^2"), "°/s²");
         assert_eq!(with_signs("2.00", "um^3/um^2"), "2.00 µm³/µm²");
         assert_eq!([with_signs("7", "deg"), with_signs("7", "1")], ["7°", "7"]);
-        assert_eq!(sentence_with_signs("1 um at 3 deg of roll"), "1 µm at 3° of roll");
+        assert_eq!(sentence_with_signs("1 um at 3 deg of roll, 2 mm^2"), "1 µm at 3° of roll, 2 mm²");
     }
 
     #[test]

@@ -49,23 +49,39 @@ const MARGIN_PX: u32 = 28;
 const TOP_PX: u32 = 60;
 const BELOW_PX: u32 = 54;
 const MAP_WIDTH_PX: u32 = 216;
+const NARROWEST_MAP_PX: u32 = 24;
 const LABEL_HEIGHT_PX: u32 = 22;
 const GAP_PX: u32 = 12;
 const BAR_WIDTH_PX: u32 = 20;
 /// Width to height that the number of columns aims at.
 const PROPORTION: f64 = 1.4;
 const EM_PX: f64 = 15.0;
+/// Pairs of columns at most.
+const MOST_PAIRS: u32 = 10;
 
 /// Writes a sheet as PNG.
 ///
 /// # Errors
 /// No maps, values that do not fill their grid, an empty colour scale, and files that cannot be written.
 pub fn write_contact_sheet(path: &Path, sheet: &ContactSheet) -> Result<()> {
-    let bytes = draw(sheet).map_err(|reason| Error::Output { path: path.to_owned(), reason })?;
+    let bytes = contact_sheet_png(sheet, None).map_err(|reason| Error::Output { path: path.to_owned(), reason })?;
     write_bytes_atomically(path, &bytes)
 }
 
-fn draw(sheet: &ContactSheet) -> std::result::Result<Vec<u8>, String> {
+/// A sheet that is to be printed: its maps, without the bar of colours.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PrintedSheet {
+    /// Largest width, pixels.
+    pub width_px: u32,
+    /// Width to height that the number of columns aims at.
+    pub proportion: f64,
+}
+
+/// A sheet as PNG, at its usual size or as it is printed.
+///
+/// # Errors
+/// No maps, values that do not fill their grid, an empty colour scale.
+pub fn contact_sheet_png(sheet: &ContactSheet, printed: Option<PrintedSheet>) -> std::result::Result<Vec<u8>, String> {
     let mismatch = |map: &Thumbnail| map.grid.mismatch(map.values.len()).map(|why| format!("map {}: {why}", map.label));
     if let Some(problem) = sheet.maps.iter().find_map(mismatch).or_else(|| scale_problem(sheet.scale)) {
         return Err(problem);
@@ -75,11 +91,21 @@ fn draw(sheet: &ContactSheet) -> std::result::Result<Vec<u8>, String> {
     }
     let longest_mm = sheet.maps.iter().map(|map| map.grid.v.length_mm()).fold(0.0, f64::max);
     let highest_mm = sheet.maps.iter().map(|map| map.grid.u.length_mm()).fold(0.0, f64::max);
-    let v_px_per_mm = f64::from(MAP_WIDTH_PX) / longest_mm;
-    let cell_height_px = (highest_mm * v_px_per_mm).round().clamp(36.0, 216.0);
+    let proportion = printed.map_or(PROPORTION, |printed| printed.proportion);
+    let of_width = |map_px: u32| {
+        let height_px = (highest_mm * f64::from(map_px) / longest_mm).round().clamp(36.0, 216.0);
+        let pitch_px = (map_px + GAP_PX, height_px as u32 + LABEL_HEIGHT_PX + GAP_PX);
+        (height_px, pitch_px, columns_for(sheet.maps.len() as u32, pitch_px, proportion))
+    };
+    // Smaller step by step: with other proportions other columns fit.
+    let narrow = |map_px: &u32| {
+        let (_, pitch_px, columns) = of_width(*map_px);
+        printed.is_none_or(|printed| columns * pitch_px.0 <= printed.width_px)
+    };
+    let map_px = (NARROWEST_MAP_PX..=MAP_WIDTH_PX).rev().step_by(4).find(narrow).unwrap_or(NARROWEST_MAP_PX);
+    let (cell_height_px, pitch_px, columns) = of_width(map_px);
+    let v_px_per_mm = f64::from(map_px) / longest_mm;
     let u_px_per_mm = cell_height_px / highest_mm;
-    let pitch_px = (MAP_WIDTH_PX + GAP_PX, cell_height_px as u32 + LABEL_HEIGHT_PX + GAP_PX);
-    let columns = columns_for(sheet.maps.len() as u32, pitch_px);
     let rows = (sheet.maps.len() as u32).div_ceil(columns);
     let field_px = (columns * pitch_px.0 - GAP_PX, rows * pitch_px.1 - GAP_PX);
     // A sheet of few maps still needs room for a bar that can be read.
@@ -143,13 +169,13 @@ fn draw(sheet: &ContactSheet) -> std::result::Result<Vec<u8>, String> {
     raster.png()
 }
 
-/// Even number of columns whose sheet comes nearest to [`PROPORTION`].
-fn columns_for(maps: u32, pitch_px: (u32, u32)) -> u32 {
+/// Even number of columns whose sheet comes nearest to a proportion of width to height.
+fn columns_for(maps: u32, pitch_px: (u32, u32), proportion: f64) -> u32 {
     let distance = |columns: u32| {
         let (width, height) = (columns * pitch_px.0, maps.div_ceil(columns) * pitch_px.1);
-        (f64::from(width) / f64::from(height) / PROPORTION).ln().abs()
+        (f64::from(width) / f64::from(height) / proportion).ln().abs()
     };
-    let even = (1..=maps.div_ceil(2).min(10)).map(|half| 2 * half);
+    let even = (1..=maps.div_ceil(2).min(MOST_PAIRS)).map(|half| 2 * half);
     even.min_by(|&a, &b| distance(a).total_cmp(&distance(b))).unwrap_or(2)
 }
 

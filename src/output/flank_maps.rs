@@ -96,6 +96,21 @@ pub struct FlankMaps {
 }
 
 impl FlankMaps {
+    /// Of values after an operation those of cells that are evaluated as a whole; all of them where none is.
+    pub fn evaluated<'a>(&self, values: &'a [f32], operation: usize) -> &'a [f32] {
+        let Some([from_mm, to_mm]) = self.evaluated_mm.get(operation) else { return values };
+        let (u, along) = (&self.grid.u, self.grid.v.count);
+        let inside = |row: &usize| {
+            let middle_mm = u.start_mm + *row as f64 * u.step_mm;
+            middle_mm - 0.5 * u.step_mm >= *from_mm && middle_mm + 0.5 * u.step_mm <= *to_mm
+        };
+        let rows: Vec<usize> = (0..u.count).filter(inside).collect();
+        match (rows.first(), rows.last()) {
+            (Some(first), Some(last)) => &values[first * along..(last + 1) * along],
+            _ => values,
+        }
+    }
+
     /// Takes the dexels nearest to the places of a map with `spacing_mm`; dexels stand at `arcs_mm` along the profile
     /// and `rows_z_mm` along the tooth. All of the profile is the flank's, until somebody knows better.
     pub fn sample(

@@ -155,6 +155,16 @@ mod tests {
         assert_ne!(gathered("AV", 20.0), anew("A V", 20.0), "the comparison sees a gap");
     }
 
+    /// What scenes may have printed has a glyph; a letter of another script has none.
+    #[test]
+    fn every_letter_of_a_printed_text_is_in_the_font() {
+        let font = embedded().expect("the embedded font");
+        let missing = |letter: &char| font.glyph_id(*letter).0 == 0;
+        let letters = crate::scene::keys::PRINTED.into_iter().flat_map(|[from, to]| from..=to);
+        assert_eq!(letters.filter(missing).collect::<String>(), "");
+        assert!(missing(&'ж'), "the comparison sees a letter that is not there");
+    }
+
     /// In the font's table a digit is 572 of 1000 units wide; digits are not kerned.
     #[test]
     fn widths_are_those_of_the_font() {

@@ -36,7 +36,8 @@ impl RangeChart {
     /// The chart laid out.
     pub(super) fn figure(&self) -> Figure<'_> {
         let values = || self.series.iter().flat_map(|series| series.values.iter().flatten().flatten().copied());
-        let range = round_range(values().fold(0.0, f64::min), values().fold(0.0, f64::max));
+        let ends = (values().fold(f64::INFINITY, f64::min), values().fold(f64::NEG_INFINITY, f64::max));
+        let range = if ends.0 <= ends.1 { round_range(ends.0, ends.1) } else { (0.0, 1.0) };
         let frame = PlotFrame::new(236.0, range);
         let slots = BarPlaces { frame: &frame, categories: &self.categories, series: self.series.len() };
         // Bars of neighbouring series keep apart: both their ends are read.

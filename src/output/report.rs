@@ -16,6 +16,7 @@
 
 mod blocks;
 mod gear_frame;
+pub mod paper;
 mod table;
 pub mod texture;
 pub mod traces;
@@ -35,11 +36,13 @@ use gear_frame::gear_frame;
 use gearcut_core::Result;
 use viewer::Viewer;
 
-pub use blocks::{Block, FileLinks, PageSection};
+pub use blocks::{Block, FileLinks, PageSection, SectionVerdict, Tone};
 pub use table::PageTable;
 
 /// Name of the file in an output folder.
 pub const REPORT_FILE: &str = "report.html";
+/// Name of the printed report beside it.
+pub const PAPER_FILE: &str = "report.pdf";
 
 const STYLE: &str =
     concat!(include_str!("../../assets/report/page.css"), include_str!("../../assets/report/chart.css"));
@@ -156,10 +159,10 @@ impl Page {
         .into_string()
     }
 
-    fn links(&self) -> Vec<(&'static str, &str)> {
-        let gear = self.viewer.as_ref().map(|_| ("gear", "Gear and maps"));
-        let own = self.sections.iter().map(|section| (section.id, section.title.as_str()));
-        [("key-numbers", "Key numbers")].into_iter().chain(gear).chain(own).collect()
+    fn links(&self) -> Vec<(String, &str)> {
+        let gear = self.viewer.as_ref().map(|_| ("gear".to_owned(), "Gear and maps"));
+        let own = self.sections.iter().map(|section| (section.anchor(), section.title.as_str()));
+        [("key-numbers".to_owned(), "Key numbers")].into_iter().chain(gear).chain(own).collect()
     }
 
     fn head(&self) -> Markup {
@@ -192,6 +195,8 @@ impl Page {
     }
 
     fn numbers(&self) -> Markup {
+        let notes = self.warnings.iter().filter(|warning| warning.severity == Severity::Note);
+        let notes: Vec<Notice> = notes.cloned().collect();
         html! {
             section id="key-numbers" aria-labelledby="key-numbers-title" {
                 h2 id="key-numbers-title" { "Key numbers" }
@@ -199,9 +204,13 @@ impl Page {
                     @for (index, number) in self.key_numbers.iter().enumerate() { (number.markup(index < 2)) }
                 }
                 div id="warnings" {
-                    @for warning in &self.warnings {
-                        p class=(format!("warning {}", warning.severity.name())) role="note" {
-                            strong { (heading(warning.severity)) ". " } (warning.text) " " code { (warning.id) }
+                    @for warning in self.warnings.iter().filter(|warning| warning.severity > Severity::Note) {
+                        (sentence(warning))
+                    }
+                    @if !notes.is_empty() {
+                        details {
+                            summary { (count_words(&notes)) " on how to read the numbers" }
+                            @for note in &notes { (sentence(note)) }
                         }
                     }
                 }
@@ -227,6 +236,15 @@ impl KeyNumber {
                     @if !self.note.is_empty() { span class="note" { (self.note) } }
                 }
             }
+        }
+    }
+}
+
+/// What must be known, in a paragraph.
+fn sentence(warning: &Notice) -> Markup {
+    html! {
+        p class=(format!("warning {}", warning.severity.name())) role="note" {
+            strong { (heading(warning.severity)) ". " } (warning.text) " " code { (warning.id) }
         }
     }
 }

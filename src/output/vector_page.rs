@@ -1,22 +1,31 @@
-//! A printed page of lines, rectangles and words: one list of strokes, written as SVG and as PDF alike.
+//! Printed pages of lines, areas, words and pictures: one list of strokes, written as SVG and as PDF alike.
 //!
-//! In: strokes in points (1/72 inch) from the upper left corner. Out: an SVG file, and a PDF file (`pdf.rs`) that
-//! has the letters of the embedded font inside.
+//! In: strokes in points (1/72 inch) from the upper left corner; charts of the report, from their own SVG
+//! (`drawn.rs`). Out: an SVG file of one page, and a PDF file of one or many (`pdf.rs`) that has the letters of the
+//! embedded font inside.
 //!
 //! The law: both files are made of the same list, so that paper and screen show the same. Road not taken: a converter
-//! from SVG to PDF. The crate for that (svg2pdf) brings some sixty others and two and a half minutes of compiling;
-//! sheets need four kinds of strokes.
+//! from any SVG to PDF. The crate for that (svg2pdf) brings some sixty others and two and a half minutes of compiling;
+//! pages need five kinds of strokes.
 
+mod drawn;
 mod pdf;
 
 use super::atomic::write_bytes_atomically;
 use super::letters::text_width_px;
+use base64::Engine as _;
+use base64::engine::general_purpose::STANDARD;
 use gearcut_core::error::{Error, Result};
 use maud::{Markup, html};
 use std::path::Path;
+use std::sync::Arc;
+
+pub use drawn::drawn;
 
 /// A4 upright, points.
 pub const A4_PT: [f64; 2] = [595.28, 841.89];
+/// US Letter upright, points.
+pub const LETTER_PT: [f64; 2] = [612.0, 792.0];
 
 /// Colours of strokes and words.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -31,6 +40,10 @@ pub enum Ink {
     Blue,
     /// Mean lines, and what fails.
     Red,
+    /// What is as it should be.
+    Green,
+    /// Parts of red, green and blue, of 255.
+    Rgb([u8; 3]),
 }
 
 impl Ink {
@@ -42,6 +55,8 @@ impl Ink {
             Self::Grey => [0x5a, 0x62, 0x6a],
             Self::Blue => [0x00, 0x5a, 0x9c],
             Self::Red => [0xc0, 0x3a, 0x00],
+            Self::Green => [0x17, 0x69, 0x3f],
+            Self::Rgb(parts) => parts,
         }
     }
 
@@ -69,6 +84,10 @@ pub(super) enum PagePiece {
     Path { points: Vec<(f64, f64)>, ink: Ink, width: f64, dashed: bool },
     /// A filled rectangle: left, top, width, height.
     Block { corner: (f64, f64), size: (f64, f64), ink: Ink },
+    /// A filled polygon.
+    Area { points: Vec<(f64, f64)>, ink: Ink },
+    /// A picture in a rectangle, PNG.
+    Picture { corner: (f64, f64), size: (f64, f64), png: Arc<[u8]> },
     /// Words on a baseline.
     Words { at: (f64, f64), size: f64, ink: Ink, anchor: Anchor, words: String },
 }
@@ -77,13 +96,20 @@ pub(super) enum PagePiece {
 #[derive(Debug, Clone, PartialEq)]
 pub struct VectorPage {
     title: String,
+    /// Width and height, points.
+    pub size_pt: [f64; 2],
     pub(super) strokes: Vec<PagePiece>,
 }
 
 impl VectorPage {
     /// An empty A4 page, upright.
     pub fn new(title: &str) -> Self {
-        Self { title: title.to_owned(), strokes: Vec::new() }
+        Self::of_size(title, A4_PT)
+    }
+
+    /// An empty page, width and height in points.
+    pub fn of_size(title: &str, size_pt: [f64; 2]) -> Self {
+        Self { title: title.to_owned(), size_pt, strokes: Vec::new() }
     }
 
     /// A line through points.
@@ -107,6 +133,53 @@ impl VectorPage {
         self.strokes.push(PagePiece::Block { corner, size, ink });
     }
 
+    /// A filled polygon.
+    pub fn area(&mut self, points: &[(f64, f64)], ink: Ink) {
+        self.strokes.push(PagePiece::Area { points: points.to_vec(), ink });
+    }
+
+    /// A picture in a rectangle, PNG.
+    pub fn picture(&mut self, corner: (f64, f64), size: (f64, f64), png: Arc<[u8]>) {
+        self.strokes.push(PagePiece::Picture { corner, size, png });
+    }
+
+    /// The lowest place of a line, area, word or picture, points from the top.
+    pub fn lowest_pt(&self) -> f64 {
+        let lowest = |points: &[(f64, f64)]| points.iter().map(|point| point.1).fold(0.0, f64::max);
+        let of = |stroke: &PagePiece| match stroke {
+            PagePiece::Path { points, .. } | PagePiece::Area { points, .. } => lowest(points),
+            PagePiece::Block { corner, size, .. } | PagePiece::Picture { corner, size, .. } => corner.1 + size.1,
+            PagePiece::Words { at, .. } => at.1,
+        };
+        self.strokes.iter().map(of).fold(0.0, f64::max)
+    }
+
+    /// Another page in this one, so many times as large, its upper left corner here.
+    pub fn place(&mut self, page: &Self, corner: (f64, f64), scale: f64) {
+        let at = |(x, y): (f64, f64)| (corner.0 + scale * x, corner.1 + scale * y);
+        let by = |(width, height): (f64, f64)| (scale * width, scale * height);
+        let all = |points: &[(f64, f64)]| points.iter().copied().map(at).collect();
+        self.strokes.extend(page.strokes.iter().map(|stroke| match stroke {
+            PagePiece::Path { points, ink, width, dashed } => {
+                PagePiece::Path { points: all(points), ink: *ink, width: scale * width, dashed: *dashed }
+            }
+            PagePiece::Block { corner, size, ink } => {
+                PagePiece::Block { corner: at(*corner), size: by(*size), ink: *ink }
+            }
+            PagePiece::Area { points, ink } => PagePiece::Area { points: all(points), ink: *ink },
+            PagePiece::Picture { corner, size, png } => {
+                PagePiece::Picture { corner: at(*corner), size: by(*size), png: Arc::clone(png) }
+            }
+            PagePiece::Words { at: place, size, ink, anchor, words } => PagePiece::Words {
+                at: at(*place),
+                size: scale * size,
+                ink: *ink,
+                anchor: *anchor,
+                words: words.clone(),
+            },
+        }));
+    }
+
     /// Words on a baseline.
     pub fn words(&mut self, at: (f64, f64), size: f64, ink: Ink, anchor: Anchor, words: &str) {
         let words = words.replace(char::is_control, " ");
@@ -119,15 +192,15 @@ impl VectorPage {
     /// Files that cannot be written; a font that cannot be read.
     pub fn write(&self, svg: &Path, pdf: &Path) -> Result<()> {
         write_bytes_atomically(svg, self.svg().into_string().as_bytes())?;
-        let bytes = self.pdf().map_err(|reason| Error::Output { path: pdf.to_owned(), reason })?;
-        write_bytes_atomically(pdf, &bytes)
+        write_pdf(pdf, std::slice::from_ref(self))
     }
 
     /// The page as SVG.
     pub fn svg(&self) -> Markup {
-        let [width, height] = A4_PT;
+        let [width, height] = self.size_pt;
+        let mm = |pt: f64| format!("{}mm", (pt * 25.4 / 72.0).round());
         html! {
-            svg xmlns="http://www.w3.org/2000/svg" width="210mm" height="297mm"
+            svg xmlns="http://www.w3.org/2000/svg" width=(mm(width)) height=(mm(height))
                 viewBox=(format!("0 0 {width} {height}")) font-family="Noto Sans, DejaVu Sans, Arial, sans-serif"
                 role="img" aria-labelledby="title" {
                 title id="title" { (self.title) }
@@ -136,6 +209,15 @@ impl VectorPage {
             }
         }
     }
+}
+
+/// Writes pages as one PDF file, whose title is that of the first.
+///
+/// # Errors
+/// A file that cannot be written; a font or a picture that cannot be read.
+pub fn write_pdf(path: &Path, pages: &[VectorPage]) -> Result<()> {
+    let bytes = pdf::pdf(pages).map_err(|reason| Error::Output { path: path.to_owned(), reason })?;
+    write_bytes_atomically(path, &bytes)
 }
 
 /// Width of words, points.
@@ -156,6 +238,11 @@ impl PagePiece {
             Self::Block { corner, size, ink } => html! {
                 rect x=(coordinate(corner.0)) y=(coordinate(corner.1)) width=(coordinate(size.0))
                     height=(coordinate(size.1)) fill=(ink.hex()) {}
+            },
+            Self::Area { points, ink } => html! { path d=(super::plot::path(points)) fill=(ink.hex()) {} },
+            Self::Picture { corner, size, png } => html! {
+                image x=(coordinate(corner.0)) y=(coordinate(corner.1)) width=(coordinate(size.0))
+                    height=(coordinate(size.1)) href=(format!("data:image/png;base64,{}", STANDARD.encode(png))) {}
             },
             Self::Words { at, size, ink, anchor, words } => {
                 let anchor = match anchor {
@@ -201,11 +288,49 @@ mod tests {
         assert_eq!(path.attribute("d"), Some("M10 10L20 30M40 30L50 10"));
     }
 
+    /// Two pages, the second with a picture whose rows are those of its PNG file; one of
+    /// numbered colours brings its palette, one of grey is refused.
+    #[test]
+    fn pictures_are_taken_over_as_they_are_packed() {
+        let png = |kind: u8| -> Arc<[u8]> {
+            let mut bytes = b"\x89PNG\r\n\x1a\n".to_vec();
+            let head = [0, 0, 0, 3, 0, 0, 0, 2, 8, kind, 0, 0, 0];
+            for (name, body) in [
+                (b"IHDR", &head[..]),
+                (b"PLTE", b"abcdef"),
+                (b"IDAT", b"one "),
+                (b"tEXt", b"not this"),
+                (b"IDAT", b"two"),
+            ] {
+                bytes.extend((body.len() as u32).to_be_bytes());
+                bytes.extend(name.iter().chain(body).chain(&[0; 4]));
+            }
+            bytes.into()
+        };
+        let mut second = VectorPage::of_size("second", LETTER_PT);
+        second.picture((10.0, 20.0), (30.0, 20.0), png(2));
+        let bytes = pdf::pdf(&[page(), second.clone()]).expect("the font is read");
+        let text = String::from_utf8_lossy(&bytes);
+        assert_eq!([text.matches("/MediaBox").count(), text.matches("/Subtype /Image").count()], [2, 1], "{text}");
+        assert!(text.contains("stream\none two\nendstream") && text.contains("/Predictor 15"), "{text}");
+        assert!(text.contains("/Width 3") && text.contains("/Height 2") && text.contains("/Columns 3"), "{text}");
+        let mut numbered = VectorPage::new("numbered");
+        numbered.picture((0.0, 0.0), (1.0, 1.0), png(3));
+        let text = pdf::pdf(&[numbered]).expect("the font is read");
+        let text = String::from_utf8_lossy(&text).into_owned();
+        assert!(text.contains("/Indexed /DeviceRGB 1 (abcdef)") && text.contains("/Colors 1"), "{text}");
+        let mut outer = VectorPage::new("outer");
+        outer.place(&second, (100.0, 100.0), 0.5);
+        assert_eq!(outer.lowest_pt(), 120.0);
+        second.picture((0.0, 0.0), (1.0, 1.0), png(0));
+        assert!(pdf::pdf(&[second]).is_err_and(|why| why.contains("no plain colours")));
+    }
+
     /// The file is taken apart as a reader does: from its end, by the table of places.
     #[test]
     fn the_printed_page_has_every_object_where_its_table_says() {
-        let bytes = page().pdf().expect("the font is read");
-        assert_eq!(bytes, page().pdf().expect("the font is read"), "the same page, the same bytes");
+        let bytes = pdf::pdf(&[page()]).expect("the font is read");
+        assert_eq!(bytes, pdf::pdf(&[page()]).expect("the font is read"), "the same page, the same bytes");
         assert!(bytes.starts_with(b"%PDF-1.") && bytes.ends_with(b"%%EOF"), "{:?}", &bytes[..8]);
         let text = String::from_utf8_lossy(&bytes);
         let at: usize = {

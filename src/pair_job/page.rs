@@ -5,27 +5,29 @@
 //! distance.
 
 use super::charts::{self, NamedLines};
-use super::flanks::FlankSource;
 use super::options::PairOptions;
 use super::rolled::RolledPair;
 use super::teeth::ToothContact;
 use super::view;
 use crate::findings::{Findings, Notice};
+use crate::output::folder::OutputFolder;
 use crate::output::range_chart::{RangeChart, RangeSeries};
-use crate::output::report::{Block, Page, PageSection, PageTable};
+use crate::output::report::{Block, Page, PageSection};
 use crate::output::text::plain;
 use crate::scene::Scene;
+use crate::steps;
 use crate::steps::report::facts::gear_words;
 use crate::steps::report::quantities;
+use gearcut_core::error::Result;
 
-/// What the page shows beside numbers and charts: pictures with their PNG, and the files beside it.
+/// What the page shows beside numbers and charts: pictures with their PNG, and its end.
 pub struct PageParts {
     /// Contact patterns, one for each gear that has one.
     pub patterns: Vec<(String, Vec<u8>)>,
     /// The gears rolling.
     pub animation: Vec<u8>,
-    /// The section of the files.
-    pub files: PageSection,
+    /// Its end: [`ending`].
+    pub end: [PageSection; 2],
 }
 
 /// What is needed to roll the pair again.
@@ -45,7 +47,6 @@ pub fn page(
     found: &Findings,
     lines: &[NamedLines],
     parts: PageParts,
-    record: &PairRecord,
 ) -> Page {
     let viewer = view::viewer(rolled, options.marking_um);
     let chart = |name: &str| {
@@ -59,10 +60,6 @@ pub fn page(
     let mut contact = part(vec![chart("contact_ratio"), Some(Block::Ranges(by_tooth(rolled)))]);
     contact.extend(patterns.flatten());
     contact.extend(part(vec![table("contact.right"), table("contact.left")]));
-    let flanks = match options.source {
-        FlankSource::Cut => format!("cut by {}", record.backend),
-        FlankSource::Nominal => "nominal, not cut".to_owned(),
-    };
     let sections = vec![
         PageSection::new(
             "ratio",
@@ -120,8 +117,6 @@ pub fn page(
             "What 10 µm more do. Round gears turn as evenly at any distance; non-circular ones do not.",
             part(vec![table("center_distance"), table("pair")]),
         ),
-        parts.files,
-        run_record(&flanks, record),
     ];
     let gears = scenes.iter().zip(["A drives", "B is driven"]);
     Page {
@@ -140,29 +135,18 @@ pub fn page(
         key_numbers: found.headline.iter().map(quantities::key_number).collect(),
         warnings: found.warnings.iter().map(Notice::with_signs).collect(),
         viewer,
-        sections: sections.into_iter().map(|section| with_marking(section, options)).collect(),
+        sections: sections.into_iter().map(|section| with_marking(section, options)).chain(parts.end).collect(),
     }
 }
 
-/// What is needed to repeat the work; `flanks` says where they come from.
-pub(super) fn run_record(flanks: &str, record: &PairRecord) -> PageSection {
-    let row = |name: &str, value: String| vec![name.to_owned(), value];
-    let table = PageTable {
-        caption: "Run".to_owned(),
-        columns: Vec::new(),
-        rows: vec![row("Program", format!("gearcut {}", env!("CARGO_PKG_VERSION"))), row("Flanks", flanks.to_owned())],
-    };
-    let scenes = record.scenes.iter().zip(["A", "B"]).map(|(scene, gear)| {
-        let words = format!("The scene of gear {gear}, every value written out");
-        Block::Folded(words, vec![Block::Verbatim(scene.clone())])
-    });
-    PageSection::new(
-        "record",
-        "Run record",
-        "What is needed to roll the pair again: both scenes, and the options of the command in run.json beside this \
-         page.",
-        [Block::Table(table)].into_iter().chain(scenes).collect(),
-    )
+/// The files, and what is needed to roll the pair again; `flanks` says where they come from.
+///
+/// # Errors
+/// The folder cannot be read.
+pub fn ending(folder: &OutputFolder, flanks: &str, record: &PairRecord) -> Result<[PageSection; 2]> {
+    let words = ["A", "B"].map(|gear| format!("The scene of gear {gear}, every value written out"));
+    let scenes = [0, 1].map(|k| (words[k].as_str(), record.scenes[k].as_str()));
+    steps::report::ending(folder, ["Flanks", flanks], &scenes)
 }
 
 /// The lead of the section on contact names the marking.

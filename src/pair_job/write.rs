@@ -1,8 +1,9 @@
 //! What a pair writes: results, tables, charts, contact patterns, an animation, the page.
 
 use super::charts;
+use super::flanks::FlankSource;
 use super::options::PairOptions;
-use super::page::{PageParts, PairRecord, page};
+use super::page::{PageParts, PairRecord, ending, page};
 use super::pictures::{write_animation, write_pattern};
 use super::rolled::RolledPair;
 use super::watch::Watch;
@@ -12,7 +13,6 @@ use crate::output::report::REPORT_FILE;
 use crate::output::table::write_tables;
 use crate::pair::pitch_pair::Member;
 use crate::scene::Scene;
-use crate::steps::report::files;
 use gearcut_core::error::{Error, Result};
 
 /// Writes everything but the run record.
@@ -48,8 +48,12 @@ pub fn write(
         watch.check()?;
     }
     let animation = bytes(&write_animation(rolled, options.marking_um, folder, watch)?)?;
-    let parts = PageParts { patterns, animation, files: files::section(folder)? };
-    let page = page(scenes, options, rolled, found, &lines, parts, record);
+    let flanks = match options.source {
+        FlankSource::Cut => format!("cut by {}", record.backend),
+        FlankSource::Nominal => "nominal, not cut".to_owned(),
+    };
+    let parts = PageParts { patterns, animation, end: ending(folder, &flanks, record)? };
+    let page = page(scenes, options, rolled, found, &lines, parts);
     page.write(&folder.path(REPORT_FILE)?)?;
     folder.write_json(RESULTS_FILE, &found.to_json())
 }

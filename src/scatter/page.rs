@@ -120,29 +120,28 @@ fn gears_chart(scatter: &Scatter) -> Option<StripChart> {
 fn page(scene: &Scene, scatter: &Scatter, found: &Findings, files: Vec<String>) -> Page {
     let charts = CHARTS.iter().filter_map(|(file, ..)| layers_chart(scatter, file)).map(Block::Panels);
     let table = |path: &str, key: &str| found.find(path).and_then(|section| section.table_of(key)).map(page_table);
-    let mut sections = vec![PageSection {
-        id: "layers",
-        title: "Layers of errors".to_owned(),
-        lead: "Predicted by simulation: the same gear with each layer of errors alone, with all of them, and with all \
+    let mut sections = vec![PageSection::new(
+        "layers",
+        "Layers of errors",
+        "Predicted by simulation: the same gear with each layer of errors alone, with all of them, and with all \
             but one. Layers do not add up: a flank keeps what cuts deepest. What is left without a layer shows what \
-            working on it would bring."
-            .to_owned(),
-        blocks: charts.chain(table("layers", "cases").map(Block::Table)).collect(),
-    }];
+            working on it would bring.",
+        charts.chain(table("layers", "cases").map(Block::Table)).collect(),
+    )];
     if let Some(chart) = gears_chart(scatter) {
-        sections.push(PageSection {
-            id: "gears",
-            title: "Gears of many seeds".to_owned(),
-            lead: gears_lead(scatter),
-            blocks: std::iter::once(Block::Strips(chart)).chain(table("scatter", "spread").map(Block::Table)).collect(),
-        });
+        sections.push(PageSection::new(
+            "gears",
+            "Gears of many seeds",
+            gears_lead(scatter),
+            std::iter::once(Block::Strips(chart)).chain(table("scatter", "spread").map(Block::Table)).collect(),
+        ));
     }
-    sections.push(PageSection {
-        id: "files",
-        title: "Files".to_owned(),
-        lead: String::new(),
-        blocks: vec![Block::Files(vec![FileLinks { what: "Beside this page".to_owned(), files, more: 0 }])],
-    });
+    sections.push(PageSection::new(
+        "files",
+        "Files",
+        "",
+        vec![Block::Files(vec![FileLinks { what: "Beside this page".to_owned(), files, more: 0 }])],
+    ));
     let gears = scatter.gears.map_or_else(String::new, |gears| format!(", {gears} gears"));
     Page {
         what: "error layers and scatter",

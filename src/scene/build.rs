@@ -6,8 +6,8 @@
 use std::path::{Path, PathBuf};
 
 use super::model::{
-    DrawnLimits, Fields, Gear, Measure, Output, Picture, PictureColour, PictureView, Post, Scene, TextureFilters,
-    TextureWindow, WindowSides,
+    DrawnLimits, Fields, Gear, Measure, Output, Picture, PictureColour, PictureView, Post, ReportHead, Scene,
+    TextureFilters, TextureWindow, WindowSides,
 };
 use super::process::SceneProcess;
 use super::values::{Values, View};
@@ -58,8 +58,20 @@ pub(super) fn build(name: &str, process: &SceneProcess, base_dir: &Path, values:
                 _ => return None,
             },
         },
+        report: report_head(values.view("report")),
         pictures: pictures?,
     })
+}
+
+fn report_head(report: View<'_>) -> ReportHead {
+    let field = |name: &str| report.text(name).map(str::to_owned);
+    ReportHead {
+        part: field("part"),
+        drawing: field("drawing"),
+        customer: field("customer"),
+        date: field("date"),
+        us_letter: report.text("paper") == Some("letter"),
+    }
 }
 
 fn drawn_limits(limits: View<'_>) -> DrawnLimits {

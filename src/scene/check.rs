@@ -4,7 +4,7 @@
 //! fault with the place of the part that is wrong (one number of a list, not the list). Whole numbers pass where
 //! numbers are asked for, never the other way round: `teeth = 24.0` is more likely a mistake than a wish.
 
-use super::keys::{Key, Kind, Range};
+use super::keys::{Key, Kind, PRINTED, Range};
 use super::sources::{At, Sources};
 use super::tree::{Node, TomlValue};
 use super::values::Checked;
@@ -47,6 +47,12 @@ pub(super) fn check(path: &str, key: &Key, node: &Node, sources: &Sources) -> Re
                 Ok(Checked::Text(text.to_owned()))
             }
         }
+        Kind::Text { most } => {
+            let text = if let TomlValue::Date(date) = &node.value { date } else { one.text(node)? };
+            let printed = |letter: char| PRINTED.iter().any(|[from, to]| (*from..=*to).contains(&letter));
+            let fits = (1..=most).contains(&text.chars().count()) && text.chars().all(printed);
+            if fits { Ok(Checked::Text(text.to_owned())) } else { Err(one.refused(node)) }
+        }
         Kind::Numbers { range, most } => one.numbers(node, range, most).map(Checked::Numbers),
         Kind::Pair(range) => {
             let pair = one.numbers(node, range, 2)?;
@@ -86,7 +92,7 @@ impl One<'_> {
                 format!(" {}", self.key.brackets())
             }
             Kind::Whole { min, max } => format!(", {min} to {max}"),
-            Kind::Boolean | Kind::Name | Kind::Path => String::new(),
+            Kind::Boolean | Kind::Name | Kind::Path | Kind::Text { .. } => String::new(),
         };
         Self::fault(node, format!("`{path}` takes {wanted}{brackets}, not {kind}: {written}"))
     }

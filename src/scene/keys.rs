@@ -58,6 +58,11 @@ pub enum Kind {
     Name,
     /// Path of a file or folder.
     Path,
+    /// Text that is printed, on one line, of letters that the font has: [`PRINTED`].
+    Text {
+        /// Longest text, letters.
+        most: usize,
+    },
     /// List of numbers, each in the range, at most `most` of them.
     Numbers {
         /// Range of each number.
@@ -79,6 +84,17 @@ pub enum Kind {
         most: usize,
     },
 }
+
+/// Letters that a text may have which is printed, from and to: what the embedded font has of Latin, Greek and quotes.
+pub const PRINTED: [[char; 2]; 7] = [
+    [' ', '~'],
+    ['\u{a0}', '\u{17f}'],
+    ['\u{384}', '\u{38a}'],
+    ['\u{38e}', '\u{3a1}'],
+    ['\u{3a3}', '\u{3e1}'],
+    ['\u{2013}', '\u{2015}'],
+    ['\u{2018}', '\u{201e}'],
+];
 
 /// What holds when a key is not written.
 #[derive(Debug, Clone, Copy)]
@@ -251,6 +267,7 @@ impl Key {
             Kind::Word(words) => either(words.iter().map(|word| format!("\"{word}\""))),
             Kind::Name => "letters, digits, _ and -, in quotes".to_owned(),
             Kind::Path => "path in quotes".to_owned(),
+            Kind::Text { most } => format!("1 to {most} letters, Latin or Greek, in quotes on one line"),
             Kind::Numbers { range, most } => format!("list of at most {most} numbers, each {range}"),
             Kind::Pair(range) => format!("[first, last], each {range}"),
             Kind::Points { angle, radius, fewest, .. } => {

@@ -152,6 +152,7 @@ impl Writer<'_> {
         let stays = |name: &str| match section.path {
             "gear" => OWN_OF_GEAR.contains(&name) || bore(name),
             "output" => name == "folder",
+            "report" => name != "paper",
             // Balls fit the driver's spaces.
             "measure" => name == "ball_diameter_mm",
             "operation[]" if name == "program" => true,

@@ -30,6 +30,8 @@ pub struct Scene {
     pub fields: Fields,
     /// What is written.
     pub output: Output,
+    /// Fields of the printed report.
+    pub report: ReportHead,
     /// Pictures to draw.
     pub pictures: Vec<Picture>,
 }
@@ -245,6 +247,21 @@ pub struct Output {
     pub gcode_contour_error_mm: f64,
     /// Control for which axis programs are written.
     pub post: Post,
+}
+
+/// The head of the printed report; what is left out is an empty field.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct ReportHead {
+    /// Name of the part; the scene's where left out.
+    pub part: Option<String>,
+    /// Number of the drawing.
+    pub drawing: Option<String>,
+    /// For whom the gear is.
+    pub customer: Option<String>,
+    /// Date as it is printed.
+    pub date: Option<String>,
+    /// Whether the paper is US Letter, and not A4.
+    pub us_letter: bool,
 }
 
 /// The control that reads an axis program; what each asks for stands in [`crate::gcode`].

@@ -9,7 +9,7 @@ use super::keys::{self, Addition, Group, Key, KeySection, Role, join};
 use super::process::SceneProcess;
 
 /// Order of the outermost tables in a scene file; a process's own ones that are not listed stand at the end.
-const ORDER: [&str; 12] = [
+const ORDER: [&str; 13] = [
     "",
     "gear",
     "material",
@@ -21,6 +21,7 @@ const ORDER: [&str; 12] = [
     "fields",
     "measure",
     "output",
+    "report",
     "picture[]",
 ];
 

@@ -33,8 +33,8 @@ pub(super) enum TomlValue {
     Number(f64),
     /// Boolean.
     Boolean(bool),
-    /// Date or time; no key takes one.
-    Date,
+    /// Date or time, as it is written.
+    Date(String),
     /// Array.
     List(Vec<Node>),
     /// Table, in the order of the file.
@@ -122,7 +122,7 @@ fn node(value: &Spanned<DeValue<'_>>, place: &dyn Fn(Range<usize>) -> At) -> Nod
             _ => TomlValue::Unusable,
         },
         DeValue::Boolean(on) => TomlValue::Boolean(*on),
-        DeValue::Datetime(_) => TomlValue::Date,
+        DeValue::Datetime(date) => TomlValue::Date(date.to_string()),
         DeValue::Array(items) => TomlValue::List(items.iter().map(|item| node(item, place)).collect()),
         DeValue::Table(table) => table_value(table, place),
     };
@@ -157,7 +157,7 @@ impl Node {
             TomlValue::Whole(_) => "a whole number",
             TomlValue::Number(_) | TomlValue::Unusable => "a number with a point",
             TomlValue::Boolean(_) => "true or false",
-            TomlValue::Date => "a date",
+            TomlValue::Date(_) => "a date",
             TomlValue::List(_) => "a list",
             TomlValue::Table(_) => "a table",
         }

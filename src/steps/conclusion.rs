@@ -10,10 +10,13 @@ use super::axes::{self, AxesOfOperation};
 use super::parts::Part;
 use crate::findings::notice::ranked;
 use crate::findings::{Findings, RESULTS_FILE};
-use crate::output::report::{Page, REPORT_FILE};
+use crate::output::report::{PAPER_FILE, Page, REPORT_FILE};
+use crate::output::vector_page::VectorPage;
+use crate::scene::Scene;
+use crate::steps::report::paper;
 use gearcut_core::error::Result;
 
-/// Writes them; afterwards `found` has the whole list. `page` makes the report.
+/// Writes them; afterwards `found` has the whole list. `page` makes the report, on paper with the inspector's `sheet`.
 ///
 /// # Errors
 /// `results.json` cannot be written; Ctrl-C.
@@ -22,7 +25,9 @@ pub fn write<O: AxesOfOperation>(
     motion: &[O],
     tools: &Tools,
     attempts: &mut Attempts,
+    scene: &Scene,
     page: impl FnOnce(&Findings) -> Result<Page>,
+    sheet: Option<VectorPage>,
 ) -> Result<()> {
     let Tools { progress, folder, parts, .. } = *tools;
     let known = std::mem::take(&mut found.warnings);
@@ -37,8 +42,14 @@ pub fn write<O: AxesOfOperation>(
     found.warnings = list(attempts);
     if parts.has(Part::Report) {
         let step = progress.step("report", 1, "page");
-        let write = || page(found)?.write(&folder.path(REPORT_FILE)?);
-        attempts.of(REPORT_FILE, write())?;
+        let write = || {
+            let page = page(found)?;
+            page.write(&folder.path(REPORT_FILE)?)?;
+            Ok(page)
+        };
+        if let Some(page) = attempts.of(REPORT_FILE, write())? {
+            attempts.of(PAPER_FILE, paper::write(&page, scene, sheet, tools))?;
+        }
         step.advance(1);
         step.finish();
     }

@@ -9,12 +9,16 @@ use gearcut_core::units::UM_PER_MM;
 /// Deviations whose colours reach the ends of the scale at least, µm: on a finer scale a perfect gear would look
 /// faulty.
 const LEAST_DEVIATION_UM: f32 = 1.0;
+/// Smallest span of the colours of stock, as a share of the stock: finer, an even allowance would look uneven.
+const LEAST_SPAN: f32 = 0.05;
 
 /// Maps of all finished flanks, in order of teeth, left before right.
 #[derive(Debug)]
 pub struct GearMaps {
     /// The maps; empty where nothing that is written needs them.
     pub flanks: Vec<FlankMaps>,
+    /// Colours of the stock of every earlier operation, mm.
+    pub stock_scales: Vec<ColourScale>,
     /// Colours of the deviations, µm.
     pub deviation_scale: ColourScale,
     /// Colours of the finished surface's heights, highest of each cell, µm.
@@ -22,18 +26,35 @@ pub struct GearMaps {
 }
 
 impl GearMaps {
-    /// Finds the colours.
+    /// Finds the colours, over what is evaluated of the finished flanks: a fillet that is deep for reasons of its own
+    /// would leave none to them, and stays at the end of the colours.
     pub fn new(flanks: Vec<FlankMaps>) -> Self {
-        let deviation_scale = match ColourScale::diverging_over(flanks.iter().map(FlankMaps::deviation_mm)) {
+        let evaluated = |values: fn(&FlankMaps) -> Vec<f32>| -> Vec<Vec<f32>> {
+            let of = |map: &FlankMaps| map.evaluated(&values(map), map.evaluated_mm.len() - 1).to_vec();
+            flanks.iter().map(of).collect()
+        };
+        let deviations_mm = evaluated(|map| map.deviation_mm().to_vec());
+        let deviation_scale = match ColourScale::diverging_over(deviations_mm.iter().map(Vec::as_slice)) {
             ColourScale::Diverging { limit } => {
                 ColourScale::Diverging { limit: (limit * UM_PER_MM as f32).max(LEAST_DEVIATION_UM) }
             }
             scale @ ColourScale::Sequential { .. } => scale,
         };
-        let heights_um: Vec<Vec<f32>> = flanks.iter().map(finished_heights_um).collect();
+        let heights_um = evaluated(finished_heights_um);
         let height_scale = ColourScale::heights_over(heights_um.iter().map(Vec::as_slice));
-        Self { flanks, deviation_scale, height_scale }
+        let earlier = flanks.first().map_or(0, |map| map.evaluated_mm.len() - 1);
+        let stock_scales = (0..earlier).map(|operation| stock_scale(&flanks, operation)).collect();
+        Self { flanks, stock_scales, deviation_scale, height_scale }
     }
+}
+
+fn stock_scale(flanks: &[FlankMaps], operation: usize) -> ColourScale {
+    let stocks_mm: Vec<Vec<f32>> = flanks.iter().map(|map| map.mean_stock_mm(operation)).collect();
+    let evaluated = flanks.iter().zip(&stocks_mm).map(|(map, stock)| map.evaluated(stock, operation));
+    let (low, high) = ColourScale::sequential_over(evaluated).ends();
+    let middle = 0.5 * (low + high);
+    let half = (0.5 * (high - low)).max(0.5 * LEAST_SPAN * middle.abs());
+    ColourScale::Sequential { low: middle - half, high: middle + half }
 }
 
 /// Heights of a flank's finished surface, highest of each cell, µm.
@@ -44,4 +65,48 @@ pub fn finished_heights_um(map: &FlankMaps) -> Vec<f32> {
 /// Lengths in mm as µm.
 pub fn um(lengths_mm: &[f32]) -> Vec<f32> {
     lengths_mm.iter().map(|length| length * UM_PER_MM as f32).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use gearcut_core::dexel::{Column, Field};
+    use gearcut_core::terms::Side;
+    use glam::DVec2;
+
+    /// A fillet half a millimetre deep below flanks that are 3 um high and have 0.2 mm of stock: the colours are those
+    /// of the flanks. A part without a whole cell says nothing, and all of the map counts.
+    #[test]
+    fn colours_span_what_is_evaluated() {
+        let column = |i: u32| Column {
+            arc_mm: f64::from(i) * 0.05,
+            origin_mm: DVec2::ZERO,
+            normal: DVec2::X,
+            low_mm: -1.0,
+            blank_mm: 1.0,
+        };
+        let field = Field { columns: (0..40).map(column).collect(), rows_z_mm: vec![0.0, 0.1] };
+        let left = |flank_mm: f32| {
+            let mut layer = field.blank_layer();
+            for (index, height) in layer.heights_mm.iter_mut().enumerate() {
+                *height = if index / 2 < 10 { -0.5 } else { flank_mm };
+            }
+            layer.passes.fill(1);
+            layer
+        };
+        let layers = [left(0.203), left(0.003)];
+        let map = |ends_mm: [f64; 2]| {
+            let mut map = FlankMaps::sample(1, Side::Left, [&field.arcs_mm(), &field.rows_z_mm], &layers, 0.1);
+            map.evaluated_mm = vec![ends_mm; 2];
+            map
+        };
+        let maps = GearMaps::new(vec![map([0.7, 1.9])]);
+        let near = |found: (f32, f32), wanted: (f32, f32)| {
+            assert!((found.0 - wanted.0).abs() < 1e-4 && (found.1 - wanted.1).abs() < 1e-4, "{found:?}, {wanted:?}");
+        };
+        near(maps.deviation_scale.ends(), (-3.0, 3.0));
+        near(maps.height_scale.ends(), (3.0, 3.0));
+        near(maps.stock_scales[0].ends(), (0.195, 0.205));
+        near(GearMaps::new(vec![map([0.71, 0.72])]).deviation_scale.ends(), (-500.0, 500.0));
+    }
 }

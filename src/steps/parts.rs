@@ -19,7 +19,7 @@ pub enum Part {
     Chips,
     /// `axes/`: tables, charts and programs of the axes.
     Axes,
-    /// `report.html`, `inspection.svg`, `inspection.pdf`.
+    /// `report.html`, `report.pdf`, `inspection.svg`, `inspection.pdf`.
     Report,
 }
 

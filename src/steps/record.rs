@@ -31,6 +31,7 @@ pub fn run_record(tools: &Tools, work: &Work, complete: bool, checksums: &Map<St
         "program_version": env!("CARGO_PKG_VERSION"),
         "command": "cut",
         "scene": resolved,
+        "scene_sha256": sha256_hex(resolved.as_bytes()),
         "written": parts.names(),
         "backend": backend.name(),
         "backend_why": backend_why,
@@ -54,6 +55,14 @@ pub fn run_record(tools: &Tools, work: &Work, complete: bool, checksums: &Map<St
     record
 }
 
+/// SHA-256 in hexadecimal digits.
+pub fn sha256_hex(bytes: &[u8]) -> String {
+    Sha256::digest(bytes).iter().fold(String::new(), |mut text, byte| {
+        let _ = write!(text, "{byte:02x}");
+        text
+    })
+}
+
 fn collect_checksums(folder: &Path, prefix: &str, into: &mut Map<String, Value>) -> Result<()> {
     let mut entries: Vec<_> = std::fs::read_dir(folder)
         .and_then(Iterator::collect::<std::io::Result<Vec<_>>>)
@@ -65,12 +74,8 @@ fn collect_checksums(folder: &Path, prefix: &str, into: &mut Map<String, Value>)
         if path.is_dir() {
             collect_checksums(&path, &format!("{name}/"), into)?;
         } else {
-            let digest = Sha256::digest(std::fs::read(&path).map_err(Error::reading(&path))?);
-            let hex = digest.iter().fold(String::new(), |mut text, byte| {
-                let _ = write!(text, "{byte:02x}");
-                text
-            });
-            into.insert(name, Value::String(hex));
+            let bytes = std::fs::read(&path).map_err(Error::reading(&path))?;
+            into.insert(name, Value::String(sha256_hex(&bytes)));
         }
     }
     Ok(())

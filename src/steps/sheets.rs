@@ -55,7 +55,7 @@ fn write_contact_sheets(job: &dyn GearJob, gear: &GearMaps, folder: &OutputFolde
     let last = scales.len() - 1;
     let scene = &job.scene().name;
     for (index, operation) in scales[..last].iter().enumerate() {
-        write_stock_sheet(scene, operation, index, maps, folder)?;
+        write_stock_sheet(scene, operation, index, gear, folder)?;
     }
     let name = &scales[last].name;
     write_height_sheet(scene, name, gear, folder)?;
@@ -105,7 +105,7 @@ fn write_stock_sheet(
     scene: &str,
     operation: &OperationMaps,
     index: usize,
-    maps: &[FlankMaps],
+    gear: &GearMaps,
     folder: &OutputFolder,
 ) -> Result<()> {
     let name = &operation.name;
@@ -113,9 +113,9 @@ fn write_stock_sheet(
         &folder.path(format!("pictures/stock_{name}.png"))?,
         &format!("{scene}: stock of {name}, all flanks"),
         ["normal stock, mean of cell", "mm"],
-        operation.stock_scale,
-        maps,
-        &maps.iter().map(|m| m.mean_stock_mm(index)).collect::<Vec<_>>(),
+        gear.stock_scales[index],
+        &gear.flanks,
+        &gear.flanks.iter().map(|m| m.mean_stock_mm(index)).collect::<Vec<_>>(),
     )
 }
 

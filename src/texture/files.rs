@@ -5,6 +5,7 @@ use crate::colormap::ColourScale;
 use crate::job::GearJob;
 use crate::measure::topography::Surface;
 use crate::output::atomic::file_error;
+use crate::output::contact_sheet::{ContactSheet, Thumbnail, write_contact_sheet};
 use crate::output::folder::OutputFolder;
 use crate::output::grid::{MapAxis, MapGrid};
 use crate::output::map_png::{MapPicture, Relief, write_relief_png};
@@ -89,7 +90,37 @@ pub(super) fn write(
     notes: &[(String, String)],
 ) -> Result<()> {
     let stems = stems(job, textures);
-    textures.par_iter().zip(&stems).try_for_each(|(texture, stem)| write_one(job, texture, stem, folder, notes))
+    textures.par_iter().zip(&stems).try_for_each(|(texture, stem)| write_one(job, texture, stem, folder, notes))?;
+    (0..job.operations().len()).try_for_each(|index| write_tiles(job, textures, index, folder))
+}
+
+/// Name of the picture that has all windows of an operation.
+pub fn sheet_file(operation: &str) -> String {
+    format!("texture/{operation}_windows.png")
+}
+
+/// All windows of an operation as tiles of one sheet, on one scale; nothing where none was evaluated.
+fn write_tiles(job: &dyn GearJob, textures: &[WindowTexture], index: usize, folder: &OutputFolder) -> Result<()> {
+    let operation = job.operations()[index].0;
+    let evaluated = textures.iter().filter(|texture| texture.window.operation == index).filter_map(|texture| {
+        let surface = &texture.evaluated.as_ref().ok()?.surface;
+        let label = format!("{} {}", texture.window.tooth, texture.window.side.name());
+        Some((label, picture_of(texture, surface)))
+    });
+    let tiles: Vec<(String, (MapGrid, Vec<f32>))> = evaluated.collect();
+    let maps: Vec<Thumbnail> = tiles.iter().map(|(label, (grid, values))| Thumbnail { label, grid, values }).collect();
+    if maps.is_empty() {
+        return Ok(());
+    }
+    let sheet = ContactSheet {
+        title: &format!("{}: texture windows after {operation}, after their chain", job.scene().name),
+        quantity: "height about the mean",
+        unit: "µm",
+        scale: ColourScale::sequential_over(maps.iter().map(|map| map.values)),
+        missing: "no surface here",
+        maps: &maps,
+    };
+    write_contact_sheet(&folder.path(sheet_file(operation))?, &sheet)
 }
 
 fn write_one(

@@ -27,6 +27,7 @@ def main(report, pair, pictures, chromium):
         browser = playwright.chromium.launch(executable_path=chromium, args=ARGUMENTS)
         wide = open_page(browser, address, pictures, width=1360, height=900, scheme="light")
         check_text(wide)
+        check_folding(wide)
         check_gear(wide)
         check_picker(wide)
         check_strokes(wide)
@@ -107,6 +108,18 @@ def check_text(opened):
     assert page.title().startswith(name), f"the title is {page.title()}"
     first = page.locator("#key-numbers .value").first.inner_text().strip()
     assert first not in ("", "–"), "the first number is missing"
+
+
+def check_folding(opened):
+    """What is only looked up is folded to a line that says what it is; its link unfolds it, without a script."""
+    page = opened.page
+    folded = page.locator("details.section:not([open])")
+    assert folded.count() >= 3, f"{folded.count()} sections are folded"
+    lines = folded.locator("summary .verdict").all_inner_texts()
+    assert len(lines) == folded.count() and all(lines), f"lines of folded sections: {lines}"
+    page.locator("nav a[href='#record-inside']").click()
+    page.wait_for_function("document.querySelector('#record details').open", timeout=20_000)
+    page.evaluate("document.querySelector('#record details').open = false; window.scrollTo(0, 0)")
 
 
 def kept(opened, canvas):
@@ -293,7 +306,7 @@ def check_tables_and_pictures(opened):
     assert not hidden, f"too wide for the screen: {hidden}"
     pictures = page.evaluate("[...document.images].map((picture) => picture.complete && picture.naturalWidth > 600)")
     assert pictures and all(pictures), f"a picture is empty: {pictures}"
-    page.evaluate("document.querySelectorAll('details').forEach((folded) => { folded.open = false; })")
+    page.evaluate("document.querySelectorAll('details:not(.section)').forEach((one) => { one.open = false; })")
 
 
 def check_strokes(opened):

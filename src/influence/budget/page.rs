@@ -9,9 +9,9 @@ use crate::output::report::{Block, Page, PageSection, PageTable, REPORT_FILE};
 use crate::output::table::write_tables;
 use crate::output::text::{plain, significant};
 use crate::scene::{LoadedScene, Scene};
-use crate::steps::report::ending;
 use crate::steps::report::facts::gear_words;
 use crate::steps::report::quantities;
+use crate::steps::report::{SCENE, ending};
 use gearcut_core::error::Result;
 
 /// Parameters in the chart: as many as can be read.
@@ -35,7 +35,7 @@ pub fn write(
         chart(budget).write_svg(&folder.path("pictures/budget.svg")?)?;
     }
     let maps = maps::write(budget, folder)?;
-    let end = ending(folder, backend, &loaded.resolved_toml())?;
+    let end = ending(folder, ["Backend", backend], &[(SCENE, &loaded.resolved_toml())])?;
     page(&loaded.scene, budget, found, maps, end).write(&folder.path(REPORT_FILE)?)?;
     folder.write_json(RESULTS_FILE, &found.to_json())
 }
@@ -74,22 +74,20 @@ fn page(scene: &Scene, budget: &Budget, found: &Findings, maps: Vec<InfluenceShe
     }
     costs.push(Block::Table(per_step(budget)));
     let mut sections = vec![
-        PageSection {
-            id: "costs",
-            title: "What costs what".to_owned(),
-            lead: "Predicted by simulation: what a natural step of each error alone makes of an otherwise ideal gear, \
-                dearest first."
-                .to_owned(),
-            blocks: costs,
-        },
-        PageSection {
-            id: "per-unit",
-            title: "Per unit".to_owned(),
-            lead: "The same for one unit of each error. Where the course is bent, the influence holds for the step \
-                alone: backlash, for one, has a kink at 0."
-                .to_owned(),
-            blocks: vec![Block::Table(per_unit(budget))],
-        },
+        PageSection::new(
+            "costs",
+            "What costs what",
+            "Predicted by simulation: what a natural step of each error alone makes of an otherwise ideal gear, \
+                dearest first.",
+            costs,
+        ),
+        PageSection::new(
+            "per-unit",
+            "Per unit",
+            "The same for one unit of each error. Where the course is bent, the influence holds for the step \
+                alone: backlash, for one, has a kink at 0.",
+            vec![Block::Table(per_unit(budget))],
+        ),
     ];
     if !maps.is_empty() {
         let lead = "Predicted by simulation: what one unit of each of the dearest errors adds to whole flanks. Blue \

@@ -13,9 +13,9 @@ use crate::output::table::write_tables;
 use crate::output::text::significant;
 use crate::scene::error_parameters::ErrorParameter;
 use crate::scene::{LoadedScene, Scene};
-use crate::steps::report::ending;
 use crate::steps::report::facts::gear_words;
 use crate::steps::report::quantities;
+use crate::steps::report::{SCENE, ending};
 use gearcut_core::error::Result;
 
 /// Chance that uncertainties alone are called too much to be left over.
@@ -229,7 +229,7 @@ pub fn write(
     folder: &OutputFolder,
 ) -> Result<()> {
     write_tables(tree, folder)?;
-    let end = ending(folder, backend, &loaded.resolved_toml())?;
+    let end = ending(folder, ["Backend", backend], &[(SCENE, &loaded.resolved_toml())])?;
     page(&loaded.scene, found, measured, tree, end).write(&folder.path(REPORT_FILE)?)?;
     folder.write_json(RESULTS_FILE, &tree.to_json())
 }

@@ -9,9 +9,9 @@ use crate::output::report::{Block, Page, PageSection, PageTable, REPORT_FILE};
 use crate::output::table::write_tables;
 use crate::output::text::significant;
 use crate::scene::{LoadedScene, Scene};
-use crate::steps::report::ending;
 use crate::steps::report::facts::gear_words;
 use crate::steps::report::quantities;
+use crate::steps::report::{SCENE, ending};
 use gearcut_core::error::Result;
 
 /// Ticks of the chart stand at least so far apart, %.
@@ -29,7 +29,7 @@ pub fn write(
     folder: &OutputFolder,
 ) -> Result<()> {
     write_tables(tree, folder)?;
-    let end = ending(folder, backend, &loaded.resolved_toml())?;
+    let end = ending(folder, ["Backend", backend], &[(SCENE, &loaded.resolved_toml())])?;
     page(&loaded.scene, model, found, tree, end).write(&folder.path(REPORT_FILE)?)?;
     folder.write_json(RESULTS_FILE, &tree.to_json())
 }

@@ -51,7 +51,7 @@ impl Figure<'_> {
     }
 
     /// The text of the file.
-    fn svg(&self) -> std::result::Result<String, String> {
+    pub(in crate::output) fn svg(&self) -> std::result::Result<String, String> {
         let inner_px = self.plots.iter().map(|plot| plot.size_px.0).fold(0.0, f64::max);
         let mut y = TITLE_HEIGHT_PX;
         let mut plots = Vec::with_capacity(self.plots.len());

@@ -22,12 +22,62 @@ pub struct PageSection {
     pub lead: String,
     /// What it holds.
     pub blocks: Vec<Block>,
+    /// What it comes to, in a line; none where only a reader can say.
+    pub verdict: Option<SectionVerdict>,
+}
+
+/// What a section comes to.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct SectionVerdict {
+    /// In a line.
+    pub words: String,
+    /// Whether it is good or bad.
+    pub tone: Tone,
+}
+
+/// How a verdict looks, and whether its section is folded away.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Tone {
+    /// All is as it should be: folded.
+    Fine,
+    /// Something is not: open.
+    Wrong,
+    /// Numbers that nothing judges: open.
+    Open,
+    /// To be looked up: folded.
+    Aside,
 }
 
 impl PageSection {
-    /// A part of the page.
+    /// A part of the page, open.
     pub fn new(id: &'static str, title: impl Into<String>, lead: impl Into<String>, blocks: Vec<Block>) -> Self {
-        Self { id, title: title.into(), lead: lead.into(), blocks }
+        Self { id, title: title.into(), lead: lead.into(), blocks, verdict: None }
+    }
+
+    /// The same with what it comes to.
+    #[must_use]
+    pub fn judged(self, tone: Tone, words: impl Into<String>) -> Self {
+        Self { verdict: Some(SectionVerdict { words: words.into(), tone }), ..self }
+    }
+
+    /// The place that links lead to. It is inside what is folded: a browser then unfolds it, without a script.
+    pub(super) fn anchor(&self) -> String {
+        format!("{}-inside", self.id)
+    }
+
+    fn is_folded(&self) -> bool {
+        self.verdict.as_ref().is_some_and(|verdict| matches!(verdict.tone, Tone::Fine | Tone::Aside))
+    }
+}
+
+impl Tone {
+    /// Its class on the page.
+    fn class(self) -> &'static str {
+        match self {
+            Self::Fine => "good",
+            Self::Wrong => "bad",
+            Self::Open | Self::Aside => "plain",
+        }
     }
 }
 
@@ -101,9 +151,18 @@ impl PageSection {
         let title_id = format!("{}-title", self.id);
         html! {
             section id=(self.id) aria-labelledby=(title_id) {
-                h2 id=(title_id) { (self.title) }
-                @if !self.lead.is_empty() { p class="lead" { (self.lead) } }
-                @for block in &self.blocks { (block.markup()) }
+                details class="section" open[!self.is_folded()] {
+                    summary {
+                        h2 id=(title_id) { (self.title) }
+                        @if let Some(verdict) = &self.verdict {
+                            span class=(format!("verdict {}", verdict.tone.class())) { (verdict.words) }
+                        }
+                    }
+                    div id=(self.anchor()) class="inside" {
+                        @if !self.lead.is_empty() { p class="lead" { (self.lead) } }
+                        @for block in &self.blocks { (block.markup()) }
+                    }
+                }
             }
         }
     }

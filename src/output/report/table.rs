@@ -16,15 +16,16 @@ pub struct PageTable {
 }
 
 impl PageTable {
+    /// Whether a column has numbers, and is set to the right.
+    pub(super) fn is_number(&self, column: usize) -> bool {
+        let mut cells = self.rows.iter().filter_map(|row| row.get(column));
+        !self.columns.is_empty()
+            && cells.all(|cell| cell.starts_with(|c: char| c.is_ascii_digit() || "−-–+".contains(c)))
+    }
+
     /// The table as HTML.
     pub(super) fn markup(&self) -> Markup {
-        // A column of numbers is set to the right.
-        let number = |column: usize| {
-            let cells = || self.rows.iter().filter_map(|row| row.get(column));
-            !self.columns.is_empty()
-                && cells().all(|cell| cell.starts_with(|c: char| c.is_ascii_digit() || "−-–+".contains(c)))
-        };
-        let class = |column: usize| if number(column) { "number" } else { "" };
+        let class = |column: usize| if self.is_number(column) { "number" } else { "" };
         html! {
             div class="table" tabindex="0" role="group" aria-label=(self.caption) {
                 table class=(if self.columns.is_empty() { "list" } else { "" }) {

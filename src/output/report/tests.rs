@@ -66,11 +66,11 @@ fn page() -> Page {
             mate: None,
             strokes: None,
         }),
-        sections: vec![PageSection {
-            id: "all",
-            title: HOSTILE.into(),
-            lead: HOSTILE.into(),
-            blocks: vec![
+        sections: vec![PageSection::new(
+            "all",
+            HOSTILE,
+            HOSTILE,
+            vec![
                 Block::Heading(HOSTILE.into()),
                 Block::Note(HOSTILE.into()),
                 Block::Lines(chart(HOSTILE)),
@@ -81,7 +81,7 @@ fn page() -> Page {
                 }),
                 Block::Folded(HOSTILE.into(), vec![Block::Verbatim(HOSTILE.into())]),
             ],
-        }],
+        )],
     }
 }
 

@@ -68,10 +68,14 @@ pub fn window(window: &TextureBlock) -> Markup {
     }
 }
 
+/// The best-known parameters.
+pub(super) fn first(window: &TextureBlock) -> Vec<&ParameterRow> {
+    FIRST.iter().filter_map(|name| window.parameters.iter().find(|p| p.symbol == *name)).collect()
+}
+
 /// The best-known parameters, and why some of them do not exist.
 fn first_parameters(window: &TextureBlock) -> Markup {
-    let first: Vec<&ParameterRow> =
-        FIRST.iter().filter_map(|name| window.parameters.iter().find(|p| p.symbol == *name)).collect();
+    let first = first(window);
     // One reason often holds for several parameters.
     let mut reasons: Vec<(&str, Vec<&str>)> = Vec::new();
     for parameter in &first {
@@ -168,12 +172,7 @@ mod tests {
         assert!(text.contains(r#"class="curve s1" d="M52 "#), "{text}");
         assert!(text.contains(r#"class="dimension""#));
         if let Some(folder) = std::env::var_os("GEARCUT_KEEP") {
-            let section = PageSection {
-                id: "texture",
-                title: "Texture".into(),
-                lead: String::new(),
-                blocks: vec![Block::Texture(scallops())],
-            };
+            let section = PageSection::new("texture", "Texture", "", vec![Block::Texture(scallops())]);
             let page = Page {
                 what: "cutting report",
                 done: "all flanks cut",

@@ -9,10 +9,10 @@ use crate::output::table::write_tables;
 use crate::output::text::significant;
 use crate::pair_job::findings::PROCESS;
 use crate::pair_job::notices::NoClearance;
-use crate::pair_job::page::{PairRecord, run_record};
+use crate::pair_job::page::{PairRecord, ending};
 use crate::scene::Scene;
 use crate::steps::report::facts::gear_words;
-use crate::steps::report::{files, quantities};
+use crate::steps::report::quantities;
 use gearcut_core::error::Result;
 use gearcut_core::units::UM_PER_MM;
 
@@ -211,17 +211,15 @@ pub fn write(
         key_numbers: found.headline.iter().map(quantities::key_number).collect(),
         warnings: found.warnings.iter().map(Notice::with_signs).collect(),
         viewer: None,
-        sections: vec![
-            PageSection::new(
-                "fit",
-                "Fit",
-                "What the hub can turn on the shaft, and what every tooth and space lend to it. Gaps count along the \
+        sections: std::iter::once(PageSection::new(
+            "fit",
+            "Fit",
+            "What the hub can turn on the shaft, and what every tooth and space lend to it. Gaps count along the \
                  pitch circle; the smallest of each side stop the hub.",
-                [Some(Block::Bars(chart)), numbers].into_iter().flatten().collect(),
-            ),
-            files::section(folder)?,
-            run_record(&format!("cut by {}", record.backend), record),
-        ],
+            [Some(Block::Bars(chart)), numbers].into_iter().flatten().collect(),
+        ))
+        .chain(ending(folder, &format!("cut by {}", record.backend), record)?)
+        .collect(),
     };
     page.write(&folder.path(REPORT_FILE)?)?;
     folder.write_json(RESULTS_FILE, &found.to_json())

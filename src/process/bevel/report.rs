@@ -11,20 +11,23 @@ use super::job::BevelJob;
 use super::measure::BevelReport;
 use super::net;
 use super::quantities::{
-    BLADES, BODY, CHIPS, FLANK_BLADES, FORM, LAW, MARK_HEIGHT, MARK_SPACING, MARKS, POSITION, SETTINGS,
+    BLADES, BODY, CHIPS, FLANK_BLADES, FORM, IDLE_SHARE, LAW, MARK_HEIGHT, MARK_SPACING, MARKS, POSITION, SETTINGS,
+    SLOT_DEPTH, SLOT_WIDTH,
 };
 use crate::findings::quantities::blank::{BLANK_VOLUME, LEFT_VOLUME};
-use crate::findings::quantities::cutting::{LINKAGE, OFFSET};
+use crate::findings::quantities::cutting::{CYCLE_TIME, LINKAGE, OFFSET};
 use crate::findings::{self, Findings, QuantityRow};
 use crate::job::rows_z_mm;
 use crate::output::folder::OutputFolder;
 use crate::output::line_chart::{LineChart, LineSeries, Panel};
-use crate::output::report::{Block, Page, PageSection, PageTable};
+use crate::output::report::{Block, Page, PageSection, PageTable, Tone};
 use crate::output::text::{from_full_depth, plain, significant};
 use crate::steps;
 use crate::steps::axes;
 use crate::steps::report::facts::table;
-use crate::steps::report::{PageGear, RunWords, files, machine_errors, record, texture, value_and_unit};
+use crate::steps::report::{
+    PageGear, RunWords, files, headline_words, machine_errors, record, texture, value_and_unit,
+};
 use crate::steps::view_mesh::{ViewFlank, ViewMesh};
 use gearcut_core::error::Result;
 use gearcut_core::terms::Side;
@@ -51,7 +54,7 @@ pub fn page(
     run: &RunWords,
     folder: &OutputFolder,
 ) -> Result<Page> {
-    let mut sections = vec![deviations(job, gear, found), slot(gear), blades(found)];
+    let mut sections = vec![deviations(job, gear, found), slot(gear, found), blades(found)];
     sections.extend(machine_errors::section(found));
     sections.extend(chips(found, charts));
     sections.extend(texture::section(found, folder)?);
@@ -81,10 +84,10 @@ fn chips(found: &Findings, (bars, lines): ChipCharts) -> Option<PageSection> {
     if let Some(law) = found.group(&CHIPS).map(|chips| chips.text(&LAW)).filter(|law| !law.is_empty()) {
         blocks.push(Block::Note(format!("Cutting force: {law}.")));
     }
-    Some(PageSection {
-        id: "chips",
-        title: "Chips and blades".to_owned(),
-        lead: format!(
+    Some(PageSection::new(
+        "chips",
+        "Chips and blades",
+        format!(
             "What the passes take from the slot behind tooth 1, in order of time. The whole ring has {} mm³ of the {} \
             mm³ of its blank left. {}",
             number(&LEFT_VOLUME),
@@ -92,7 +95,8 @@ fn chips(found: &Findings, (bars, lines): ChipCharts) -> Option<PageSection> {
             page_words()
         ),
         blocks,
-    })
+    )
+    .judged(Tone::Aside, headline_words(found, &[&IDLE_SHARE, &CYCLE_TIME])))
 }
 
 /// All target flanks, and what is between them as it was cut.
@@ -128,14 +132,13 @@ fn deviations(job: &BevelJob, gear: &BevelGear, found: &Findings) -> PageSection
         points, normals and deviations are in tables/grid.csv."
             .to_owned(),
     ));
-    PageSection {
-        id: "deviations",
-        title: "Deviations".to_owned(),
-        lead: "The finished gear against the surface that the last operation would leave with infinitely many blades, \
-            on each side the flank with the largest deviation of the grid."
-            .to_owned(),
+    PageSection::new(
+        "deviations",
+        "Deviations",
+        "The finished gear against the surface that the last operation would leave with infinitely many blades, \
+            on each side the flank with the largest deviation of the grid.",
         blocks,
-    }
+    )
 }
 
 /// Thickness, spiral and pressure angle error, means of all teeth.
@@ -172,7 +175,7 @@ fn traces(flank: &BevelReport, words: &str) -> LineChart {
     }
 }
 
-fn slot(gear: &BevelGear) -> PageSection {
+fn slot(gear: &BevelGear, found: &Findings) -> PageSection {
     let series = |name: &str, value: &dyn Fn(&super::measure::SlotRow) -> Option<f64>| LineSeries {
         name: name.to_owned(),
         points: gear.slot.iter().filter_map(|row| Some((row.along_mm, value(row)?))).collect(),
@@ -197,12 +200,13 @@ fn slot(gear: &BevelGear) -> PageSection {
         ],
     };
     let drawn = !gear.slot.is_empty();
-    PageSection {
-        id: "slot",
-        title: "Slot".to_owned(),
-        lead: "Width and depth along the face, as cut.".to_owned(),
-        blocks: if drawn { vec![Block::Lines(chart)] } else { Vec::new() },
-    }
+    PageSection::new(
+        "slot",
+        "Slot",
+        "Width and depth along the face, as cut.",
+        if drawn { vec![Block::Lines(chart)] } else { Vec::new() },
+    )
+    .judged(Tone::Aside, headline_words(found, &[&SLOT_DEPTH, &SLOT_WIDTH]))
 }
 
 fn blades(found: &Findings) -> PageSection {
@@ -238,13 +242,13 @@ fn blades(found: &Findings) -> PageSection {
                 .collect(),
         })
     }));
-    PageSection {
-        id: "blades",
-        title: "Blades and their marks".to_owned(),
-        lead: "Blades of one kind follow each other while the cradle rolls; between two of them a ridge stays."
-            .to_owned(),
+    PageSection::new(
+        "blades",
+        "Blades and their marks",
+        "Blades of one kind follow each other while the cradle rolls; between two of them a ridge stays.",
         blocks,
-    }
+    )
+    .judged(Tone::Aside, "marks by blade")
 }
 
 fn setup(job: &BevelJob, found: &Findings) -> PageSection {
@@ -285,5 +289,5 @@ fn setup(job: &BevelJob, found: &Findings) -> PageSection {
         gear,
         table("Settings", rows),
     ];
-    PageSection { id: "setup", title: "What was cut, and how".to_owned(), lead: String::new(), blocks }
+    PageSection::new("setup", "What was cut, and how", "", blocks).judged(Tone::Aside, "blank, settings")
 }

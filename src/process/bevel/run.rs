@@ -88,7 +88,7 @@ pub(super) fn run(job: &BevelJob, tools: &Tools) -> Result<CutDone> {
     let words = RunWords { resolved_scene: resolved, backend: &backend.name_in_files(), backend_why };
     let page = |found: &Findings| report::page(job, &gear, found, (whole.as_ref(), charts), &motion, &words, folder);
     found.complete = !work.interrupted;
-    conclusion::write(&mut found, &motion, tools, &mut attempts, page)?;
+    conclusion::write(&mut found, &motion, tools, &mut attempts, &job.scene, page, None)?;
     let out = folder.results_path(found.complete);
     let flanks = gear.flanks.len();
     let summary = summary::text(&job.scene.gear, &found, [flanks, 0], &work, &out, &backend.name());

@@ -3,24 +3,25 @@
 
 mod facts;
 
-use crate::findings::quantities::cutting::{LINKAGE, OFFSET};
+use crate::findings::quantities::cutting::{LARGEST_FORCE, LINKAGE, OFFSET, THICKEST_CHIP};
 use crate::findings::{self, Findings, QuantityRow};
 use crate::measure::verdict::GearVerdict;
 use crate::output::bar_chart::BarChart;
 use crate::output::folder::OutputFolder;
 use crate::output::line_chart::LineChart;
-use crate::output::report::{Block, Page, PageSection, PageTable};
+use crate::output::report::{Block, Page, PageSection, PageTable, Tone};
 use crate::output::text::{from_full_depth, plain, significant};
 use crate::process::hobbing::axes_report::HobbingAxesReport;
 use crate::process::hobbing::quantities::{
-    ACCURACY, ASSUMPTION, AXIAL_FEED, FORCE, LAW, LENGTH, LOAD, MARKS, TO_AXIS, TO_TRACE,
+    ACCURACY, ASSUMPTION, AXIAL_FEED, FEED_MARK, FORCE, GENERATING_MARK, LAW, LENGTH, LOAD, MARKS, PEAK_TO_MEAN,
+    TO_AXIS, TO_TRACE,
 };
 use crate::process::hobbing::{HobCutter, HobbedGear, HobbingJob};
 use crate::steps;
 use crate::steps::axes;
 use crate::steps::report::deviations;
 use crate::steps::report::deviations::{Inspection, InspectionWords};
-use crate::steps::report::{PageGear, RunWords, blank, files, machine_errors, record, texture};
+use crate::steps::report::{PageGear, RunWords, blank, files, headline_words, machine_errors, record, texture};
 use crate::steps::view_mesh::ViewMesh;
 use gearcut_core::error::Result;
 use gearcut_core::units::UM_PER_MM;
@@ -111,14 +112,14 @@ fn probe_words(job: &HobbingJob) -> String {
 }
 
 fn five_curves(chart: LineChart) -> PageSection {
-    PageSection {
-        id: "curves",
-        title: "Points on five curves".to_owned(),
-        lead: "Where five curves beside the pitch curve cross every flank in the middle of the face, as cut less as \
-            meant, as Liu et al. (2015) measured their gear. Every point is in tables/offset_curves.csv."
-            .to_owned(),
-        blocks: vec![Block::Folded("Errors of all points".to_owned(), vec![Block::Lines(chart)])],
-    }
+    PageSection::new(
+        "curves",
+        "Points on five curves",
+        "Where five curves beside the pitch curve cross every flank in the middle of the face, as cut less as \
+            meant, as Liu et al. (2015) measured their gear. Every point is in tables/offset_curves.csv.",
+        vec![Block::Lines(chart)],
+    )
+    .judged(Tone::Aside, "errors of all points")
 }
 
 fn marks_section(found: &Findings) -> PageSection {
@@ -151,22 +152,18 @@ fn marks_section(found: &Findings) -> PageSection {
         "Apart [mm]",
         "Apart [°]",
     ];
-    PageSection {
-        id: "marks",
-        title: "Cutting marks".to_owned(),
-        lead:
-            "The shortest two steps from mark to mark on the flank at the pitch line: from the machine's motion, and \
-            independently from the autocorrelation of the heights as cut."
-                .to_owned(),
-        blocks: vec![Block::Folded(
-            "Lattice of cutting marks".to_owned(),
-            vec![Block::Table(PageTable {
-                caption: "Lattice of cutting marks".to_owned(),
-                columns: columns.map(str::to_owned).into(),
-                rows: rows.collect(),
-            })],
-        )],
-    }
+    PageSection::new(
+        "marks",
+        "Cutting marks",
+        "The shortest two steps from mark to mark on the flank at the pitch line: from the machine's motion, and \
+            independently from the autocorrelation of the heights as cut.",
+        vec![Block::Table(PageTable {
+            caption: "Lattice of cutting marks".to_owned(),
+            columns: columns.map(str::to_owned).into(),
+            rows: rows.collect(),
+        })],
+    )
+    .judged(Tone::Aside, headline_words(found, &[&FEED_MARK, &GENERATING_MARK]))
 }
 
 /// Nothing where the run was stopped before the whole blank was cut.
@@ -183,13 +180,14 @@ fn load_section(
     if let Some(force) = found.group(&FORCE) {
         blocks.push(Block::Note(format!("Cutting force: {}. Accuracy {}.", force.text(&LAW), force.text(&ACCURACY))));
     }
-    Some(PageSection {
-        id: "load",
-        title: "Work of the hob's teeth".to_owned(),
-        lead: format!(
+    Some(PageSection::new(
+        "load",
+        "Work of the hob's teeth",
+        format!(
             "What each tooth of the hob does in the whole process, approach and overrun included. The load is the {}.",
             found.group(&LOAD).map_or("", |load| load.text(&ASSUMPTION))
         ),
         blocks,
-    })
+    )
+    .judged(Tone::Aside, headline_words(found, &[&THICKEST_CHIP, &LARGEST_FORCE, &PEAK_TO_MEAN])))
 }

@@ -100,14 +100,15 @@ pub(super) fn run(job: &HobbingJob, tools: &Tools) -> Result<CutDone> {
     let words = RunWords { resolved_scene: resolved, backend: &backend.name_in_files(), backend_why };
     let inspection = report::inspection(&cutter, &gear, &inspected.verdict);
     attempts.of("inspection charts", deviations::write_charts(&inspection, folder))?;
+    let sheet = deviations::inspection_page(&inspection, &job.scene, &found);
     if parts.has(Part::Report) {
-        attempts.of("inspection sheet", deviations::write_sheet(&inspection, &job.scene, &found, folder))?;
+        attempts.of("inspection sheet", deviations::write_sheet(&sheet, folder))?;
     }
     let charts =
         report::Charts { inspection: &inspection, loads: load_charts, forces: force_charts, points: points_chart };
     let page = |found: &Findings| report::page(&cutter, &gear, found, charts, &motion, &words, folder);
     found.complete = !gear.work.interrupted;
-    conclusion::write(&mut found, &motion, tools, &mut attempts, page)?;
+    conclusion::write(&mut found, &motion, tools, &mut attempts, &job.scene, page, Some(sheet))?;
     let out = folder.results_path(found.complete);
     let flanks = gear.flanks.len();
     let summary = summary::text(&job.scene.gear, &found, [flanks, 0], &gear.work, &out, &backend.name());

@@ -82,12 +82,13 @@ pub(super) fn run(job: &ShapingJob, tools: &Tools, frames: Option<u32>) -> Resul
     let words = RunWords { resolved_scene: resolved, backend: &backend.name_in_files(), backend_why };
     let inspection = report::inspection(job, &gear.report, &inspected.verdict);
     attempts.of("inspection charts", deviations::write_charts(&inspection, folder))?;
+    let sheet = deviations::inspection_page(&inspection, &job.scene, &found);
     if parts.has(Part::Report) {
-        attempts.of("inspection sheet", deviations::write_sheet(&inspection, &job.scene, &found, folder))?;
+        attempts.of("inspection sheet", deviations::write_sheet(&sheet, folder))?;
     }
     let page = |found: &Findings| report::page(job, &gear, found, &inspection, &motion, &words, folder);
     found.complete = !interrupted;
-    conclusion::write(&mut found, &motion, tools, &mut attempts, page)?;
+    conclusion::write(&mut found, &motion, tools, &mut attempts, &job.scene, page, Some(sheet))?;
     let out = folder.results_path(found.complete);
     let work = Work { interrupted, ..gear.work };
     let flanks = [gear.report.flanks.len(), gear.report.lost()];

@@ -1,8 +1,16 @@
-//! Keys of the dexel fields and of what is written.
+//! Keys of the dexel fields, of what is written, and of the head of the printed report.
 
 use super::{Default, Key, KeySection, Kind, Range, Role};
 
-/// `[fields]` and `[output]`.
+/// Letters that a field of the report's head has room for.
+const FIELD: Kind = Kind::Text { most: 60 };
+
+/// A field of the report's head; `empty` says what is printed where it is left out.
+const fn field(name: &'static str, empty: &'static str, example: &'static str, teach: &'static str) -> Key {
+    Key { name, kind: FIELD, unit: "", default: Default::LeftOut(empty), example, teach }
+}
+
+/// `[fields]`, `[output]` and `[report]`.
 pub(super) static SECTIONS: &[KeySection] = &[
     KeySection {
         path: "fields",
@@ -120,5 +128,24 @@ pub(super) static SECTIONS: &[KeySection] = &[
         ],
         groups: &[],
         teach: "What is written.",
+    },
+    KeySection {
+        path: "report",
+        role: Role::Plain,
+        keys: &[
+            field("part", "the name of the scene", "\"Pump gear\"", "Name of the part."),
+            field("drawing", "an empty field", "\"4711-02 B\"", "Number of the drawing, with its revision."),
+            field("customer", "an empty field", "\"Example Ltd\"", "For whom the gear is."),
+            field(
+                "date",
+                "an empty field",
+                "\"2026-05-04\"",
+                "Date of the report, printed as it is written. The clock is never read: the same scene gives the same \
+                    bytes on every day. --set report.date=... takes that of today.",
+            ),
+            Key::word("paper", &["a4", "letter"], "a4", "\"letter\"", "Paper of report.pdf: A4, or US Letter."),
+        ],
+        groups: &[],
+        teach: "Fields at the head of every page of report.pdf.",
     },
 ];

@@ -18,12 +18,12 @@ pub use table::{Own, write_table};
 use crate::findings::notices::NoProgram;
 use crate::findings::{Findings, Notice, Severity};
 use crate::interrupt::Interrupt;
-use crate::machine::Peak;
+use crate::machine::{Peak, smallest_margin};
 use crate::output::atomic::write_bytes_atomically;
 use crate::output::bar_chart::BarChart;
 use crate::output::folder::OutputFolder;
 use crate::output::line_chart::LineChart;
-use crate::output::report;
+use crate::output::report::{Block, PageSection, Tone};
 use crate::output::text::Sheet;
 use crate::steps::report::peak_table;
 use gearcut_core::error::Result;
@@ -154,19 +154,19 @@ pub fn command<O: AxesOfOperation>(
 }
 
 /// The page's section: peaks and first chart of every operation, the other charts folded under their name.
-pub fn section<O: AxesOfOperation>(
-    operations: &[O],
-    found: &Findings,
-    lead: &str,
-    folded: &str,
-) -> report::PageSection {
+pub fn section<O: AxesOfOperation>(operations: &[O], found: &Findings, lead: &str, folded: &str) -> PageSection {
     let mut blocks = Vec::new();
     for (operation, found) in operations.iter().zip(found.parts("operations")) {
-        blocks.push(report::Block::Heading(format!("{}: {}", operation.name(), operation.linkage_words())));
-        blocks.push(report::Block::Table(peak_table(found)));
-        let mut charts = operation.charts().iter().map(|(_, chart)| report::Block::Lines(chart.clone()));
+        blocks.push(Block::Heading(format!("{}: {}", operation.name(), operation.linkage_words())));
+        blocks.push(Block::Table(peak_table(found)));
+        let mut charts = operation.charts().iter().map(|(_, chart)| Block::Lines(chart.clone()));
         blocks.extend(charts.next());
-        blocks.push(report::Block::Folded(folded.to_owned(), charts.collect()));
+        blocks.push(Block::Folded(folded.to_owned(), charts.collect()));
     }
-    report::PageSection { id: "motion", title: "Axis motion".to_owned(), lead: lead.to_owned(), blocks }
+    let (tone, words) = match smallest_margin(operations.iter().flat_map(AxesOfOperation::peaks)) {
+        Some(left) if left < 0.0 => (Tone::Wrong, format!("a limit is exceeded by {:.0} %", -100.0 * left)),
+        Some(left) => (Tone::Fine, format!("within all limits, {:.0} % left of the tightest", 100.0 * left)),
+        None => (Tone::Aside, "the scene gives no axis limits".to_owned()),
+    };
+    PageSection::new("motion", "Axis motion", lead, blocks).judged(tone, words)
 }

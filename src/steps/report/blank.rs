@@ -6,7 +6,7 @@ use crate::findings::quantities::blank::{
 };
 use crate::findings::quantities::cutting::REMOVED_VOLUME;
 use crate::findings::{Findings, Place, Quantity, QuantityRow, Section, unit};
-use crate::output::report::{Block, PageSection, PageTable};
+use crate::output::report::{Block, PageSection, PageTable, Tone};
 
 /// Quantities of the whole that say what was made; how the rays stand is a matter of `results.json`.
 static OF_THE_GEAR: [&QuantityRow; 5] = [&BLANK_VOLUME, &LEFT_VOLUME, &SECTION_AREA, &TARGET_AREA, &GOUGE_FROM];
@@ -34,14 +34,24 @@ pub fn section(found: &Findings) -> Option<PageSection> {
             rows: damage,
         })
     });
-    Some(PageSection {
-        id: "blank",
-        title: "The whole gear".to_owned(),
-        lead: "Rays through the whole blank: what was taken, what is left, and where the tool took what should have \
-            stayed (tables/damage.csv has every place; results.json how the rays stand)."
-            .to_owned(),
-        blocks: std::iter::once(Block::Table(volumes)).chain(damage).collect(),
-    })
+    let found_places = |part: &&Section| part.quantity("deepest").is_some() && part.number("places") > Some(0.0);
+    let damaged: Vec<String> =
+        blank.sections.iter().filter(found_places).map(|part| part.title.to_lowercase()).collect();
+    let (tone, words) = if damaged.is_empty() {
+        (Tone::Fine, "nothing was taken that should have stayed".to_owned())
+    } else {
+        (Tone::Wrong, damaged.join(", "))
+    };
+    Some(
+        PageSection::new(
+            "blank",
+            "The whole gear",
+            "Rays through the whole blank: what was taken, what is left, and where the tool took what should have \
+            stayed (tables/damage.csv has every place; results.json how the rays stand).",
+            std::iter::once(Block::Table(volumes)).chain(damage).collect(),
+        )
+        .judged(tone, words),
+    )
 }
 
 fn row(name: &str, quantity: &Quantity) -> Vec<String> {

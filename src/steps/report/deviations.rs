@@ -15,8 +15,9 @@ use crate::output::folder::OutputFolder;
 use crate::output::inspection_sheet::{InspectionSheet, SheetFigure};
 use crate::output::line_chart::{Limit, LineChart, LineSeries, Panel};
 use crate::output::report::traces::{TraceColumn, TraceFigure, TraceSheet};
-use crate::output::report::{Block, PageSection, PageTable};
+use crate::output::report::{Block, PageSection, PageTable, Tone};
 use crate::output::text::significant;
+use crate::output::vector_page::VectorPage;
 use crate::scene::Scene;
 use crate::steps::inspection::{NO_SIZE, class_words, size_rows, verdict_words};
 use crate::wrap::wrapped;
@@ -157,11 +158,8 @@ pub fn write_charts(inspection: &Inspection, folder: &OutputFolder) -> Result<()
     charts::write(inspection, &folder.path("inspection_charts.csv")?)
 }
 
-/// Writes the inspector's sheet as `inspection.svg` and `inspection.pdf`.
-///
-/// # Errors
-/// Files that cannot be written.
-pub fn write_sheet(inspection: &Inspection, scene: &Scene, found: &Findings, folder: &OutputFolder) -> Result<()> {
+/// The inspector's sheet.
+pub fn inspection_page(inspection: &Inspection, scene: &Scene, found: &Findings) -> VectorPage {
     let mut sizes = found.group(&SIZES).map_or_else(Vec::new, size_rows);
     // A reason is wider than its column: it stands below, once.
     let mut reasons: Vec<(String, String)> = Vec::new();
@@ -184,8 +182,15 @@ pub fn write_sheet(inspection: &Inspection, scene: &Scene, found: &Findings, fol
         notes.push("Limits of profile and helix are those of the transverse section times cos βb.".to_owned());
     }
     notes.extend(reasons.iter().flat_map(|(signs, why)| wrapped(&format!("No {signs}: {why}."), NOTE_LETTERS)));
-    let sheet = sheet(inspection, &scene.name, &gear_words(&scene.gear), sizes, notes);
-    sheet.page().write(&folder.path("inspection.svg")?, &folder.path("inspection.pdf")?)
+    sheet(inspection, &scene.name, &gear_words(&scene.gear), sizes, notes).page()
+}
+
+/// Writes the inspector's sheet as `inspection.svg` and `inspection.pdf`.
+///
+/// # Errors
+/// Files that cannot be written.
+pub fn write_sheet(page: &VectorPage, folder: &OutputFolder) -> Result<()> {
+    page.write(&folder.path("inspection.svg")?, &folder.path("inspection.pdf")?)
 }
 
 fn sheet_figure(judged: &JudgedFigure) -> SheetFigure {
@@ -231,16 +236,22 @@ pub fn section(inspection: &Inspection) -> PageSection {
     ));
     blocks.push(Block::Heading("Figures and limits".to_owned()));
     blocks.push(Block::Table(PageTable {
-        caption: format!("{} The sheet of one page: inspection.pdf beside this file.", inspection.held_against()),
+        caption: "The sheet of one page: inspection.pdf beside this file.".to_owned(),
         columns: ["Figure", "Left [µm]", "Right [µm]", "Limit [µm]", "Class", "Verdict"].map(str::to_owned).into(),
         rows: inspection.verdict.figures.iter().map(|judged| sheet_figure(judged).cells.into()).collect(),
     }));
-    PageSection {
-        id: "deviations",
-        title: "Deviations".to_owned(),
-        lead: format!("The finished gear against the target: {}.", inspection.words.target),
+    let tone = match inspection.verdict.passes() {
+        Some(true) => Tone::Fine,
+        Some(false) => Tone::Wrong,
+        None => Tone::Open,
+    };
+    PageSection::new(
+        "deviations",
+        "Deviations",
+        format!("The finished gear against the target: {}.", inspection.words.target),
         blocks,
-    }
+    )
+    .judged(tone, inspection.held_against())
 }
 
 /// Micrometres; what is below a picometre is rounding and shown as zero.

@@ -6,7 +6,7 @@
 
 use crate::findings::RESULTS_FILE;
 use crate::output::folder::OutputFolder;
-use crate::output::report::{Block, FileLinks, PageSection};
+use crate::output::report::{Block, FileLinks, PageSection, Tone};
 use gearcut_core::error::Result;
 
 /// Files that are named one by one; of more, these are.
@@ -52,10 +52,11 @@ pub fn section(folder: &OutputFolder) -> Result<PageSection> {
             more: files.len().saturating_sub(NAMED),
         });
     }
-    Ok(PageSection {
-        id: "files",
-        title: "Files".to_owned(),
-        lead: "What lies beside this page; the links hold while it stays in its folder.".to_owned(),
-        blocks: vec![Block::Files(rows)],
-    })
+    Ok(PageSection::new(
+        "files",
+        "Files",
+        "What lies beside this page; the links hold while it stays in its folder.",
+        vec![Block::Files(rows)],
+    )
+    .judged(Tone::Aside, format!("{} files beside this page", written.len())))
 }

@@ -1,7 +1,7 @@
 //! The errors that the cut followed, on the page.
 
-use crate::findings::{Findings, unit};
-use crate::output::report::{Block, PageSection, PageTable};
+use crate::findings::{self, Findings, unit};
+use crate::output::report::{Block, PageSection, PageTable, Tone};
 use crate::steps::machine_errors::KEY;
 
 /// The layers that are on, and where to learn what each of them does; none on a machine without errors.
@@ -16,15 +16,19 @@ pub fn section(found: &Findings) -> Option<PageSection> {
         columns: ["Layer", "Sizes", "What it is"].map(str::to_owned).into(),
         rows: rows.collect(),
     };
+    let layers: Vec<String> = section.entries.iter().map(findings::Entry::heading).collect();
     let command = Block::Note(
         "What each layer makes alone, what is left without it, and how gears of other seeds scatter: gearcut scatter \
          SCENE."
             .to_owned(),
     );
-    Some(PageSection {
-        id: "machine-errors",
-        title: section.title.clone(),
-        lead: "The cut followed them, the target does not: every deviation on this page has them in it.".to_owned(),
-        blocks: vec![Block::Table(table), command],
-    })
+    Some(
+        PageSection::new(
+            "machine-errors",
+            section.title.clone(),
+            "The cut followed them, the target does not: every deviation on this page has them in it.",
+            vec![Block::Table(table), command],
+        )
+        .judged(Tone::Aside, format!("on: {}", layers.join(", "))),
+    )
 }

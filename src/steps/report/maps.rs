@@ -13,6 +13,9 @@ use crate::steps::view_mesh::{ViewFlank, ViewMesh};
 /// What the view shows in grey.
 const GREY: &str = "Grey: no value, because no pass came there; roots, tips and end faces have none.";
 
+/// How far the colours reach.
+const COLOURS: &str = "Colours span what is evaluated; beyond it they stay at their ends.";
+
 /// Mesh of the target, and on it: stock of every earlier operation, deviation and height of the finished surface.
 pub fn viewer(job: &dyn GearJob, mesh: ViewMesh, maps: &GearMaps) -> Viewer {
     let flanks = mesh.flanks.into_iter().map(|flank| {
@@ -58,11 +61,12 @@ fn quantities(job: &dyn GearJob, maps: &GearMaps) -> Vec<ViewerQuantity> {
         .map(|(index, operation)| ViewerQuantity {
             name: format!("Stock of {} for {finishing}", operation.name),
             definition: format!(
-                "What {} leaves over the finished surface, along the target's normal, mean of each cell. {GREY}",
+                "What {} leaves over the finished surface, along the target's normal, mean of each cell. {COLOURS} \
+                 {GREY}",
                 operation.name
             ),
             unit: "mm".to_owned(),
-            scale: operation.stock_scale,
+            scale: maps.stock_scales[index],
             thinning: Thinning::Mean,
             evaluated_mm: evaluated_mm(index),
             values: over(&|map| map.mean_stock_mm(index)),
@@ -78,7 +82,7 @@ fn quantities(job: &dyn GearJob, maps: &GearMaps) -> Vec<ViewerQuantity> {
             definition: format!(
                 "Mean normal deviation over one generating mark along the profile, {mark} mm, and one feed along the \
                  tooth, {feed} mm: form and position, and the mean height of the marks, which only add material. Red: \
-                 material left; blue: cut too deep. {GREY}"
+                 material left; blue: cut too deep. {COLOURS} {GREY}"
             ),
             unit: "µm".to_owned(),
             scale: maps.deviation_scale,
@@ -91,7 +95,7 @@ fn quantities(job: &dyn GearJob, maps: &GearMaps) -> Vec<ViewerQuantity> {
         name: format!("Deviation after {finishing}"),
         definition: format!(
             "Mean normal deviation of each cell; marks wider than a cell are seen. Red: material left; blue: cut too \
-             deep. {GREY}"
+             deep. {COLOURS} {GREY}"
         ),
         unit: "µm".to_owned(),
         scale: maps.deviation_scale,
@@ -101,7 +105,9 @@ fn quantities(job: &dyn GearJob, maps: &GearMaps) -> Vec<ViewerQuantity> {
     });
     quantities.push(ViewerQuantity {
         name: format!("Height after {finishing}"),
-        definition: format!("Normal deviation of the highest place of each cell, feed marks included. {GREY}"),
+        definition: format!(
+            "Normal deviation of the highest place of each cell, feed marks included. {COLOURS} {GREY}"
+        ),
         unit: "µm".to_owned(),
         scale: maps.height_scale,
         thinning: Thinning::Highest,

@@ -9,21 +9,22 @@ pub mod files;
 pub mod machine_errors;
 pub mod maps;
 mod measured;
+pub mod paper;
 pub mod quantities;
 pub mod texture;
 
 use crate::findings::quantities::cutting::{AXES, LIMIT, MARGIN, PEAK};
-use crate::findings::{self, Findings, Notice, Place, Quantity, unit};
+use crate::findings::{self, Findings, Notice, Place, Quantity, QuantityRow, Severity, unit};
 use crate::job::GearJob;
 use crate::output::folder::OutputFolder;
 use crate::output::progress::duration_text;
-use crate::output::report::{Block, KeyNumber, Page, PageSection, PageTable};
+use crate::output::report::{Block, KeyNumber, Page, PageSection, PageTable, Tone};
 use crate::output::text::{plain, significant};
 use crate::steps::Work;
 use crate::steps::gear_maps::GearMaps;
 use crate::steps::view_mesh::ViewMesh;
 use gearcut_core::cut::KERNEL_UM;
-use gearcut_core::error::Result;
+use gearcut_core::error::{Error, Result};
 
 /// What the run says of itself on the page. Times are left out: the same scene gives the same page.
 #[derive(Debug, Clone, Copy)]
@@ -66,7 +67,38 @@ pub fn page(
         ),
         warnings: found.warnings.iter().map(Notice::with_signs).collect(),
         viewer: Some(maps::viewer(job, gear.mesh, maps)),
-        sections,
+        sections: sections.into_iter().map(|section| warned_open(section, found)).collect(),
+    }
+}
+
+/// A section that a warning or a fault is about is no fine one.
+fn warned_open(mut section: PageSection, found: &Findings) -> PageSection {
+    let own = |path: &String| path.split('.').next() == Some(section.id);
+    let warned = found.warnings.iter().filter(|of| of.severity > Severity::Note);
+    let warned = warned.filter(|of| of.section.as_ref().is_some_and(own)).count();
+    if let Some(verdict) = section.verdict.as_mut().filter(|_| warned > 0) {
+        verdict.tone = Tone::Wrong;
+        let plural = if warned == 1 { "" } else { "s" };
+        verdict.words = format!("{}; {warned} warning{plural} about it", verdict.words);
+    }
+    section
+}
+
+/// Numbers of the headline in a line, those that there are.
+pub fn headline_words(found: &Findings, rows: &[&QuantityRow]) -> String {
+    let known = rows.iter().filter_map(|row| Some((row, found.first(row).filter(|of| of.why().is_none())?)));
+    let words = known.map(|(row, quantity)| format!("{} {}", row.title(), quantities::value_with_unit(quantity)));
+    words.collect::<Vec<_>>().join(", ")
+}
+
+/// A picture of the folder; none where it is left out.
+fn read_picture(folder: &OutputFolder, name: &str) -> Result<Option<Vec<u8>>> {
+    // Asked for by itself, a path makes its folder.
+    let path = folder.path("")?.join(name);
+    match std::fs::read(&path) {
+        Ok(png) => Ok(Some(png)),
+        Err(reason) if reason.kind() == std::io::ErrorKind::NotFound => Ok(None),
+        Err(reason) => Err(Error::reading(&path)(reason)),
     }
 }
 
@@ -143,36 +175,32 @@ pub fn record(flanks: usize, work: &Work, run: &RunWords) -> PageSection {
     ];
     let lead =
         "What is needed to repeat the run. Times and the SHA-256 of every file stand in run.json beside this page.";
-    record_of(rows, run.resolved_scene, lead)
+    record_of(rows, &[(SCENE, run.resolved_scene)], lead)
 }
 
-/// The end of a page of a command that cuts no whole gear: its files, and what is needed to repeat it.
+/// What a scene is called that is folded away.
+pub const SCENE: &str = "The scene, every value written out";
+
+/// The end of a page of a command that cuts no whole gear: its files, and what is needed to repeat it: what made it, by
+/// name, and its scenes, every value written out.
 ///
 /// # Errors
 /// The folder cannot be read.
-pub fn ending(folder: &OutputFolder, backend: &str, resolved_scene: &str) -> Result<[PageSection; 2]> {
-    let rows = vec![["Backend".to_owned(), backend.to_owned()]];
+pub fn ending(folder: &OutputFolder, made: [&str; 2], scenes: &[(&str, &str)]) -> Result<[PageSection; 2]> {
     let lead = "What is needed to repeat the run; the arguments of the command are in run.json beside this page.";
-    Ok([files::section(folder)?, record_of(rows, resolved_scene, lead)])
+    Ok([files::section(folder)?, record_of(vec![made.map(str::to_owned)], scenes, lead)])
 }
 
-fn record_of(rows: Vec<[String; 2]>, resolved_scene: &str, lead: &str) -> PageSection {
-    let program = ["Program".to_owned(), format!("gearcut {}", env!("CARGO_PKG_VERSION"))];
+fn record_of(rows: Vec<[String; 2]>, scenes: &[(&str, &str)], lead: &str) -> PageSection {
+    let version = format!("gearcut {}", env!("CARGO_PKG_VERSION"));
+    let program = ["Program".to_owned(), version.clone()];
     let table = PageTable {
         caption: "Run".to_owned(),
         columns: Vec::new(),
         rows: std::iter::once(program).chain(rows).map(Vec::from).collect(),
     };
-    PageSection {
-        id: "record",
-        title: "Run record".to_owned(),
-        lead: lead.to_owned(),
-        blocks: vec![
-            Block::Table(table),
-            Block::Folded(
-                "The scene, every value written out".to_owned(),
-                vec![Block::Verbatim(resolved_scene.to_owned())],
-            ),
-        ],
-    }
+    let folded =
+        |&(words, scene): &(&str, &str)| Block::Folded(words.to_owned(), vec![Block::Verbatim(scene.to_owned())]);
+    let blocks = std::iter::once(Block::Table(table)).chain(scenes.iter().map(folded));
+    PageSection::new("record", "Run record", lead, blocks.collect()).judged(Tone::Aside, version)
 }

@@ -1,4 +1,5 @@
-//! Texture windows on the page: the finished surface open, what earlier operations left folded away.
+//! Texture windows on the page: all of them on one sheet of tiles, the worst in full, the others folded away, and what
+//! earlier operations left folded away with its own sheet.
 
 use super::digits::digits;
 use super::measured;
@@ -6,9 +7,10 @@ use crate::findings::{self, Findings, unit};
 use crate::output::folder::OutputFolder;
 use crate::output::ratio_chart::{RatioChart, SkConstruction};
 use crate::output::report::texture::{ParameterRow, TextureBlock};
-use crate::output::report::{Block, PageSection, PageTable};
+use crate::output::report::{Block, PageSection, PageTable, Tone};
+use crate::steps::report::read_picture;
 use crate::texture;
-use gearcut_core::error::{Error, Result};
+use gearcut_core::error::Result;
 
 /// The section; none if no window was evaluated. Pictures are those that the folder holds.
 ///
@@ -22,47 +24,89 @@ pub fn section(found: &Findings, folder: &OutputFolder) -> Result<Option<PageSec
     let path = format!("texture.{}", last.key);
     let of_several = found.warnings.iter().filter(|warning| warning.section.as_ref() == Some(&path));
     blocks.extend(of_several.map(|warning| Block::Note(warning.with_signs().text)));
-    blocks.extend(shown(last, found, folder)?);
-    for operation in earlier {
-        blocks.push(Block::Folded(operation.title.clone(), shown(operation, found, folder)?));
+    blocks.extend(sheet(last, folder)?);
+    let mut windows: Vec<&findings::Section> = last.sections.iter().collect();
+    windows.sort_by(|a, b| mean_height_um(b).total_cmp(&mean_height_um(a)));
+    let mut shown = windows.into_iter().map(|window| block(last, window, found, folder));
+    blocks.extend(shown.next().transpose()?.into_iter().flatten());
+    let others = shown.collect::<Result<Vec<_>>>()?.concat();
+    if !others.is_empty() {
+        blocks.push(Block::Folded("The other windows in full, the roughest first".to_owned(), others));
     }
-    Ok(Some(PageSection {
-        id: "texture",
-        title: "Surface texture".to_owned(),
-        lead: format!(
+    for operation in earlier {
+        let windows = operation.sections.iter().map(|window| block(operation, window, found, folder));
+        let windows = windows.collect::<Result<Vec<_>>>()?.concat();
+        let windows = sheet(operation, folder)?.into_iter().chain(windows).collect();
+        blocks.push(Block::Folded(operation.title.clone(), windows));
+    }
+    let (tone, words) = verdict(found, last);
+    let section = PageSection::new(
+        "texture",
+        "Surface texture",
+        format!(
             "Areal parameters by ISO 25178-2 of windows on flanks after {}: what the tool's motion leaves. Chips, wear \
-            and vibration of a real cut come on top. All parameters stand in results.json, the surfaces as X3P, SDF, \
-            NPY and CSV beside it.",
+            and vibration of a real cut come on top. The window with the largest Sa is shown in full. All parameters \
+            are in results.json, the surfaces as X3P, SDF, NPY and CSV beside it.",
             last.key
         ),
         blocks,
-    }))
+    );
+    Ok(Some(section.judged(tone, words)))
 }
 
-/// The windows of an operation, and surfaces measured there.
-fn shown(operation: &findings::Section, found: &Findings, folder: &OutputFolder) -> Result<Vec<Block>> {
-    let block = |window: &findings::Section| {
-        let path = format!("texture.{}.{}", operation.key, window.key);
-        let of_window = |section: &String| *section == path || *section == format!("{path}.{}", texture::MEASURED);
-        let warnings = found.warnings.iter().filter(|warning| warning.section.as_ref().is_some_and(of_window));
-        let warnings = warnings.map(|warning| warning.with_signs().text).collect();
-        let mut blocks = vec![Block::Texture(texture_window(window, warnings, folder)?)];
-        blocks.extend(measured::blocks(window, folder)?);
-        Ok(blocks)
+/// Sa; below all others where there is none.
+fn mean_height_um(window: &findings::Section) -> f64 {
+    window.number("parameters.Sa").unwrap_or(-1.0)
+}
+
+/// What the drawing's limits of Ra and Rz say, or how rough the windows are.
+fn verdict(found: &Findings, last: &findings::Section) -> (Tone, String) {
+    let lines = found.parts(texture::ROUGHNESS).iter().filter(|operation| operation.key == last.key);
+    let lines = lines.flat_map(|operation| &operation.sections);
+    let judged: Vec<&str> = lines.flat_map(|of| ["Ra_limit", "Rz_limit"].map(|key| of.words(key))).collect();
+    if judged.contains(&"exceeded") {
+        return (Tone::Wrong, "a limit of Ra or Rz is exceeded".to_owned());
+    }
+    if judged.contains(&"kept") {
+        return (Tone::Fine, "limits of Ra and Rz are kept".to_owned());
+    }
+    let heights = || last.sections.iter().filter_map(|window| window.number("parameters.Sa"));
+    let count = last.sections.len();
+    let windows = if count == 1 { "1 window".to_owned() } else { format!("{count} windows") };
+    let words = match (heights().reduce(f64::min), heights().reduce(f64::max)) {
+        (Some(low), Some(high)) => format!("{windows}: Sa {} to {} µm", digits(low, 3), digits(high, 3)),
+        _ => windows,
     };
-    let blocks: Vec<Vec<Block>> = operation.sections.iter().map(block).collect::<Result<_>>()?;
-    Ok(blocks.concat())
+    (Tone::Aside, words)
+}
+
+/// All windows of an operation on one scale.
+fn sheet(operation: &findings::Section, folder: &OutputFolder) -> Result<Option<Block>> {
+    let picture = read_picture(folder, &texture::sheet_file(&operation.key))?;
+    let words = format!("All windows after {} on one scale", operation.key);
+    Ok(picture.map(|png| Block::Picture(words, png)))
+}
+
+/// A window, and surfaces measured there.
+fn block(
+    operation: &findings::Section,
+    window: &findings::Section,
+    found: &Findings,
+    folder: &OutputFolder,
+) -> Result<Vec<Block>> {
+    let path = format!("texture.{}.{}", operation.key, window.key);
+    let of_window = |section: &String| *section == path || *section == format!("{path}.{}", texture::MEASURED);
+    let warnings = found.warnings.iter().filter(|warning| warning.section.as_ref().is_some_and(of_window));
+    let warnings = warnings.map(|warning| warning.with_signs().text).collect();
+    let mut blocks = vec![Block::Texture(texture_window(window, warnings, folder)?)];
+    blocks.extend(measured::blocks(window, folder)?);
+    Ok(blocks)
 }
 
 fn texture_window(window: &findings::Section, warnings: Vec<String>, folder: &OutputFolder) -> Result<TextureBlock> {
     let number = |key: &str| window.number(key).map_or_else(|| "–".to_owned(), |value| digits(value, 4));
-    let path = folder.path(format!("{}_relief.png", window.words("files")))?;
     // A window that could not be evaluated has no picture, nor has one whose files are left out.
-    let png = match std::fs::read(&path) {
-        Ok(png) => Some(png),
-        Err(reason) if reason.kind() == std::io::ErrorKind::NotFound => None,
-        Err(reason) => return Err(Error::reading(&path)(reason)),
-    };
+    let png = read_picture(folder, &format!("{}_relief.png", window.words("files")))?;
     let parameters = window.find("parameters").map_or(&[][..], |parameters| &parameters.entries);
     let parameter = |entry: &findings::Entry| {
         let quantity = &entry.quantity;

@@ -15,6 +15,7 @@ mod measured_surface;
 mod nothing_lost;
 mod once;
 mod pair;
+mod paper;
 mod quantities;
 mod scatter;
 #[cfg(unix)]

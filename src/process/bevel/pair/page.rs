@@ -3,16 +3,35 @@
 use super::findings::words;
 use super::{RolledBevels, bearing};
 use crate::findings::{Datum, Findings, Notice, Table, unit};
+use crate::output::folder::OutputFolder;
 use crate::output::line_chart::LineChart;
 use crate::output::report::{Block, Page, PageSection, PageTable};
 use crate::output::text::{plain, significant};
 use crate::process::bevel::BevelJob;
 use crate::process::bevel::check::gear_words;
+use crate::steps;
 use crate::steps::report::quantities;
+use gearcut_core::error::Result;
 use gearcut_core::units::UM_PER_MM;
 
-/// The page.
-pub fn page(jobs: [&BevelJob; 2], rolled: &RolledBevels, found: &Findings, motion_error: LineChart) -> Page {
+/// The end of the page: the files, and what is needed to roll the pair again, scenes of gear and pinion.
+///
+/// # Errors
+/// The folder cannot be read.
+pub fn ending(folder: &OutputFolder, scenes: [&str; 2]) -> Result<[PageSection; 2]> {
+    let words = ["The scene of the gear, every value written out", "The scene of the pinion, every value written out"];
+    let scenes = [0, 1].map(|k| (words[k], scenes[k]));
+    steps::report::ending(folder, ["Flanks", "the targets of both scenes, not cut"], &scenes)
+}
+
+/// The page; `end` is [`ending`].
+pub fn page(
+    jobs: [&BevelJob; 2],
+    rolled: &RolledBevels,
+    found: &Findings,
+    motion_error: LineChart,
+    end: [PageSection; 2],
+) -> Page {
     let quantities_of = |path: &str| found.find(path).map(|section| Block::Table(quantities::table(section)));
     let section = |id: &'static str, title: &str, lead: String, blocks: Vec<Option<Block>>| {
         PageSection::new(id, title, lead, blocks.into_iter().flatten().collect())
@@ -45,12 +64,13 @@ pub fn page(jobs: [&BevelJob; 2], rolled: &RolledBevels, found: &Findings, motio
         "Gleason's letters and the names of ISO 23509.".to_owned(),
         vec![quantities_of("pair")],
     ));
+    sections.extend(end);
     let roles = jobs.into_iter().zip(["gear", "pinion"]);
     Page {
         what: "tooth contact report",
         title: found.scene.clone(),
         subtitle: format!(
-            "shaft angle {} deg, offset {} mm",
+            "shaft angle {}°, offset {} mm",
             plain(rolled.nominal.shaft_angle_rad.to_degrees()),
             plain(rolled.nominal.offset_mm)
         ),

@@ -1,7 +1,7 @@
 //! What was hobbed, with what, on which machine.
 
 use crate::findings::Findings;
-use crate::output::report::PageSection;
+use crate::output::report::{PageSection, Tone};
 use crate::output::text::plain;
 use crate::process::hobbing::HobbingJob;
 use crate::process::hobbing::linkage::dynamics::{self, AXES};
@@ -58,5 +58,5 @@ pub fn section(job: &HobbingJob, found: &Findings) -> PageSection {
             format!("K_c {} N/mm², K_ce {} N/mm", plain(force.per_area_n_per_mm2), plain(force.per_length_n_per_mm));
         blocks.push(table("Material", vec![("Cutting force", coefficients)]));
     }
-    PageSection { id: "setup", title: "What was cut, and how".to_owned(), lead: String::new(), blocks }
+    PageSection::new("setup", "What was cut, and how", "", blocks).judged(Tone::Aside, "gear, hob, machine")
 }

@@ -12,6 +12,9 @@ use crate::steps::report::value_and_unit;
 /// What the key of a sentence ends with.
 const ADVICE: &str = "_advice";
 
+/// What the sentence of an answer begins with that is as it should be.
+const NOTHING: &str = "nothing";
+
 /// The section with an answer.
 pub fn answered(section: Section, key: &str, title: &str, quantity: Quantity, advice: impl Into<String>) -> Section {
     let mut section = section.with(&format!("{key}{ADVICE}"), Quantity::text(advice, "what to change"));
@@ -26,6 +29,11 @@ fn answers(section: &Section) -> impl Iterator<Item = (&Entry, &str)> {
         let advice = section.quantity(&format!("{}{ADVICE}", entry.key))?.words()?;
         Some((entry, advice))
     })
+}
+
+/// Titles of the answers that ask for a change: the sentences of the others begin with [`NOTHING`].
+pub fn that_ask_for_a_change(section: &Section) -> impl Iterator<Item = &str> {
+    answers(section).filter(|(_, advice)| !advice.starts_with(NOTHING)).map(|(entry, _)| entry.title.as_str())
 }
 
 /// Lines for the terminal.

@@ -44,7 +44,7 @@ mod tests {
         let compliance = "cutter radially 8 um/kN, cutter tangentially 8 um/kN, cutter spindle 1 urad/(N m), work \
             radially 4 um/kN, work tangentially 4 um/kN, work spindle 0.5 urad/(N m)";
         assert_eq!(layers("deflection"), [pair("deflection", compliance)]);
-        let torn = "up to 250 marks to a mm2 between 2 and 60 m/min, 1 um deep in the mean, 20 um wide, 50 % of them \
+        let torn = "up to 250 marks to a mm^2 between 2 and 60 m/min, 1 um deep in the mean, 20 um wide, 50 % of them \
             scratches of 200 um";
         assert_eq!(layers("built_up_edge").last(), Some(&pair("tearing", torn)));
         let rounded = layers("ploughing");

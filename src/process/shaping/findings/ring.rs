@@ -126,7 +126,7 @@ fn undercut(section: Section, facts: &RingFacts) -> Section {
     };
     let sign = if left_mm2 <= right_mm2 { "<=" } else { ">" };
     let advice =
-        format!("{told}; the printed condition, of an external gear, reads {left_mm2:.0} {sign} {right_mm2:.0} mm2");
+        format!("{told}; the printed condition, of an external gear, reads {left_mm2:.0} {sign} {right_mm2:.0} mm^2");
     let section = answered(
         section,
         "undercut_flanks",

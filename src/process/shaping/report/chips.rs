@@ -1,11 +1,13 @@
 //! Chips and cutting forces on the page.
 
 use crate::findings::Findings;
-use crate::output::report::{Block, PageSection};
+use crate::findings::quantities::cutting::LARGEST_FORCE;
+use crate::output::report::{Block, PageSection, Tone};
 use crate::process::shaping::ShapingJob;
 use crate::process::shaping::chip_charts::charts;
 use crate::process::shaping::chips::ChipLedger;
-use crate::steps::report::quantities;
+use crate::process::shaping::quantities::LARGEST_SECTION;
+use crate::steps::report::{headline_words, quantities};
 
 /// What the strokes of every operation take, and what that asks of cutter and machine.
 pub fn section(job: &ShapingJob, ledger: &ChipLedger, found: &Findings) -> PageSection {
@@ -26,12 +28,12 @@ pub fn section(job: &ShapingJob, ledger: &ChipLedger, found: &Findings) -> PageS
         }
         Some(blocks)
     });
-    PageSection {
-        id: "chips",
-        title: "Chips and forces".to_owned(),
-        lead: "What every stroke takes, from the chip ledger, and the force and torques that follow from the material \
-            (tables/chips_<operation>.csv has every stroke, chips/ maps along the edge)."
-            .to_owned(),
-        blocks: blocks.flatten().collect(),
-    }
+    PageSection::new(
+        "chips",
+        "Chips and forces",
+        "What every stroke takes, from the chip ledger, and the force and torques that follow from the material \
+            (tables/chips_<operation>.csv has every stroke, chips/ maps along the edge).",
+        blocks.flatten().collect(),
+    )
+    .judged(Tone::Aside, headline_words(found, &[&LARGEST_SECTION, &LARGEST_FORCE]))
 }

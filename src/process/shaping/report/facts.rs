@@ -1,7 +1,7 @@
 //! What was shaped, with what, on which machine.
 
 use crate::findings::{Findings, unit};
-use crate::output::report::PageSection;
+use crate::output::report::{PageSection, Tone};
 use crate::output::text::plain;
 use crate::process::shaping::ShapingJob;
 use crate::process::shaping::linkage::dynamics::{self, AXES};
@@ -65,5 +65,5 @@ pub fn section(job: &ShapingJob, found: &Findings) -> PageSection {
             ],
         ),
     ]);
-    PageSection { id: "setup", title: "What was cut, and how".to_owned(), lead: String::new(), blocks }
+    PageSection::new("setup", "What was cut, and how", "", blocks).judged(Tone::Aside, "gear, cutter, machine")
 }

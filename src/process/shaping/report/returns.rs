@@ -2,7 +2,7 @@
 
 use crate::findings::{Findings, Quantity, Section};
 use crate::output::line_chart::{LineChart, Panel};
-use crate::output::report::{Block, PageSection};
+use crate::output::report::{Block, PageSection, Tone};
 use crate::process::shaping::ShapingJob;
 use crate::process::shaping::findings::answers;
 use crate::steps::axes::charts::panel;
@@ -20,15 +20,26 @@ pub fn section(job: &ShapingJob, found: &Findings) -> Option<PageSection> {
         };
         std::iter::once(first).chain(chart(job, name, section).map(Block::Lines))
     });
-    Some(PageSection {
-        id: "returns",
-        title: "Return strokes".to_owned(),
-        lead: format!(
+    let mut asked: Vec<&str> =
+        returns.iter().flat_map(|(_, section)| answers::that_ask_for_a_change(section)).collect();
+    asked.sort_unstable();
+    asked.dedup();
+    let known = returns.iter().all(|(_, section)| section.number("retraction_angle").is_some());
+    let (tone, words) = match (known, asked.is_empty()) {
+        (false, _) => (Tone::Aside, "nothing is told of them".to_owned()),
+        (true, true) => (Tone::Fine, "nothing to change".to_owned()),
+        (true, false) => (Tone::Wrong, format!("a change is advised: {}", asked.join(", "))),
+    };
+    Some(PageSection::new(
+        "returns",
+        "Return strokes",
+        format!(
             "For the return stroke the cutter is drawn back {direction}. What was known before cutting, of ideal work \
              and cutter; what the strokes of this run met is in results.json, under blank."
         ),
-        blocks: blocks.collect(),
-    })
+        blocks.collect(),
+    )
+    .judged(tone, words))
 }
 
 /// Over one period of the pitch curve.

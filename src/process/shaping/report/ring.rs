@@ -28,15 +28,14 @@ pub fn section(job: &ShapingJob, found: &Findings) -> Option<PageSection> {
     } else {
         blocks.push(Block::Note("The pitch curve is a circle: all this is the same on every tooth.".to_owned()));
     }
-    Some(PageSection {
-        id: "ring",
-        title: "The cutter in the ring".to_owned(),
-        lead: "What was known before cutting: where the cutter rolls and how large the module may be, how far its \
+    Some(PageSection::new(
+        "ring",
+        "The cutter in the ring",
+        "What was known before cutting: where the cutter rolls and how large the module may be, how far its \
                involute reaches on the flanks and how far its base sets the tips back, and how near its tip corners \
-               come to the teeth beside their space."
-            .to_owned(),
+               come to the teeth beside their space.",
         blocks,
-    })
+    ))
 }
 
 fn panels(job: &ShapingJob, table: &Table) -> Vec<Panel> {

@@ -3,6 +3,7 @@
 use crate::findings::quantities::flanks::{STOCK_LARGEST, STOCK_MEAN, STOCK_SMALLEST};
 use crate::findings::{self, Findings, QuantityRow};
 use crate::output::bar_chart::{BarChart, BarSeries};
+use crate::output::line_chart::{LineChart, LineSeries, Panel};
 use crate::output::range_chart::{RangeChart, RangeSeries};
 use crate::output::report::{Block, PageSection, PageTable};
 use crate::output::text::significant;
@@ -21,14 +22,16 @@ pub fn section(job: &ShapingJob, found: &Findings) -> Option<PageSection> {
         }
         blocks.extend(operation_blocks(operation, finishing));
     }
-    (!blocks.is_empty()).then(|| PageSection {
-        id: "stock",
-        title: "Stock and allowance".to_owned(),
-        lead: format!(
-            "What is left for {finishing}. Stock is measured along the target's normal over whole flanks; AB (left \
+    (!blocks.is_empty()).then(|| {
+        PageSection::new(
+            "stock",
+            "Stock and allowance",
+            format!(
+                "What is left for {finishing}. Stock is measured along the target's normal over whole flanks; AB (left \
             flank) and CD (right flank) are chords on the pitch curve between the two operations."
-        ),
-        blocks,
+            ),
+            blocks,
+        )
     })
 }
 
@@ -54,19 +57,12 @@ fn operation_blocks(operation: &findings::Section, finishing: &str) -> Vec<Block
             })
             .collect(),
     };
-    let series =
-        |name: &str, column: &QuantityRow| BarSeries { name: name.to_owned(), values: allowance(operation, column) };
-    let bars = |title: String, value_name: &str, unit: &str, series: Vec<BarSeries>| {
-        Block::Bars(BarChart {
-            least_division: 0.0,
-            limits: Vec::new(),
-            title,
-            category_name: "tooth".to_owned(),
-            categories: categories.clone(),
-            value_name: value_name.to_owned(),
-            unit: unit.to_owned(),
-            series,
-        })
+    let chords = |name: &str, column: &QuantityRow| LineSeries {
+        name: name.to_owned(),
+        points: (1_u32..)
+            .map(f64::from)
+            .zip(allowance(operation, column).into_iter().map(|chord| chord.unwrap_or(f64::NAN)))
+            .collect(),
     };
     let name = &operation.key;
     let period = operation.table_of("allowance").and_then(|table| table.period_rows).unwrap_or(0);
@@ -78,18 +74,29 @@ fn operation_blocks(operation: &findings::Section, finishing: &str) -> Vec<Block
             unit: "mm".to_owned(),
             series: vec![range("left flanks", "left"), range("right flanks", "right")],
         }),
-        bars(
-            format!("Allowance on the pitch curve after {name}"),
-            "chord",
-            "mm",
-            vec![series("AB, left flank", &AB), series("CD, right flank", &CD)],
-        ),
-        bars(
-            format!("Unevenness of the allowance after {name}"),
-            "|AB − CD| / mean of AB and CD",
-            "%",
-            vec![series("as cut", &UNEVENNESS)],
-        ),
+        // From the chords and not from zero: they differ by a few per cent.
+        Block::Lines(LineChart {
+            title: format!("Allowance on the pitch curve after {name}"),
+            x_name: "tooth".to_owned(),
+            x_unit: "1".to_owned(),
+            panels: vec![Panel {
+                value_name: "chord".to_owned(),
+                unit: "mm".to_owned(),
+                series: vec![chords("AB, left flank", &AB), chords("CD, right flank", &CD)],
+                limits: Vec::new(),
+                least_division: 1e-3,
+            }],
+        }),
+        Block::Bars(BarChart {
+            least_division: 0.0,
+            limits: Vec::new(),
+            title: format!("Unevenness of the allowance after {name}"),
+            category_name: "tooth".to_owned(),
+            categories,
+            value_name: "|AB − CD| / mean of AB and CD".to_owned(),
+            unit: "%".to_owned(),
+            series: vec![BarSeries { name: "as cut".to_owned(), values: allowance(operation, &UNEVENNESS) }],
+        }),
         Block::Table(spread_table(operation)),
         Block::Folded(
             format!("Allowance tooth by tooth{}", period_words(period, teeth.len())),

@@ -111,8 +111,8 @@ pub fn built_up_words(edge: &BuiltUpEdge) -> String {
         [edge.depth_mm, edge.width_mm, edge.scratch_length_mm].map(|mm| plain(UM_PER_MM * mm));
     let [from, _, _, to] = edge.speeds_mm_per_s.map(|speed| plain(M_PER_MIN * speed));
     format!(
-        "up to {} marks to a mm2 between {from} and {to} m/min, {depth_um} um deep in the mean, {width_um} um wide, {} \
-        % of them scratches of {length_um} um",
+        "up to {} marks to a mm^2 between {from} and {to} m/min, {depth_um} um deep in the mean, {width_um} um wide, \
+         {} % of them scratches of {length_um} um",
         plain(edge.density_per_mm2),
         plain(100.0 * edge.scratch_share)
     )
