@@ -36,7 +36,8 @@ fn every_page_says_what_it_is_of() {
     let record = read_json(&folder.path().join("one/run.json"));
     let hash = Sha256::digest(record["scene"].as_str().expect("the scene"));
     let hash: Vec<String> = hash.iter().map(|byte| format!("{byte:02x}")).collect();
-    assert_eq!(record["scene_sha256"], hash.concat());
+    let hash = hash.concat();
+    assert_eq!(record["scene_sha256"], hash.as_str());
     let pages = pages(&bytes);
     assert!((4..=6).contains(&pages.len()), "{} pages", pages.len());
     for (index, page) in pages.iter().enumerate() {
