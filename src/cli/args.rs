@@ -28,9 +28,9 @@ pub use texture::{FilterArguments, LineArguments, LineFormChoice, ProfileChoice,
     about = "Cuts non-circular gears on this computer before anyone cuts them in steel, and measures what the cutter \
         leaves.",
     after_help = "First steps:\n  \
-        gearcut check scenes/shaping/elliptical_normal.toml   what the scene means, in a second\n  \
-        gearcut cut scenes/shaping/elliptical_normal.toml     cut it and measure it\n  \
-        gearcut new shaping --out my_gear.toml                a commented scene of your own\n\n\
+        gearcut check scenes/shaping/elliptical_finishing_stock.toml   what the scene means, in a second\n  \
+        gearcut cut scenes/shaping/elliptical_finishing_stock.toml     cut it and measure it\n  \
+        gearcut new shaping --out my_gear.toml                         a commented scene of your own\n\n\
         Exit codes: 0 done; 1 refused or failed, with the reason; 2 wrong usage; 3 done and written, but the verdict \
         is bad (a fault; pair: a tip stands in the mate); 130 stopped by Ctrl-C."
 )]

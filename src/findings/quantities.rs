@@ -27,4 +27,5 @@ pub static SHARED: &[&QuantityGroup] = &[
     &cutting::AXES,
     &blank::BLANK,
     &blank::DAMAGE,
+    &program::PROGRAM,
 ];

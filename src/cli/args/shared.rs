@@ -17,8 +17,8 @@ pub struct SceneArguments {
 /// How gears are cut, and how the command ends.
 #[derive(Debug, Args)]
 pub struct RunArguments {
-    /// What computes: auto takes a GPU if there is a real one that answers within ten seconds and is faster [default:
-    /// auto for cut; cpu for few places at a time, where it is the fastest].
+    /// What computes: auto takes a real GPU that answers within ten seconds; cut tries it on tiles of the scene first
+    /// and takes it only if it is faster [default: auto for cut; cpu for few places at a time, where it is the fastest].
     #[arg(long, value_enum)]
     pub backend: Option<BackendChoice>,
     /// Show no progress and no summary of a cut.
@@ -51,7 +51,7 @@ impl VerdictArguments {
 /// What computes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum BackendChoice {
-    /// A real GPU if it is faster on tiles of the scene, else the processor.
+    /// A real GPU where there is one (cut: if it is faster on tiles of the scene), else the processor.
     Auto,
     /// A GPU, or fail.
     Gpu,
