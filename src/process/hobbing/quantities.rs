@@ -78,7 +78,7 @@ rows! {
     TEETH_IN_USE: "teeth_in_use", "teeth",
         "hob teeth that take at least a hundredth of the hardest working one's volume"
         => shown();
-    PEAK_TO_MEAN: "hob_load_peak_to_mean", "1",
+    PEAK_TO_MEAN: "hob_load_peak_to_mean", "times",
         "largest volume of a hob tooth over the mean of all teeth of the hob; 1 where all work alike"
         => titled("peak to mean"), shown(), or(&[NOTHING, STOPPED]);
     THICKEST_OF_TOOTH: "thickest_chip_of_tooth", "", "hob tooth that takes the thickest chip" => or(&[NOTHING]);

@@ -114,7 +114,7 @@ pub fn value_and_unit(quantity: &Quantity) -> (String, String) {
         "s" => (duration_text(value), String::new()),
         "%" => (text(if value < 1e-9 { 0.0 } else { value }, 3), "%".to_owned()),
         unit @ ("flanks" | "teeth" | "strokes") => (plain(value), unit.to_owned()),
-        unit => (text(value, 4), unit.to_owned()),
+        unit => (text(value, 4), unit::signs(unit)),
     }
 }
 
