@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use super::errors::{Problem, SceneErrors, SourcePlace};
 use super::keys::join;
+use super::parameters::key_of;
 use super::points::{read_points, read_text};
 use super::problems::{Found, Problems};
 use super::process::{FINISH_ALONE, SceneProcess};
@@ -174,7 +175,7 @@ impl LoadedScene {
     /// A key that was not written is shown by the section that would hold it, and the message says that its default
     /// holds.
     pub fn explain(&self, refusal: &Refusal) -> SceneErrors {
-        let key = &refusal.key;
+        let key = &key_of(&refusal.key);
         let (place, message) = if let Some(Located { place, written }) = self.locate(key) {
             (place, format!("`{key}` = {written}: {}", refusal.problem))
         } else {

@@ -25,6 +25,7 @@ pub(crate) mod machine_errors;
 mod mate;
 pub mod model;
 mod overrides;
+mod parameters;
 mod points;
 pub(crate) mod problems;
 mod process;

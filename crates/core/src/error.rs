@@ -1,18 +1,19 @@
 //! Errors as values: what was refused, where, and a way out.
 //!
-//! Problems of a scene's text come with file, line and column from whoever reads it. What only geometry finds out (a
-//! pitch curve that crosses itself, a cutter that undercuts) is a [`Refusal`] that names the scene key it blames; the
-//! command line looks up that key's place in the file before it prints.
+//! Problems of a text come with file, line and column from whoever reads it. What only geometry finds out (a pitch curve
+//! that crosses itself, a cutter that undercuts) is a [`Refusal`] that names what it blames: this crate a
+//! [`crate::parameter`], a program that reads them from a file its own key, whose place there it knows.
 
 use std::path::PathBuf;
 
 /// What can go wrong in a run.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum Error {
-    /// The scene file does not say what it should: every problem with its file, line and column.
+    /// A text does not say what it should: every problem with its file, line and column.
     #[error("{0}")]
     Scene(Box<dyn std::error::Error + Send + Sync>),
-    /// The scene is well-formed, but its geometry or size is refused.
+    /// Geometry or size is refused.
     #[error(transparent)]
     Refused(#[from] Refusal),
     /// A file could not be read or written.
@@ -44,7 +45,7 @@ pub enum Error {
         /// What is wrong with it.
         reason: String,
     },
-    /// An iteration on what the scene describes did not converge.
+    /// An iteration did not converge.
     #[error(transparent)]
     NotConverged(#[from] NotConverged),
     /// Stopped by the user.
@@ -52,11 +53,11 @@ pub enum Error {
     Interrupted,
 }
 
-/// A well-formed scene that cannot be cut as asked.
+/// Geometry that cannot be cut.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[error("`{key}`: {problem}\n  way out: {way_out}")]
 pub struct Refusal {
-    /// Scene key to blame, such as `gear.module_mm`.
+    /// What is to blame: a parameter such as `module`, or the key that a program reads it from.
     pub key: String,
     /// What is wrong, with the value and the limit.
     pub problem: String,

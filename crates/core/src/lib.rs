@@ -9,6 +9,7 @@
 //! - [`units`]: factors between units
 //! - [`frame`]: rigid motions in the plane and in space
 //! - [`error`]: errors as values, with a way out
+//! - [`parameter`]: names of what refusals blame
 //! - [`math`]: Taylor series, roots, extrema, integrals, splines, rays against closed curves
 //! - [`gear`]: the pitch curve, and the blank before cutting
 //! - [`tool`]: cutting edges, and where the blades of a tool are
@@ -130,6 +131,7 @@ pub mod error;
 pub mod frame;
 pub mod gear;
 pub mod math;
+pub mod parameter;
 pub mod passes;
 pub mod terms;
 pub mod tool;

@@ -1,6 +1,7 @@
 //! Scenes: read, refused, overridden.
 
 mod broken;
+mod core_words;
 mod hostile;
 mod keys;
 mod load;

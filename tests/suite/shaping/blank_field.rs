@@ -228,7 +228,7 @@ fn fields_beyond_memory_are_refused_with_a_spacing_that_fits() {
     scene.fields.blank_slice_spacing_mm = 0.5;
     Shaping::of_mut(&mut scene).expect("shaping").operations[1].feed_during_stroke = true;
     let refusal = job(scene.clone()).planar().blank_grid().expect_err("a thousand million spans");
-    assert_eq!(refusal.key, "fields.blank.spacing_mm");
+    assert_eq!(refusal.key, "spacing of the blank's rays");
     assert!(refusal.problem.contains("61 slices") && refusal.problem.contains("bytes"), "{refusal}");
     let fits = refusal.way_out.split(' ').find_map(|word| word.parse::<f64>().ok()).expect("a spacing");
     scene.fields.blank_spacing_mm = fits;

@@ -57,7 +57,7 @@ fn a_curve_that_does_not_close() {
     assert!(
         found.starts_with("error: ring.toml:8:22: `gear.pitch_curve.ellipse.semi_major_axis_mm` = 61.0: the perimeter")
     );
-    assert!(found.ends_with("mm; leave the key out and it is solved"), "{found}");
+    assert!(found.ends_with("mm; leave it out and it is solved"), "{found}");
     // A mate whose driver looks different after a turn of the ring.
     let mate = "[gear.pitch_curve.mate]\ndriver_teeth = 40\n[gear.pitch_curve.mate.driver.sinusoidal_ratio]\n\
         order = 1\nmean_ratio = 1.0\nratio_amplitude = 0.3\n";

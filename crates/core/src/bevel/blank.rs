@@ -12,6 +12,7 @@
 //! equal.
 
 use crate::error::Refusal;
+use crate::parameter;
 use glam::{DVec2, DVec3, Vec3Swizzles};
 use std::f64::consts::PI;
 
@@ -49,14 +50,14 @@ impl BevelBlank {
         let between = |low: f64, value: f64, high: f64| value >= low && value <= high;
         if !between(0.0, data.pitch_angle_rad, 0.5 * PI) || data.pitch_angle_rad <= 0.0 {
             return Err(Refusal::new(
-                "gear.bevel.pitch_angle_deg",
+                parameter::PITCH_ANGLE,
                 format!("the pitch angle is {:.4} deg; it lies between 0 and 90 deg", degrees(data.pitch_angle_rad)),
                 "write the angle between the gear's axis and its pitch cone",
             ));
         }
         for (key, low, value, high) in [
-            ("gear.bevel.root_angle_deg", 0.0, data.root_angle_rad, data.pitch_angle_rad),
-            ("gear.bevel.face_angle_deg", data.pitch_angle_rad, data.face_angle_rad, 0.5 * PI),
+            (parameter::ROOT_ANGLE, 0.0, data.root_angle_rad, data.pitch_angle_rad),
+            (parameter::FACE_ANGLE, data.pitch_angle_rad, data.face_angle_rad, 0.5 * PI),
         ] {
             if !between(low, value, high) {
                 return Err(Refusal::new(
@@ -74,7 +75,7 @@ impl BevelBlank {
         }
         if data.face_width_mm >= data.outer_cone_distance_mm {
             return Err(Refusal::new(
-                "gear.face_width_mm",
+                parameter::FACE_WIDTH,
                 format!(
                     "a face of {} mm reaches the apex: the outer cone distance is {:.3} mm",
                     data.face_width_mm, data.outer_cone_distance_mm
@@ -86,7 +87,7 @@ impl BevelBlank {
         let depth_mm = data.addendum_mm(inner_mm) + data.dedendum_mm(inner_mm);
         if depth_mm <= 0.0 {
             return Err(Refusal::new(
-                "gear.bevel.root_angle_deg",
+                parameter::ROOT_ANGLE,
                 format!("at the toe no depth is left ({depth_mm:.3} mm): face and root cone meet within the face"),
                 "check face and root angle, addendum and dedendum",
             ));
@@ -211,7 +212,7 @@ mod tests {
         assert!(BevelBlank::new(data()).is_ok());
         let exchanged = BevelBlank { face_angle_rad: data().root_angle_rad, ..data() };
         let refused = BevelBlank::new(exchanged).unwrap_err();
-        assert!(refused.key == "gear.bevel.face_angle_deg" && refused.problem.contains("75.4333"), "{refused}");
+        assert!(refused.key == parameter::FACE_ANGLE && refused.problem.contains("75.4333"), "{refused}");
         for wrong in [
             BevelBlank { root_angle_rad: data().face_angle_rad, ..data() },
             BevelBlank { pitch_angle_rad: -0.1, ..data() },

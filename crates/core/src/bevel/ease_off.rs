@@ -21,6 +21,7 @@ use super::envelope::{Envelope, FlankPoint, OnFlank};
 use super::flank::BevelFlank;
 use crate::error::{NotConverged, Refusal};
 use crate::math::convergence::{Step, iterate};
+use crate::parameter;
 use glam::DVec3;
 use std::f64::consts::{PI, TAU};
 use std::ops::ControlFlow;
@@ -164,7 +165,7 @@ pub fn ease_off_mm(
     along_mm: &[f64],
 ) -> Result<Vec<f64>, Refusal> {
     let blank = &flank.blank;
-    let lost = |lost: NotConverged| Refusal::new("machine.cradle", lost.to_string(), "check the settings");
+    let lost = |lost: NotConverged| Refusal::new(parameter::CRADLE, lost.to_string(), "check the settings");
     let mut points = Vec::new();
     for &along in along_mm {
         let row = flank.row(along)?;

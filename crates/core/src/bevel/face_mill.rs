@@ -15,6 +15,7 @@
 
 use crate::error::Refusal;
 use crate::frame::Rigid3;
+use crate::parameter;
 use crate::tool::blade_edges::BladeEdges;
 use crate::tool::edge::{Edge, Segment, SegmentName};
 use crate::tool::{CuttingTool, SpatialTool};
@@ -170,14 +171,14 @@ impl FaceMill {
     pub fn tool(&self) -> Result<FaceMillTool<'_>, Refusal> {
         if self.blades() < 2 || !self.blades().is_multiple_of(2) {
             return Err(Refusal::new(
-                "tool.face_mill.blades",
+                parameter::BLADES,
                 format!("{} blades do not alternate between outside and inside", self.blades()),
                 "use an even number of blades",
             ));
         }
         if 2.0 * self.tip_width_mm <= self.point_width_mm || self.tip_width_mm > self.point_width_mm {
             return Err(Refusal::new(
-                "tool.face_mill.tip_width_mm",
+                parameter::TIP_WIDTH,
                 format!(
                     "blades {} mm wide at their tips do not clear a slot of {} mm: each cuts its side and more than \
                      half of the bottom, but not the other side",
@@ -192,7 +193,7 @@ impl FaceMill {
                 || surface.corner_radius_mm >= self.blade_height_mm
             {
                 return Err(Refusal::new(
-                    "tool.face_mill.corner_radius_mm",
+                    parameter::CORNER_RADIUS,
                     format!(
                         "a round of {} mm finds no room on the {} blade, {} mm wide at its tip",
                         surface.corner_radius_mm,

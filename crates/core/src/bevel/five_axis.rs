@@ -13,6 +13,7 @@ use super::cradle::{CradleSettings, Roll};
 use crate::error::{NotConverged, Refusal};
 use crate::frame::Rigid3;
 use crate::math::least_squares::solve;
+use crate::parameter;
 use glam::{DMat3, DVec3};
 
 /// Below this cosine of B the head's axis runs along the work's, and A and C are the same turn.
@@ -59,7 +60,7 @@ impl FiveAxisMachine {
         let swing_rad = l.z_axis.x.clamp(-1.0, 1.0).asin();
         if swing_rad.cos() < LEAST_COSINE {
             return Err(Refusal::new(
-                "machine.cradle.root_angle_deg",
+                parameter::MACHINE_ROOT_ANGLE,
                 "the head's axis runs along the work's axis: A and C are the same turn",
                 "use a root angle below 90 degrees",
             ));

@@ -12,6 +12,7 @@
 use super::blank::BevelBlank;
 use super::envelope::{Envelope, FlankPoint, OnFlank};
 use crate::error::{NotConverged, Refusal};
+use crate::parameter;
 use glam::{DVec2, DVec3};
 
 /// Intervals over which the arc of the middle profile is summed: chords of 0.1 mm on a radius of 100 mm are short by
@@ -108,7 +109,7 @@ impl BevelFlank {
         };
         let (form_height_mm, angles) = rows().map_err(|lost| {
             Refusal::new(
-                "machine.cradle",
+                parameter::CRADLE,
                 format!(
                     "at a cone distance of {cone_distance_mm:.3} mm the {} blades generate no flank between root and \
                      tip: {lost}",
@@ -119,7 +120,7 @@ impl BevelFlank {
         })?;
         if form_height_mm >= tip_height_mm {
             return Err(Refusal::new(
-                "machine.cradle.sliding_base_mm",
+                parameter::SLIDING_BASE,
                 format!(
                     "at a cone distance of {cone_distance_mm:.3} mm the {} blades reach down to {form_height_mm:.3} mm \
                      over the pitch cone, and the tips stand at {tip_height_mm:.3} mm",
@@ -164,7 +165,7 @@ impl FlankRow<'_> {
         let BevelFlank { envelope, blank, .. } = self.flank;
         envelope.find(blank, self.cone_distance_mm, OnFlank::Height(height_mm), start.into()).map_err(|lost| {
             Refusal::new(
-                "machine.cradle",
+                parameter::CRADLE,
                 format!("at a cone distance of {:.3} mm, height {height_mm:.3} mm: {lost}", self.cone_distance_mm),
                 "check the settings against the blank",
             )

@@ -19,6 +19,7 @@ use crate::gear::GearKind;
 use crate::gear::blank::Blank;
 use crate::gear::blank_outline::BlankOutline;
 use crate::math::planar_rays::{FAMILIES, Family, RayCrossings, RayRow};
+use crate::parameter;
 use glam::DVec2;
 
 /// Largest field: 2 GB leave room for everything else on an ordinary machine.
@@ -80,16 +81,13 @@ impl BlankGrid {
                 fits_mm *= 1.05;
             }
             return Err(Refusal::new(
-                "fields.blank.spacing_mm",
+                parameter::RAY_SPACING,
                 format!(
                     "the blank field at {spacing_mm} mm in {slices} slices needs about {:.2e} bytes; at most \
                     {MOST_BYTES:.0e} are taken",
                     need(spacing_mm)
                 ),
-                format!(
-                    "use a spacing_mm of {:.4} or more, or a larger slice_spacing_mm",
-                    (1e4 * fits_mm).ceil() * 1e-4
-                ),
+                format!("put rays {:.4} mm apart or more, or slices further apart", (1e4 * fits_mm).ceil() * 1e-4),
             ));
         }
         let row = |from: f64, to: f64| {

@@ -12,6 +12,7 @@ use crate::error::Refusal;
 use crate::math::convergence::{Step, iterate};
 use crate::math::newton::{LastStep, newton};
 use crate::math::roots::{bisect, sample_angle_rad};
+use crate::parameter;
 use crate::units::TURN_RAD;
 use glam::DVec2;
 use std::ops::ControlFlow;
@@ -45,13 +46,13 @@ impl Blank {
         let tightest = curve.facts().curvature_extrema.iter().map(|e| e.curvature_per_mm).fold(f64::INFINITY, f64::min);
         if tightest * addendum_mm <= -1.0 {
             return Err(Refusal::new(
-                "gear.addendum_coefficient",
+                parameter::ADDENDUM,
                 format!(
                     "the blank's outline, {addendum_mm} mm outside the pitch curve, crosses itself in a hollow of \
                     radius {:.3} mm",
                     -1.0 / tightest
                 ),
-                "use a smaller addendum_coefficient or module_mm, or a pitch curve with a wider hollow",
+                "use a smaller addendum or module, or a pitch curve with a wider hollow",
             ));
         }
         Ok(Self { curve, addendum_mm, back: Back::bore(0.0) })
@@ -73,14 +74,14 @@ impl Blank {
         let sharpest = facts.largest_curvature;
         if sharpest.curvature_per_mm * addendum_mm >= 1.0 {
             return Err(Refusal::new(
-                "gear.addendum_coefficient",
+                parameter::ADDENDUM,
                 format!(
                     "the blank's outline, {addendum_mm} mm inside the pitch curve, crosses itself where the curve has \
                     the radius {:.3} mm, at polar angle {:.3} deg",
                     1.0 / sharpest.curvature_per_mm,
                     sharpest.phi_rad.to_degrees()
                 ),
-                "use a smaller addendum_coefficient or module_mm, or a pitch curve that is nowhere curved so sharply",
+                "use a smaller addendum or module, or a pitch curve that is nowhere curved so sharply",
             ));
         }
         let back = Back::ring(facts.largest_radius_mm + rim_mm);
@@ -242,6 +243,6 @@ mod tests {
         let sharpest_mm = ellipse.facts().smallest_curvature_radius_mm;
         assert!(Blank::ring(ellipse.clone(), 0.99 * sharpest_mm, 10.0).is_ok());
         let refusal = Blank::ring(ellipse, 1.01 * sharpest_mm, 10.0).unwrap_err();
-        assert_eq!(refusal.key, "gear.addendum_coefficient");
+        assert_eq!(refusal.key, parameter::ADDENDUM);
     }
 }

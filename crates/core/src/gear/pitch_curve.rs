@@ -29,6 +29,7 @@ use crate::gear::{LARGEST_UNASKED_SCALING, PitchCurveShape, TableScaling};
 use crate::math::jet::Jet;
 use crate::math::periodic_integral::PeriodicIntegral;
 use crate::math::roots::sample_angle_rad;
+use crate::parameter;
 use crate::units::TURN_RAD;
 pub use facts::{CurvatureExtremum, CurveFacts};
 use radius_law::{RadiusLaw, SizedLaw};
@@ -95,7 +96,7 @@ impl PitchCurve {
         let wanted_mm = PI * module_mm * f64::from(teeth);
         if !(wanted_mm.is_finite() && wanted_mm > 0.0) {
             let problem = format!("module {module_mm} mm with {teeth} teeth gives no pitch curve");
-            return Err(Refusal::new("gear.module_mm", problem, "give a positive module and at least one tooth"));
+            return Err(Refusal::new(parameter::MODULE, problem, "give a positive module and at least one tooth"));
         }
         let SizedLaw { law, size_mm, key, size_key } = SizedLaw::new(shape, module_mm, teeth, accuracy_mm)?;
         let samples = law.samples_per_turn();
@@ -146,7 +147,7 @@ impl PitchCurve {
                 size_key,
                 format!(
                     "the points make {teeth} teeth of {module_mm} mm only if all radii are multiplied by {factor:.6}; \
-                     without this key a change of {} % is allowed",
+                     a change of {} % is allowed unless any scaling is",
                     100.0 * LARGEST_UNASKED_SCALING
                 ),
                 way_to_close(shape, closing_mm, closing_mm / factor, module_mm),
@@ -250,9 +251,9 @@ fn way_to_close(shape: &PitchCurveShape, closing_mm: f64, size_mm: f64, module_m
     let factor = closing_mm / size_mm;
     match shape {
         PitchCurveShape::Table { .. } if (factor - 1.0).abs() > LARGEST_UNASKED_SCALING => format!(
-            "correct the module (the points fit {:.6} mm), the teeth or the points; or write scale_to_close = true",
+            "correct the module (the points fit {:.6} mm), the teeth or the points; or allow any scaling",
             module_mm / factor
         ),
-        _ => format!("the size that closes is {closing_mm:.9} mm; leave the key out and it is solved"),
+        _ => format!("the size that closes is {closing_mm:.9} mm; leave it out and it is solved"),
     }
 }

@@ -11,7 +11,7 @@ use crate::error::Refusal;
 use crate::math::Jet;
 use crate::units::TURN_RAD;
 
-const KEY: &str = "gear.pitch_curve.table.points_deg_mm";
+const KEY: &str = crate::parameter::TABLE_POINTS;
 
 /// Periodic C2 spline, scaled so that the mean of its points is one.
 #[derive(Debug, Clone)]

@@ -25,12 +25,11 @@ use crate::gear::{Driver, GearKind};
 use crate::math::Jet;
 use crate::math::periodic_integral::PeriodicIntegral;
 use crate::math::roots::bisect;
+use crate::parameter;
 use crate::units::TURN_RAD;
 
 /// Accuracy of phi2(phi1), rad: 1e-12 mm on a radius of 100 mm.
 const TURN_ACCURACY_RAD: f64 = 1e-14;
-/// Scene key of the mate.
-const KEY: &str = "gear.pitch_curve.mate";
 
 /// r2(phi2) of a mate.
 #[derive(Debug, Clone)]
@@ -61,17 +60,17 @@ impl MateLaw {
     ) -> Result<Self, Refusal> {
         let curve =
             PitchCurve::with_accuracy(&driver.curve, module_mm, driver.teeth, accuracy_mm).map_err(|mut e| {
-                if let Some(name) = e.key.strip_prefix("gear.pitch_curve.") {
-                    e.key = format!("{KEY}.driver.{name}");
-                } else {
-                    e.key = format!("{KEY}.driver_teeth");
-                }
+                // The module is the mate's own.
+                e.key = match e.key.as_str() {
+                    parameter::MODULE => parameter::MATE_DRIVER_TEETH.to_owned(),
+                    of_curve => format!("{}{of_curve}", parameter::OF_DRIVER),
+                };
                 e
             })?;
         let turns = f64::from(teeth) / f64::from(driver.teeth);
         if kind == GearKind::Internal && turns <= 1.0 {
             return Err(Refusal::new(
-                &format!("{KEY}.driver_teeth"),
+                parameter::MATE_DRIVER_TEETH,
                 format!("an internal gear with {teeth} teeth has no room for a driver with {}", driver.teeth),
                 "give the driver fewer teeth than the internal gear",
             ));
@@ -79,14 +78,14 @@ impl MateLaw {
         let gap_mm = turns * curve.closure_error_mm();
         if gap_mm.abs() > LARGEST_CLOSURE_ERROR_MODULES * module_mm {
             return Err(Refusal::new(
-                &format!("{KEY}.driver"),
+                parameter::MATE_DRIVER,
                 format!("the driver does not close: its mate would be {gap_mm:.6} mm too long"),
                 "leave the driver's size out, and it is solved",
             ));
         }
         if !curve.repeats_after(turns * TURN_RAD) {
             return Err(Refusal::new(
-                &format!("{KEY}.driver_teeth"),
+                parameter::MATE_DRIVER_TEETH,
                 format!(
                     "one turn of the mate is {turns:.6} turns of its driver, after which the driver looks different: \
                     the mate's curve does not close"
@@ -113,7 +112,7 @@ impl MateLaw {
         let center_distance_mm = bisect(long, low_mm * (1.0 - 1e-12), far_mm * (1.0 + 1e-12));
         let turn = turn_at(center_distance_mm).map_err(|why| {
             Refusal::new(
-                KEY,
+                parameter::MATE,
                 format!("the mate's angle cannot be integrated over the driver's: {why}"),
                 "make the variation of the driver's radius smaller",
             )
@@ -213,13 +212,10 @@ mod tests {
     #[test]
     fn refusals_name_their_key() {
         let open = mate(sinusoidal(1), 34, GearKind::External, 51).unwrap_err();
-        assert_eq!(open.key, "gear.pitch_curve.mate.driver_teeth");
+        assert_eq!(open.key, parameter::MATE_DRIVER_TEETH);
         let full = mate(sinusoidal(1), 34, GearKind::Internal, 34).unwrap_err();
         assert!(full.problem.contains("no room"), "{}", full.problem);
         let ellipse = PitchCurveShape::Ellipse { order: 1, eccentricity: 1.5, semi_major_axis_mm: None };
-        assert_eq!(
-            mate(ellipse, 34, GearKind::Internal, 102).unwrap_err().key,
-            "gear.pitch_curve.mate.driver.ellipse.eccentricity"
-        );
+        assert_eq!(mate(ellipse, 34, GearKind::Internal, 102).unwrap_err().key, "driver's eccentricity of the ellipse");
     }
 }

@@ -12,6 +12,7 @@ use crate::error::Refusal;
 use crate::gear::{PitchCurveShape, TableScaling};
 use crate::math::Jet;
 use crate::math::periodic_spline::PeriodicSpline;
+use crate::parameter;
 
 /// A radius law of unit size.
 #[derive(Debug, Clone)]
@@ -25,13 +26,13 @@ pub(super) enum RadiusLaw {
     Mate(Box<MateLaw>),
 }
 
-/// A law with the size that the scene gives, if it gives one.
+/// A law with its size, if one is given.
 pub(super) struct SizedLaw {
     pub(super) law: RadiusLaw,
     pub(super) size_mm: Option<f64>,
-    /// Scene key of the table that names the shape.
+    /// Name of the shape.
     pub(super) key: &'static str,
-    /// Scene key of the size; the shape's own key where it has none.
+    /// Name of its size; the shape's own where it has none.
     pub(super) size_key: &'static str,
 }
 
@@ -40,25 +41,28 @@ impl SizedLaw {
     pub(super) fn new(shape: &PitchCurveShape, module_mm: f64, teeth: u32, accuracy_mm: f64) -> Result<Self, Refusal> {
         let sized = match shape {
             PitchCurveShape::Circle => {
-                let key = "gear.pitch_curve.circle";
+                let key = parameter::CIRCLE;
                 Self { law: RadiusLaw::Circle, size_mm: None, key, size_key: key }
             }
             PitchCurveShape::Ellipse { order, eccentricity, semi_major_axis_mm } => {
-                let (order, eccentricity) = (lobes("ellipse", *order)?, below_one("ellipse", *eccentricity)?);
+                let (order, eccentricity) = (
+                    lobes(parameter::ELLIPSE_ORDER, *order)?,
+                    below_one(parameter::ELLIPSE_ECCENTRICITY, *eccentricity)?,
+                );
                 Self {
                     law: RadiusLaw::Ellipse { order, eccentricity },
                     size_mm: *semi_major_axis_mm,
-                    key: "gear.pitch_curve.ellipse",
-                    size_key: "gear.pitch_curve.ellipse.semi_major_axis_mm",
+                    key: parameter::ELLIPSE,
+                    size_key: parameter::ELLIPSE_SIZE,
                 }
             }
             PitchCurveShape::SinusoidalRatio { order, mean_ratio, ratio_amplitude, center_distance_mm } => {
-                let order = lobes("sinusoidal_ratio", *order)?;
+                let order = lobes(parameter::SINUSOIDAL_ORDER, *order)?;
                 let (mean_ratio, ratio_amplitude) = (*mean_ratio, *ratio_amplitude);
                 let smallest = mean_ratio - ratio_amplitude.abs();
                 if smallest.is_nan() || smallest <= 0.0 {
                     return Err(Refusal::new(
-                        "gear.pitch_curve.sinusoidal_ratio.ratio_amplitude",
+                        parameter::SINUSOIDAL_AMPLITUDE,
                         format!("the ratio falls to {smallest}: the driven gear would stop or turn back"),
                         format!("keep the amplitude below the mean ratio {mean_ratio}"),
                     ));
@@ -66,38 +70,41 @@ impl SizedLaw {
                 Self {
                     law: RadiusLaw::SinusoidalRatio { order, mean_ratio, ratio_amplitude },
                     size_mm: *center_distance_mm,
-                    key: "gear.pitch_curve.sinusoidal_ratio",
-                    size_key: "gear.pitch_curve.sinusoidal_ratio.center_distance_mm",
+                    key: parameter::SINUSOIDAL_RATIO,
+                    size_key: parameter::SINUSOIDAL_SIZE,
                 }
             }
             PitchCurveShape::Pascal { order, eccentricity, mean_radius_mm } => {
-                let (order, eccentricity) = (lobes("pascal", *order)?, below_one("pascal", *eccentricity)?);
+                let (order, eccentricity) = (
+                    lobes(parameter::PASCAL_ORDER, *order)?,
+                    below_one(parameter::PASCAL_ECCENTRICITY, *eccentricity)?,
+                );
                 Self {
                     law: RadiusLaw::Pascal { order, eccentricity },
                     size_mm: *mean_radius_mm,
-                    key: "gear.pitch_curve.pascal",
-                    size_key: "gear.pitch_curve.pascal.mean_radius_mm",
+                    key: parameter::PASCAL,
+                    size_key: parameter::PASCAL_SIZE,
                 }
             }
             PitchCurveShape::Fourier { cosine, sine, mean_radius_mm } => Self {
                 law: RadiusLaw::Fourier { cosine: cosine.clone(), sine: sine.clone() },
                 size_mm: *mean_radius_mm,
-                key: "gear.pitch_curve.fourier",
-                size_key: "gear.pitch_curve.fourier.mean_radius_mm",
+                key: parameter::FOURIER,
+                size_key: parameter::FOURIER_SIZE,
             },
             PitchCurveShape::Table { points_rad_mm, scaling } => {
                 let (spline, mean_radius_mm) = PeriodicSpline::new(points_rad_mm)?;
                 Self {
                     law: RadiusLaw::Table { spline },
                     size_mm: (*scaling == TableScaling::AsGiven).then_some(mean_radius_mm),
-                    key: "gear.pitch_curve.table",
-                    size_key: "gear.pitch_curve.table.scale_to_close",
+                    key: parameter::TABLE,
+                    size_key: parameter::TABLE_SCALING,
                 }
             }
             PitchCurveShape::Mate { driver, kind } => {
                 let law = MateLaw::new(driver, *kind, module_mm, teeth, accuracy_mm)?;
                 let size_mm = Some(law.center_distance_mm());
-                let key = "gear.pitch_curve.mate";
+                let key = parameter::MATE;
                 Self { law: RadiusLaw::Mate(Box::new(law)), size_mm, key, size_key: key }
             }
         };
@@ -114,22 +121,20 @@ impl SizedLaw {
 }
 
 /// Number of lobes, at least one.
-fn lobes(shape: &str, order: u32) -> Result<f64, Refusal> {
+fn lobes(key: &str, order: u32) -> Result<f64, Refusal> {
     if order == 0 {
-        let key = format!("gear.pitch_curve.{shape}.order");
-        return Err(Refusal::new(&key, "order 0 has no lobes", "give 1 or more, or use a circle"));
+        return Err(Refusal::new(key, "order 0 has no lobes", "give 1 or more, or use a circle"));
     }
     Ok(f64::from(order))
 }
 
 /// Eccentricity in 0 <= k < 1, where the radius stays positive.
-fn below_one(shape: &str, eccentricity: f64) -> Result<f64, Refusal> {
+fn below_one(key: &str, eccentricity: f64) -> Result<f64, Refusal> {
     if (0.0..1.0).contains(&eccentricity) {
         return Ok(eccentricity);
     }
-    let key = format!("gear.pitch_curve.{shape}.eccentricity");
     let problem = format!("{eccentricity} is outside 0 <= k < 1: the radius would not stay positive and finite");
-    Err(Refusal::new(&key, problem, "give a value from 0 to below 1"))
+    Err(Refusal::new(key, problem, "give a value from 0 to below 1"))
 }
 
 impl RadiusLaw {

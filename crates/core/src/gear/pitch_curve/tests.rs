@@ -95,21 +95,21 @@ fn refusals_name_their_key() {
     let ellipse =
         |eccentricity, semi_major_axis_mm| PitchCurveShape::Ellipse { order: 3, eccentricity, semi_major_axis_mm };
     let open = refuse(ellipse(0.1348, Some(61.3)));
-    assert_eq!(open.key, "gear.pitch_curve.ellipse.semi_major_axis_mm");
+    assert_eq!(open.key, parameter::ELLIPSE_SIZE);
     assert!(open.way_out.contains("61.110009074"), "{}", open.way_out);
-    assert_eq!(refuse(ellipse(1.0, None)).key, "gear.pitch_curve.ellipse.eccentricity");
-    assert_eq!(refuse(ellipse(f64::NAN, None)).key, "gear.pitch_curve.ellipse.eccentricity");
-    assert_eq!(refuse(ellipse(0.1, Some(-1.0))).key, "gear.pitch_curve.ellipse.semi_major_axis_mm");
+    assert_eq!(refuse(ellipse(1.0, None)).key, parameter::ELLIPSE_ECCENTRICITY);
+    assert_eq!(refuse(ellipse(f64::NAN, None)).key, parameter::ELLIPSE_ECCENTRICITY);
+    assert_eq!(refuse(ellipse(0.1, Some(-1.0))).key, parameter::ELLIPSE_SIZE);
     let fourier = PitchCurveShape::Fourier { cosine: vec![1.2], sine: vec![], mean_radius_mm: None };
     assert!(refuse(fourier).problem.contains("positive"));
     let infinite = PitchCurveShape::Fourier { cosine: vec![f64::INFINITY], sine: vec![], mean_radius_mm: None };
-    assert_eq!(refuse(infinite).key, "gear.pitch_curve.fourier");
+    assert_eq!(refuse(infinite).key, parameter::FOURIER);
     let stopping =
         PitchCurveShape::SinusoidalRatio { order: 2, mean_ratio: 1.0, ratio_amplitude: 1.0, center_distance_mm: None };
-    assert_eq!(refuse(stopping).key, "gear.pitch_curve.sinusoidal_ratio.ratio_amplitude");
+    assert_eq!(refuse(stopping).key, parameter::SINUSOIDAL_AMPLITUDE);
     let lobeless = PitchCurveShape::Pascal { order: 0, eccentricity: 0.1, mean_radius_mm: None };
-    assert_eq!(refuse(lobeless).key, "gear.pitch_curve.pascal.order");
-    assert_eq!(PitchCurve::new(&PitchCurveShape::Circle, 3.0, 0).unwrap_err().key, "gear.module_mm");
+    assert_eq!(refuse(lobeless).key, parameter::PASCAL_ORDER);
+    assert_eq!(PitchCurve::new(&PitchCurveShape::Circle, 3.0, 0).unwrap_err().key, parameter::MODULE);
 }
 
 #[test]
