@@ -271,7 +271,7 @@ mod tests {
                         \nThe whole gear\n\
                         \u{20} left                          123.4 mm^3\n\
                         \nwarning: words that go on and on until the line is much wider than any\n\
-                        \u{20} terminal would like it\n";
+                        \u{20} terminal would like it [flank.made]\n";
         assert_eq!(text, expected);
     }
 }
