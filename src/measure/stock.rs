@@ -5,7 +5,7 @@
 //! keeps its sign.
 
 use gearcut_core::dexel::Field;
-use gearcut_core::dexel::figures::{Columns, RowHeight};
+use gearcut_core::dexel::figures::{FieldColumns, RowHeight};
 
 /// A value and where it is.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -69,7 +69,7 @@ pub fn extremes(field: &Field, ranges: impl IntoIterator<Item = (usize, [RowHeig
 /// depth.
 pub fn stock(
     field: &Field,
-    columns: Columns,
+    columns: FieldColumns,
     operation: usize,
     column_counts: impl Fn(usize) -> bool,
 ) -> Option<Stock> {

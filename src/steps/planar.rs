@@ -16,7 +16,7 @@ mod rows_between;
 use crate::job::{RAY_DEPTH_MODULES, RAY_HEIGHT_MODULES, ROOT_SPACING_MM, TIP_SPACING_MM, rows_z_mm};
 use crate::scene::Scene;
 use gearcut_core::cut::{Backend, CutLayers, CutStats, PlannedField, cut_alone, cut_in_turn};
-use gearcut_core::dexel::figures::{Columns, FieldFigures, LinesAt};
+use gearcut_core::dexel::figures::{FieldColumns, FieldFigures, LinesAt};
 use gearcut_core::dexel::{Column, Field, Layer};
 use gearcut_core::error::Result;
 use gearcut_core::gear::blank::Blank;
@@ -94,10 +94,10 @@ impl CutField {
     }
 
     /// Columns as figures ask for them. Where a device has made figures, the lines are those that it was asked for.
-    pub fn columns(&self, lines: LinesAt) -> Columns<'_> {
+    pub fn columns(&self, lines: LinesAt) -> FieldColumns<'_> {
         match &self.figures {
-            Some(figures) => Columns::Figures(figures),
-            None => Columns::Dexels { field: &self.field, layers: &self.layers, lines },
+            Some(figures) => FieldColumns::Figures(figures),
+            None => FieldColumns::Dexels { field: &self.field, layers: &self.layers, lines },
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Errors as values: what was refused, where, and a way out.
 //!
-//! Problems of a text come with file, line and column from whoever reads it. What only geometry finds out (a pitch curve
-//! that crosses itself, a cutter that undercuts) is a [`Refusal`] that names what it blames: this crate a
+//! Problems of a text come with file, line and column from whoever reads it. What only geometry finds out (a pitch
+//! curve that crosses itself, a cutter that undercuts) is a [`Refusal`] that names what it blames: this crate a
 //! [`crate::parameter`], a program that reads them from a file its own key, whose place there it knows.
 
 use std::path::PathBuf;

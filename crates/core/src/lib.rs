@@ -22,8 +22,8 @@
 //!
 //! # The law
 //!
-//! A field of dexels, passes of a blade, a cut, heights: a round blade of 5 mm makes eleven strokes 0.4 mm apart along a
-//! plane. Between strokes scallops are left, f^2 / (8 R) high in the middle.
+//! A field of dexels, passes of a blade, a cut, heights: a round blade of 5 mm makes eleven strokes 0.4 mm apart along
+//! a plane. Between strokes scallops are left, f^2 / (8 R) high in the middle.
 //!
 //! ```
 //! use gearcut_core::cut::{Backend, cpu::Cpu};

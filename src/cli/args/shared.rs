@@ -18,7 +18,7 @@ pub struct SceneArguments {
 #[derive(Debug, Args)]
 pub struct RunArguments {
     /// What computes: auto takes a real GPU that answers within ten seconds; cut tries it on tiles of the scene first
-    /// and takes it only if it is faster [default: auto for cut; cpu for few places at a time, where it is the fastest].
+    /// and takes it only if it is faster [default: auto for cut; cpu for few places at a time, where it is fastest].
     #[arg(long, value_enum)]
     pub backend: Option<BackendChoice>,
     /// Show no progress and no summary of a cut.

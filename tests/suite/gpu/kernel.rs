@@ -4,7 +4,7 @@ use crate::fixtures::paper::*;
 use crate::fixtures::parity::*;
 use gearcut::cut::cpu::Cpu;
 use gearcut::cut::{Backend, CutLayers, PlannedField, cut_in_turn};
-use gearcut::dexel::figures::{Columns, LinesAt};
+use gearcut::dexel::figures::{FieldColumns, LinesAt};
 use gearcut::dexel::{Column, Field};
 use gearcut::gpu::shaders::Rows;
 use gearcut::gpu::{GpuOptions, OnGpuFailure};
@@ -269,8 +269,8 @@ fn figures_made_on_the_device_are_those_of_its_dexels() {
     for index in [0, 1, 3] {
         let (field, made) = (&fields[index].field, figures[index].figures.as_ref().expect("figures"));
         assert!(figures[index].layers.is_empty() && figures[index].stats == left[index].stats);
-        let made = Columns::Figures(made);
-        let [own, native] = [&left, &native].map(|of| Columns::Dexels { field, layers: &of[index].layers, lines });
+        let made = FieldColumns::Figures(made);
+        let [own, native] = [&left, &native].map(|of| FieldColumns::Dexels { field, layers: &of[index].layers, lines });
         assert!(made.profile() == own.profile() && made.along() == own.along(), "field {index}: lines");
         for column in 0..field.columns.len() {
             for operation in 0..2 {

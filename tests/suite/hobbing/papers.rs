@@ -156,8 +156,8 @@ fn feeds_and_speed_ranges_of_2015() {
     }
 }
 
-/// 2015 concludes that scheme U asks for 1.2 times the speeds of V and 1.36 to 1.4 times the accelerations. Both factors
-/// belong to a shift of 5 mm/s; at the 0.5 mm/s to which its Table 1 belongs they are 1.017 and 1.035.
+/// 2015 concludes that scheme U asks for 1.2 times the speeds of V and 1.36 to 1.4 times the accelerations. Both
+/// factors belong to a shift of 5 mm/s; at the 0.5 mm/s to which its Table 1 belongs they are 1.017 and 1.035.
 #[test]
 fn u_against_v_of_2015_belongs_to_ten_times_the_shift() {
     let file = data("p03_linkage6_s2");

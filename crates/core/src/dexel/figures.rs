@@ -3,7 +3,7 @@
 //! In: what each operation left on a field. Out: [`ColumnHeights`] and [`ColumnStock`] of its columns, the dexels of
 //! one row and of one column after the last operation ([`LinesAt`]). A flank has a thousand times as many dexels as
 //! columns: a device that makes these figures where the dexels lie sends them alone ([`FieldFigures`]). Where the
-//! dexels are at hand, figures are made when somebody asks ([`Columns`]).
+//! dexels are at hand, figures are made when somebody asks ([`FieldColumns`]).
 //!
 //! Among equal heights the first row counts. Sums go on from column to column in f64, dexel by dexel where these are at
 //! hand; a device adds up each column for itself.
@@ -145,7 +145,7 @@ pub struct FieldFigures {
 
 /// Columns of a cut field as figures ask for them.
 #[derive(Debug, Clone, Copy)]
-pub enum Columns<'a> {
+pub enum FieldColumns<'a> {
     /// The dexels are at hand.
     Dexels {
         /// Rays.
@@ -159,7 +159,7 @@ pub enum Columns<'a> {
     Figures(&'a FieldFigures),
 }
 
-impl Columns<'_> {
+impl FieldColumns<'_> {
     /// Number of operations.
     pub fn operations(&self) -> usize {
         match self {

@@ -10,7 +10,7 @@
 
 use crate::process::shaping::ShapingJob;
 use crate::process::shaping::target::TargetFlank;
-use gearcut_core::dexel::figures::Columns;
+use gearcut_core::dexel::figures::FieldColumns;
 use gearcut_core::dexel::{Column, Field};
 use gearcut_core::terms::Side;
 use glam::DVec2;
@@ -20,7 +20,7 @@ use glam::DVec2;
 const CHORDS: u32 = 64;
 
 /// Whether the heights of each column are those of its own flank.
-pub fn tell(job: &ShapingJob, flank: &TargetFlank, field: &Field, columns: Columns) -> Vec<bool> {
+pub fn tell(job: &ShapingJob, flank: &TargetFlank, field: &Field, columns: FieldColumns) -> Vec<bool> {
     let other = match flank.side {
         Side::Left => Side::Right,
         Side::Right => Side::Left,
