@@ -104,6 +104,6 @@ mod slow {
         let thick: Vec<&str> =
             list.iter().filter_map(|of| of["text"].as_str()).filter(|text| text.contains("mm thick")).collect();
         assert_eq!(thick.len(), 1, "{thick:?}");
-        assert_eq!(known[0].strip_prefix("warning: "), Some(thick[0]));
+        assert_eq!(known[0], format!("warning: {} [hob.thick_chip]", thick[0]));
     }
 }
