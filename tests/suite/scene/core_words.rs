@@ -13,8 +13,10 @@ fn literals(source: &str) -> Vec<String> {
     code.split('"').skip(1).step_by(2).map(str::to_owned).collect()
 }
 
-/// Words of a literal that only scenes have: paths of keys, and names of keys with a unit.
+/// Words of a literal that only scenes have: paths of keys, and names of keys with a unit. Braces hold a
+/// variable.
 fn of_scenes(literal: &str, keys: &BTreeSet<String>) -> Vec<String> {
+    let literal: String = literal.split('{').map(|part| part.split_once('}').map_or(part, |(_, rest)| rest)).collect();
     let words = literal.split(|c: char| !(c.is_ascii_alphanumeric() || "._".contains(c)));
     words.map(|word| word.trim_matches('.').to_owned()).filter(|word| keys.contains(word) || word == "scene").collect()
 }

@@ -31,7 +31,7 @@ fn answers(section: &Section) -> impl Iterator<Item = (&Entry, &str)> {
     })
 }
 
-/// Titles of the answers that ask for a change: the sentences of the others begin with [`NOTHING`].
+/// Titles of the answers that ask for a change: the sentences of the others begin with "nothing".
 pub fn that_ask_for_a_change(section: &Section) -> impl Iterator<Item = &str> {
     answers(section).filter(|(_, advice)| !advice.starts_with(NOTHING)).map(|(entry, _)| entry.title.as_str())
 }
