@@ -10,7 +10,7 @@ use std::fs;
 use std::path::Path;
 
 /// Quantities that are the same whatever is cut: how it was asked for and where it is measured. Each ends a path.
-const OF_THE_SCENE: [&str; 27] = [
+const OF_THE_SCENE: [&str; 28] = [
     "/strokes",
     "/cycle_time",
     "/idle_strokes",
@@ -41,6 +41,8 @@ const OF_THE_SCENE: [&str; 27] = [
     "/f_f_beta",
     // Of the rays.
     "/candidates",
+    // A whole number of 1 to 11: two gears of one class are no sign.
+    "/class_reached",
 ];
 
 /// The same, anywhere in a path.
