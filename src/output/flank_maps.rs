@@ -259,39 +259,26 @@ impl FlankMaps {
                 write_map_png(&folder.path(format!("maps/{name}/{stem}_chip.png"))?, &picture)?;
             }
             let mut channels = vec![
-                channel(
-                    "height_mm",
-                    "mm",
-                    "normal deviation after this operation",
-                    Samples::F32(self.heights_mm[index].clone()),
-                ),
-                channel(
+                MapChannel::lengths_mm("height_mm", "normal deviation after this operation", &self.heights_mm[index]),
+                MapChannel::lengths_mm(
                     "highest_mm",
-                    "mm",
                     "normal deviation of the highest dexel of the cell",
-                    Samples::F32(self.highest_mm[index].clone()),
+                    &self.highest_mm[index],
                 ),
-                channel(
-                    "pass_id",
-                    "1",
-                    "pass that left the surface; 4294967295 where none came",
-                    Samples::U32(self.passes[index].clone()),
-                ),
+                ids("pass_id", "pass that left the surface; 4294967295 where none came", self.passes[index].clone()),
             ];
             if let Some(chips) = self.chips.get(index) {
-                channels.push(channel(
+                channels.push(MapChannel::lengths_mm(
                     "chip_thickness_mm",
-                    "mm",
                     "uncut chip thickness, the largest of four dexels across the cell: solid material before the edge \
                     along the target's normal, times the cosine to the edge's normal; NaN where none came",
-                    Samples::F32(chips.thickness_mm.clone()),
+                    &chips.thickness_mm,
                 ));
-                channels.push(channel(
+                channels.push(ids(
                     "edge_part",
-                    "1",
                     "part of the cutter's edge that took it: 0 none, 1 right flank, 2 tip with its corners, 3 left \
                     flank",
-                    Samples::U32(chips.sides.iter().copied().map(u32::from).collect()),
+                    chips.sides.iter().copied().map(u32::from).collect(),
                 ));
                 channels.sort_by(|a, b| a.name.cmp(&b.name));
             }
@@ -315,7 +302,7 @@ impl FlankMaps {
                 .enumerate()
                 .map(|(index, OperationMaps { name, .. })| {
                     let definition = format!("normal stock of {name} over the last operation");
-                    channel(&format!("stock_{name}_mm"), "mm", &definition, Samples::F32(self.stock_mm(index)))
+                    MapChannel::lengths_mm(&format!("stock_{name}_mm"), &definition, &self.stock_mm(index))
                 })
                 .collect();
             channels.sort_by(|a, b| a.name.cmp(&b.name));
@@ -348,7 +335,7 @@ impl FlankMaps {
         };
         write_map_png(&folder.path(format!("deviation/{stem}.png"))?, &picture)?;
         let definition = "mean normal deviation of the cell's dexels after the last operation";
-        let channel = channel("deviation_mm", "mm", definition, Samples::F32(self.deviation_mm().to_vec()));
+        let channel = MapChannel::lengths_mm("deviation_mm", definition, self.deviation_mm());
         self.write_exr(&folder.path(format!("deviation/{stem}.exr"))?, vec![channel], notes)
     }
 
@@ -358,8 +345,9 @@ impl FlankMaps {
     }
 }
 
-fn channel(name: &str, unit: &str, definition: &str, samples: Samples) -> MapChannel {
-    MapChannel { name: name.to_owned(), unit: unit.to_owned(), definition: definition.to_owned(), samples }
+fn ids(name: &str, definition: &str, ids: Vec<u32>) -> MapChannel {
+    let samples = Samples::U32(ids);
+    MapChannel { name: name.to_owned(), unit: "1".to_owned(), definition: definition.to_owned(), samples }
 }
 
 #[cfg(test)]

@@ -146,11 +146,8 @@ fn write_one(
     ];
     all.extend_from_slice(notes);
     let file = SurfaceFile { surface: heights.clone(), notes: all };
-    for (format, ending) in
-        [(Format::X3p, "x3p"), (Format::SdfBinary, "sdf"), (Format::Npy, "npy"), (Format::Csv, "csv")]
-    {
-        write_surface(&folder.path(format!("{stem}.{ending}"))?, format, &file).map_err(file_error)?;
-    }
+    // One file for all programs; `gearcut texture ... --save` makes the other formats of it.
+    write_surface(&folder.path(format!("{stem}.x3p"))?, Format::X3p, &file).map_err(file_error)?;
     let Ok(evaluated) = &texture.evaluated else { return Ok(()) };
     let title = format!("{what}, {}", evaluated.chain.join(", "));
     let (grid, values) = picture_of(texture, &evaluated.surface);

@@ -46,7 +46,7 @@ pub fn section(found: &Findings, folder: &OutputFolder) -> Result<Option<PageSec
         format!(
             "Areal parameters by ISO 25178-2 of windows on flanks after {}: what the tool's motion leaves. Chips, wear \
             and vibration of a real cut come on top. The window with the largest Sa is shown in full. All parameters \
-            are in results.json, the surfaces as X3P, SDF, NPY and CSV beside it.",
+            are in results.json, the surfaces as X3P beside it.",
             last.key
         ),
         blocks,

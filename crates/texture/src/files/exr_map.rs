@@ -1,4 +1,4 @@
-//! Maps as 32-bit OpenEXR: all digits, named channels, and a header that explains them.
+//! Maps as 32-bit OpenEXR: lengths to a nanometre, named channels, and a header that explains them.
 //!
 //! In: a grid, channels of f32 or u32 with unit and definition, the frame, and notes such as the scene and the run
 //! record. Out: one scan-line EXR with lossless ZIP compression, row = u (first row = first u), column = v; and back
@@ -55,6 +55,21 @@ pub struct MapChannel {
     pub definition: String,
     /// The values.
     pub samples: Samples,
+}
+
+impl MapChannel {
+    /// Lengths in mm; NaN where there is none. Below 16 mm they are rounded to whole 2^-20 mm (0.95 nm): f32 has further
+    /// digits there, which mean nothing and are two thirds of a packed file.
+    pub fn lengths_mm(name: &str, definition: &str, values: &[f32]) -> Self {
+        const PER_MM: f32 = (1 << 20) as f32;
+        let rounded = |&mm: &f32| if mm.abs() < 16.0 { (mm * PER_MM).round_ties_even() / PER_MM } else { mm };
+        Self {
+            name: name.to_owned(),
+            unit: "mm".to_owned(),
+            definition: definition.to_owned(),
+            samples: Samples::F32(values.iter().map(rounded).collect()),
+        }
+    }
 }
 
 /// A map with everything needed to understand it.

@@ -88,6 +88,20 @@ fn sample_map() -> (ExrMap, Vec<f32>) {
     (map, heights)
 }
 
+/// Half a step of 2^-20 mm is 0.48 nm; lengths that f32 does not know as closely, and places without one, stay.
+#[test]
+fn lengths_of_maps_are_within_half_a_nanometre() {
+    let lengths = [0.0, 1e-7, -3.3e-4, 0.123_456_79, -15.999_999, 16.000_002, -1e30, f32::MAX];
+    let channel = MapChannel::lengths_mm("height_mm", "a height", &lengths);
+    let Samples::F32(rounded) = &channel.samples else { panic!("lengths are floats") };
+    for (of, is) in lengths.iter().zip(rounded) {
+        assert!((f64::from(*of) - f64::from(*is)).abs() <= 0.5 / f64::from(1 << 20), "{of} became {is}");
+    }
+    assert_eq!((rounded[1].to_bits(), rounded[5], rounded[7]), (0, lengths[5], f32::MAX), "whole steps, and no others");
+    let Samples::F32(none) = MapChannel::lengths_mm("height_mm", "none", &[f32::NAN]).samples else { panic!("floats") };
+    assert!(none[0].is_nan());
+}
+
 /// Maps have v (x here) along their rows and u (y) from row to row; ids are no heights.
 #[test]
 fn our_maps_are_surfaces() {

@@ -5,7 +5,7 @@
 
 use crate::colormap::ColourScale;
 use crate::output::atomic::file_error;
-use crate::output::exr_map::{ExrMap, MapChannel, Samples, write_exr_map};
+use crate::output::exr_map::{ExrMap, MapChannel, write_exr_map};
 use crate::output::folder::OutputFolder;
 use crate::output::grid::{MapAxis, MapGrid};
 use crate::output::map_png::{MapPicture, write_map_png};
@@ -103,12 +103,11 @@ fn write_map(
         scale: ColourScale::Sequential { low: 0.0, high: high as f32 },
     };
     write_map_png(&folder.path(format!("{stem}.png"))?, &picture)?;
-    let channels = vec![MapChannel {
-        name: "thickness_mm".into(),
-        unit: "mm".into(),
-        definition: "largest uncut chip thickness of all cutter teeth; NaN where nothing is cut".into(),
-        samples: Samples::F32(thickness_mm),
-    }];
+    let channels = vec![MapChannel::lengths_mm(
+        "thickness_mm",
+        "largest uncut chip thickness of all cutter teeth; NaN where nothing is cut",
+        &thickness_mm,
+    )];
     let frame =
         "edge frame of a cutter tooth: v = arc along the edge from the middle of the tip, left flank positive; \
         u = feed"
