@@ -13,8 +13,11 @@
 //! than the function that made them.
 
 use crate::backend::{self, BackendWish, Choice, OnFailure};
+use crate::findings::Notice;
 use crate::interrupt::Interrupt;
 use crate::job::{GearJob, rows_z_mm};
+use crate::output::folder::OutputFolder;
+use crate::output::text::Sheet;
 use crate::process::{self, ProcessJob};
 use crate::run::Run;
 use crate::scene::LoadedScene;
@@ -97,6 +100,23 @@ impl Job {
         })
     }
 
+    /// Says on a sheet what the scene means before anything is cut; gives what must be known before cutting.
+    ///
+    /// # Errors
+    /// Geometry that cannot be cut.
+    pub fn check(&self, sheet: &mut Sheet) -> Result<Vec<Notice>> {
+        self.prepared.check(sheet)
+    }
+
+    /// Writes axis tables, charts and programs into `axes/` of a folder, and says on a sheet what the axes do; gives
+    /// what must be known before they are used.
+    ///
+    /// # Errors
+    /// Files that cannot be written; [`gearcut_core::Error::Interrupted`] once the flag is raised.
+    pub fn axes(&self, folder: &OutputFolder, interrupt: &Interrupt, sheet: &mut Sheet) -> Result<Vec<Notice>> {
+        self.prepared.axes(folder, interrupt, sheet)
+    }
+
     /// A run of the whole job: all flanks, the blank, and every file that `gearcut cut` writes.
     pub fn run(&self) -> Run<'_> {
         Run::new(&self.scene, self.prepared.as_ref(), &self.choice)
@@ -173,6 +193,13 @@ impl Flank {
         let column_by_column = (0..arcs_mm.len()).flat_map(|column| target.iter().map(move |row| row[column]));
         let (points_mm, normals) = column_by_column.map(|Ray { origin_mm, normal }| (origin_mm, normal)).unzip();
         Ok(Self { tooth, side, arcs_mm, face_mm, operations, layers, points_mm, normals })
+    }
+
+    /// The arrays alone, for programs that keep them without a copy: target points, normals, and a layer for each
+    /// operation.
+    #[doc(hidden)]
+    pub fn into_arrays(self) -> (Vec<DVec3>, Vec<DVec3>, Vec<Layer>) {
+        (self.points_mm, self.normals, self.layers)
     }
 
     /// Index of an operation in [`Flank::operations`].

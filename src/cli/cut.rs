@@ -5,9 +5,8 @@ use std::sync::Arc;
 
 use gearcut::interrupt::Interrupt;
 use gearcut::output::progress::{Progress, ProgressMode};
-use gearcut::scene::Scene;
+use gearcut::scene::draft;
 use gearcut::steps::parts::{Part, Parts};
-use gearcut::units::UM_PER_MM;
 use gearcut::{Error, Job, process};
 
 use super::args::{CutArguments, SceneArguments};
@@ -21,7 +20,7 @@ pub fn run(arguments: &CutArguments) -> Result<(), Failure> {
     let mut scene = process::load(path, settings)?;
     if arguments.draft {
         // What the user sets comes last and wins.
-        scene = process::load(path, &[draft_settings(&scene.scene).as_slice(), settings].concat())?;
+        scene = process::load(path, &[draft::draft_settings(&scene.scene).as_slice(), settings].concat())?;
     }
     let parts = match (arguments.only.as_slice(), arguments.draft) {
         ([], false) => Parts::all(),
@@ -38,9 +37,7 @@ pub fn run(arguments: &CutArguments) -> Result<(), Failure> {
     let choice = backend::chosen(arguments.run.backend, arguments.on_gpu_failure)?;
     progress.note(&backend::note(&choice));
     if arguments.draft {
-        progress.note(
-            "draft: dexels 8, rays and cells of maps 4 times as far apart; deviations, chips and texture are rough",
-        );
+        progress.note(draft::DRAFT_WORDS);
     }
     let scene = Arc::new(scene);
     let explained = |error| Failure::of_scene(&scene, error);
@@ -65,29 +62,6 @@ pub fn run(arguments: &CutArguments) -> Result<(), Failure> {
         return Err(Failure::ended_early(&folder, &out));
     }
     Failure::verdict(&done.findings.warnings, &arguments.run.verdict.rules())
-}
-
-/// How much further apart a draft's dexels stand along profiles and teeth, where several cross a feed mark.
-const DRAFT_DEXELS: f64 = 8.0;
-/// And its rays through the blank and the chips, whose times grow with the square and the cube of that, and the cells
-/// of its maps, each of which asks for a chip.
-const DRAFT_RAYS: f64 = 4.0;
-
-/// Settings that make the scene a draft, within the ranges of the keys.
-fn draft_settings(scene: &Scene) -> Vec<String> {
-    let fields = &scene.fields;
-    let dexels_um = |spacing_mm: f64, most: f64| (DRAFT_DEXELS * UM_PER_MM * spacing_mm).min(most);
-    let rays_mm = |spacing_mm: f64, most: f64| (DRAFT_RAYS * spacing_mm).min(most);
-    let mut settings = vec![
-        ("fields.flank.profile_spacing_um", dexels_um(fields.profile_spacing_mm, 1000.0)),
-        ("fields.flank.lead_spacing_um", dexels_um(fields.lead_spacing_mm, 10_000.0)),
-        ("fields.blank.spacing_mm", rays_mm(fields.blank_spacing_mm, 10.0)),
-        ("fields.blank.slice_spacing_mm", rays_mm(fields.blank_slice_spacing_mm, 1000.0)),
-        ("output.map_spacing_mm", rays_mm(scene.output.map_spacing_mm, 10.0)),
-    ];
-    let own = scene.process.ray_spacings();
-    settings.extend(own.into_iter().map(|(key, [spacing_mm, most_mm])| (key, rays_mm(spacing_mm, most_mm))));
-    settings.into_iter().map(|(key, value)| format!("{key}={value:?}")).collect()
 }
 
 /// The folder for what is less than a whole result: beside it, so that it does not take its place.

@@ -60,6 +60,14 @@ pub struct SceneErrors {
     pub problems: Vec<Problem>,
 }
 
+impl Problem {
+    /// The key or section that the message names first, as it is displayed; none where it names none.
+    pub fn key(&self) -> Option<&str> {
+        let (_, named) = self.message.split_once('`')?;
+        named.split_once('`').map(|(key, _)| key)
+    }
+}
+
 impl SourcePlace {
     /// The same place with nothing to underline.
     pub(super) fn without_excerpt(mut self) -> Self {

@@ -13,6 +13,8 @@ pub(crate) mod build;
 mod check;
 mod checks;
 #[doc(hidden)]
+pub mod draft;
+#[doc(hidden)]
 pub mod error_parameters;
 #[doc(hidden)]
 pub mod error_sources;

@@ -110,6 +110,11 @@ impl KeyTable {
         self.sections.iter().flat_map(|section| section.keys.iter().map(|key| (join(section.path, key.name), *key)))
     }
 
+    /// The key that messages call so: its path without the `[]` of lists.
+    pub fn displayed(&self, path: &str) -> Option<&'static Key> {
+        self.keys().find(|(full, _)| full.replace("[]", "") == path).map(|(_, key)| key)
+    }
+
     /// Whether there is a section or key of this path, `[]` after the name of a list.
     pub(super) fn knows(&self, path: &str) -> bool {
         let (holder, name) = path.rsplit_once('.').unwrap_or(("", path));
