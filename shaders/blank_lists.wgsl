@@ -3,7 +3,7 @@
 // One thread per ray. To the device: spreads the spans of its ray over the slots. Back: takes a place among those of
 // all rays and puts them there; which ray comes first does not matter, because every ray says where its own begin.
 
-@group(0) @binding(0) var<uniform> launch: StrokeLaunch;
+@group(0) @binding(0) var<uniform> launch: BlankLaunch;
 @group(0) @binding(1) var<storage, read_write> spans: array<BlankSpan>;
 @group(0) @binding(2) var<storage, read_write> rays: array<RayState>;
 @group(0) @binding(3) var<storage, read_write> packed: array<BlankSpan>;

@@ -1,62 +1,123 @@
-// Takes the passes of a tile from its rays through the blank, in order of time.
+// Takes passes from rays through the blank, in order of time.
 //
-// One thread per ray, one workgroup per tile. Reads launch, tiles, passes, parts; rewrites spans and their counts; adds
-// what every pass removed, in fixed point, so that the sum does not depend on the order of threads; lists the pieces
-// that were taken, in any order, if the host asks for them. A list that has no room says how much it needs, and the
-// host comes back with more. A pass is a closed curve and nothing else: the section of a hob tooth's sweep. Twin:
-// crates/core/src/cut/cpu/blank_sweeps.rs. Adds at most four ulps to an end that its ray meets at 45 degrees or
-// steeper.
+// One thread per ray, one workgroup per tile. A pass is a closed outline where it stands in one slice: a cutter tooth in
+// one stroke, or the section of a hob tooth's sweep. Reads launch, tiles, visits, passes, outlines; rewrites spans and
+// rays; adds what every pass removed, in fixed point, so that the sum does not depend on the order of threads; keeps the
+// longest material that a return stroke met on a ray of the tile; lists the pieces that were taken, in any order, if the
+// host asks for them. A list that has no room says how much it needs, and the host comes back with more. Twins:
+// crates/core/src/cut/cpu/blank.rs (derivation there) and blank_sweeps.rs. Adds at most four ulps at the blank's radius
+// to an end that its ray meets at 45 degrees or steeper.
+//
+// An outline is a chain of cubics. Each thread goes round it once, with places across its own ray: a piece that turns
+// back there is split at its turning point. Neighbours share the bits of their node, so that crossings come in pairs,
+// whatever rounding does.
 
 @group(0) @binding(0) var<uniform> launch: BlankLaunch;
 @group(0) @binding(1) var<storage, read> tiles: array<BlankTile>;
-@group(0) @binding(2) var<storage, read> passes: array<BlankPass>;
-@group(0) @binding(3) var<storage, read> parts: array<BlankPart>;
-@group(0) @binding(4) var<storage, read_write> spans: array<BlankSpan>;
-@group(0) @binding(5) var<storage, read_write> counts: array<u32>;
-// Per pass of a tile, in launch.units_per_mm.
-@group(0) @binding(6) var<storage, read_write> removed: array<atomic<u32>>;
-// Largest list that had no room; whether crossings of one curve had none; pieces that were taken.
-@group(0) @binding(7) var<storage, read_write> needs: array<atomic<u32>, 3>;
+@group(0) @binding(2) var<storage, read> visits: array<u32>;
+@group(0) @binding(3) var<storage, read> passes: array<BlankPass>;
+@group(0) @binding(4) var<storage, read> outline: array<OutlinePiece>;
+@group(0) @binding(5) var<storage, read_write> spans: array<BlankSpan>;
+@group(0) @binding(6) var<storage, read_write> rays: array<RayState>;
+// Largest list that had no room; most crossings of one outline that had none; spans of all rays (for the way back);
+// pieces that were taken. Then one for each tile: bits of the longest material that a return stroke met, mm. Then per
+// account and family two, low and high: length removed, in the tile's units.
+@group(0) @binding(7) var<storage, read_write> ledger: array<atomic<u32>>;
 @group(0) @binding(8) var<storage, read_write> pieces: array<BlankPiece>;
 
 const WORKGROUP_THREADS: u32 = 64u;
-// Crossings of one curve with one ray: two as a rule, four at a slanting tooth; more are reported, never left out.
+// Crossings of one outline with one ray: two as a rule, four at a slanting tooth; more are reported, never left out.
 const MOST_CROSSINGS: u32 = 8u;
-// Newton steps within a part, each inside its bracket.
+// Newton steps within a part, each inside its bracket; a step below the last one ends them.
 const STEPS: u32 = 12u;
-fn value(c: vec4<f32>, t: f32) -> f32 {
-    return c.x + t * (c.y + t * (c.z + t * c.w));
+const LAST_STEP: f32 = 1e-6;
+// What rounding may move a place across by, and one along, mm.
+const ACROSS_ERROR_MM: f32 = 4e-6;
+const ALONG_ERROR_MM: f32 = 1e-4;
+// Heads of the ledger before those of tiles.
+const LEDGER_HEAD: u32 = 4u;
+
+// Axes of the rays: along, across.
+fn turned(v: vec2<f32>, shape: BlankPass, family: u32) -> vec2<f32> {
+    let x = shape.cos * v.x - shape.sin * v.y;
+    let y = shape.sin * v.x + shape.cos * v.y;
+    return select(vec2(x, y), vec2(y, x), family == 1u);
 }
 
-fn rate(c: vec4<f32>, t: f32) -> f32 {
-    return c.y + t * (2.0 * c.z + t * 3.0 * c.w);
+// Parameter at which the rate of a cubic vanishes, its ends having rates of opposite signs.
+fn turning(run: f32, rate_start: f32, rate_end: f32) -> f32 {
+    let a = 3.0 * (rate_start + rate_end - 2.0 * run);
+    let half_b = 3.0 * run - 2.0 * rate_start - rate_end;
+    let root = sqrt(max(half_b * half_b - a * rate_start, 0.0));
+    // The root between the ends is the one at which the rate goes over from the first sign to the other: without
+    // cancellation in either form.
+    let towards = select(-root, root, rate_start < 0.0);
+    let alike = (half_b < 0.0) == (towards < 0.0);
+    let sum = half_b + towards;
+    let difference = towards - half_b;
+    let by_sum = -rate_start / select(sum, 1e-30, sum == 0.0);
+    let by_difference = difference / select(a, 1e-30, a == 0.0);
+    return clamp(select(by_difference, by_sum, alike), 0.0, 1.0);
 }
 
-fn cross_part(part: BlankPart, at_mm: f32) -> Crossing {
-    let climbs = part.across_end_mm > part.across.x;
+fn cubic(start: f32, run: f32, rate_start: f32, rate_end: f32, t: f32) -> f32 {
+    let c2 = 3.0 * run - 2.0 * rate_start - rate_end;
+    let c3 = rate_start + rate_end - 2.0 * run;
+    return start + t * (rate_start + t * (c2 + t * c3));
+}
+
+fn cubic_rate(run: f32, rate_start: f32, rate_end: f32, t: f32) -> f32 {
+    let c2 = 3.0 * run - 2.0 * rate_start - rate_end;
+    let c3 = rate_start + rate_end - 2.0 * run;
+    return rate_start + t * (2.0 * c2 + t * 3.0 * c3);
+}
+
+// The crossing of a part of a piece that runs from one side of the ray to the other. Part 0: the whole; 1: up to where
+// it turns; 2: from there on.
+fn cross_part(shape: BlankPass, piece: u32, part: u32, family: u32, offset_mm: f32, center_mm: f32) -> Crossing {
+    let own = outline[shape.first_piece + piece];
+    let after = select(piece + 1u, 0u, piece + 1u == shape.piece_count);
+    let start = turned(own.node_mm, shape, family);
+    let run = turned(outline[shape.first_piece + after].node_mm, shape, family) - start;
+    let rate_from = turned(own.rate_start, shape, family);
+    let rate_to = turned(own.rate_end, shape, family);
+    let across = start.y + offset_mm;
+    var ends = vec2(0.0, 1.0);
+    if part != 0u {
+        let middle = turning(run.y, rate_from.y, rate_to.y);
+        ends = select(vec2(middle, 1.0), vec2(0.0, middle), part == 1u);
+    }
+    let first = cubic(across, run.y, rate_from.y, rate_to.y, ends.x);
+    let last = cubic(across, run.y, rate_from.y, rate_to.y, ends.y);
     // Parameters below and above the root.
-    var low = select(1.0, 0.0, climbs);
-    var high = 1.0 - low;
-    var t = (at_mm - part.across.x) / (part.across_end_mm - part.across.x);
+    var low = select(ends.y, ends.x, last > first);
+    var high = select(ends.x, ends.y, last > first);
+    let rise = last - first;
+    var t = clamp(ends.x - first * (ends.y - ends.x) / select(rise, 1e-30, rise == 0.0), ends.x, ends.y);
     for (var step = 0u; step < STEPS; step++) {
-        let residual = value(part.across, t) - at_mm;
+        let residual = cubic(across, run.y, rate_from.y, rate_to.y, t);
         if residual > 0.0 {
             high = t;
         } else {
             low = t;
         }
-        let slope = rate(part.across, t);
+        let slope = cubic_rate(run.y, rate_from.y, rate_to.y, t);
         let newton = t - residual / select(slope, 1e-30, slope == 0.0);
-        t = select(0.5 * (low + high), newton, (newton - low) * (newton - high) <= 0.0);
+        let next = select(0.5 * (low + high), newton, (newton - low) * (newton - high) <= 0.0);
+        let moved = abs(next - t);
+        t = next;
+        if moved < LAST_STEP {
+            break;
+        }
     }
-    let tangent = vec2(rate(part.along, t), rate(part.across, t));
+    let tangent = vec2(cubic_rate(run.x, rate_from.x, rate_to.x, t), cubic_rate(run.y, rate_from.y, rate_to.y, t));
     let length = max(sqrt(dot(tangent, tangent)), 1e-30);
-    return Crossing(value(part.along, t), vec2(-tangent.y, tangent.x) / length);
+    return Crossing(center_mm + cubic(start.x, run.x, rate_from.x, rate_to.x, t), vec2(-tangent.y, tangent.x) / length);
 }
 
 // Lists what a pass takes of a span.
 fn take_piece(ray: u32, pass_id: u32, span: BlankSpan, entry: Crossing, exit: Crossing) {
-    let place = atomicAdd(&needs[2], 1u);
+    let place = atomicAdd(&ledger[3], 1u);
     if place >= launch.piece_room {
         return;
     }
@@ -74,59 +135,136 @@ fn take_piece(ray: u32, pass_id: u32, span: BlankSpan, entry: Crossing, exit: Cr
     pieces[place] = BlankPiece(piece, ray, pass_id);
 }
 
+// Adds to a pair of low and high.
+fn record_removed(at: u32, units: u32) {
+    let before = atomicAdd(&ledger[at], units);
+    if before + units < before {
+        atomicAdd(&ledger[at + 1u], 1u);
+    }
+}
+
 @compute @workgroup_size(WORKGROUP_THREADS)
-fn blank_rays(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index) local: u32) {
+fn blank_rays(
+    @builtin(workgroup_id) group: vec3<u32>,
+    @builtin(num_workgroups) groups: vec3<u32>,
+    @builtin(local_invocation_index) local: u32,
+) {
     let tile = tiles[group.x];
     if local >= tile.ray_count {
         return;
     }
     let ray = tile.first_ray + local;
-    let at_mm = f32(local) * launch.spacing_mm;
-    var count = counts[ray];
-    for (var p = 0u; p < tile.pass_count; p++) {
-        let tooth = passes[tile.first_pass + p];
-        var found: array<Crossing, MOST_CROSSINGS>;
+    let place = rays[ray].place;
+    var count = rays[ray].count;
+    if count == NO_ROOM {
+        return;
+    }
+    let last_visit = min(launch.first_visit + launch.visit_count, tile.visit_count);
+    for (var v = launch.first_visit; v < last_visit; v++) {
+        let shape = passes[visits[tile.first_visit + v]];
+        let center = select(shape.center, shape.center.yx, tile.family == 1u);
+        // Whole units: exact.
+        let offset_mm = f32(center.y - place) * launch.mm_per_unit;
+        if abs(offset_mm) > launch.reach_mm {
+            continue;
+        }
+        let center_mm = f32(center.x) * launch.mm_per_unit;
+
+        // Pieces that cross the ray, with their parts, and bounds of the crossings from chords.
+        var crossed: array<u32, MOST_CROSSINGS>;
         var met = 0u;
-        for (var k = 0u; k < tooth.part_count; k++) {
-            let part = parts[tooth.first_part + k];
-            let from_mm = min(part.across.x, part.across_end_mm);
-            let to_mm = max(part.across.x, part.across_end_mm);
-            if at_mm < from_mm || at_mm >= to_mm {
-                continue;
+        var low_mm = 1e30;
+        var high_mm = -1e30;
+        let first = turned(outline[shape.first_piece].node_mm, shape, tile.family);
+        var start = vec2(first.x, first.y + offset_mm);
+        let first_start = start;
+        for (var p = 0u; p < shape.piece_count; p++) {
+            var end = first_start;
+            if p + 1u < shape.piece_count {
+                let node = turned(outline[shape.first_piece + p + 1u].node_mm, shape, tile.family);
+                end = vec2(node.x, node.y + offset_mm);
             }
-            if met == MOST_CROSSINGS {
-                atomicMax(&needs[1], 1u);
-                return;
+            let sagitta_mm = outline[shape.first_piece + p].sagitta_mm;
+            let start_below = start.y <= 0.0;
+            let end_below = end.y <= 0.0;
+            let near = min(abs(start.y), abs(end.y)) <= sagitta_mm;
+            if start_below != end_below || near {
+                let rate_from = turned(outline[shape.first_piece + p].rate_start, shape, tile.family).y;
+                let rate_to = turned(outline[shape.first_piece + p].rate_end, shape, tile.family).y;
+                var parts = vec2(0u, 0u);
+                var found = select(0u, 1u, start_below != end_below);
+                if rate_from * rate_to < 0.0 {
+                    let run = end.y - start.y;
+                    let middle_below = cubic(start.y, run, rate_from, rate_to, turning(run, rate_from, rate_to)) <= 0.0;
+                    parts = select(vec2(2u, 2u), vec2(1u, 2u), start_below != middle_below);
+                    found = select(0u, 1u, start_below != middle_below) + select(0u, 1u, middle_below != end_below);
+                }
+                if found > 0u {
+                    let slope = (end.x - start.x) / select(end.y - start.y, 1e-30, end.y == start.y);
+                    let at = clamp(start.x - start.y * slope, min(start.x, end.x), max(start.x, end.x));
+                    let steepness = min(1.0 + abs(slope), 1e6);
+                    let tolerance = (sagitta_mm + ACROSS_ERROR_MM) * steepness + ALONG_ERROR_MM;
+                    low_mm = min(low_mm, at - tolerance);
+                    high_mm = max(high_mm, at + tolerance);
+                }
+                for (var k = 0u; k < found; k++) {
+                    if met < MOST_CROSSINGS {
+                        crossed[met] = 4u * p + select(parts.y, parts.x, k == 0u);
+                    }
+                    met++;
+                }
             }
-            let crossing = cross_part(part, at_mm);
-            var place = met;
-            while place > 0u && found[place - 1u].along_mm > crossing.along_mm {
-                found[place] = found[place - 1u];
-                place--;
+            start = end;
+        }
+        if met > MOST_CROSSINGS {
+            atomicMax(&ledger[1], met);
+            continue;
+        }
+        if met == 0u {
+            continue;
+        }
+        let near = met_between(ray, count, center_mm + low_mm, center_mm + high_mm);
+        if near.first == near.last {
+            continue;
+        }
+
+        var found: array<Crossing, MOST_CROSSINGS>;
+        for (var c = 0u; c < met; c++) {
+            let piece = crossed[c] / 4u;
+            let crossing = cross_part(shape, piece, crossed[c] % 4u, tile.family, offset_mm, center_mm);
+            var at = c;
+            while at > 0u && found[at - 1u].along_mm > crossing.along_mm {
+                found[at] = found[at - 1u];
+                at--;
             }
-            found[place] = crossing;
-            met++;
+            found[at] = crossing;
         }
         for (var c = 0u; c + 1u < met; c += 2u) {
-            let entry = found[c];
-            let exit = found[c + 1u];
-            let material = met_between(ray, count, entry.along_mm, exit.along_mm);
+            let material = met_between(ray, count, found[c].along_mm, found[c + 1u].along_mm);
             if material.first == material.last {
+                continue;
+            }
+            if shape.account == NO_ACCOUNT {
+                if material.length_mm > LEAST_SPAN_MM {
+                    atomicMax(&ledger[LEDGER_HEAD + group.x], bitcast<u32>(material.length_mm));
+                }
                 continue;
             }
             if launch.piece_room > 0u {
                 for (var k = material.first; k < material.last; k++) {
-                    take_piece(ray, tooth.pass_id, spans[slot(ray, k)], entry, exit);
+                    take_piece(ray, shape.pass_id, spans[slot(ray, k)], found[c], found[c + 1u]);
                 }
             }
-            let left = cut_out(ray, count, material, entry, exit, tooth.pass_id);
+            let left = cut_out(ray, count, material, found[c], found[c + 1u], shape.pass_id);
             if left.count > launch.capacity {
-                atomicMax(&needs[0], left.count);
+                atomicMax(&ledger[0], left.count);
+                rays[ray].count = NO_ROOM;
                 return;
             }
             count = left.count;
-            atomicAdd(&removed[tile.first_pass + p], u32(round(left.removed_mm * launch.units_per_mm)));
+            let account = 2u * (2u * shape.account + tile.family);
+            record_removed(LEDGER_HEAD + groups.x + account, u32(round(left.removed_mm * tile.units_per_mm)));
         }
     }
-    counts[ray] = count;
+    rays[ray].count = count;
 }

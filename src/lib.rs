@@ -100,10 +100,13 @@
 //! - [`scatter`]: how gears of one scene scatter, layer by layer of errors
 //! - [`library`]: the few items that other programs need
 //! - [`compare`]: results side by side
+//! - [`bench`]: how fast the kernels are on a machine
 //! - [`notices`]: the table of all notices, and what a command line denies and allows of them
 //! - [`quantities`]: the table of all quantities that results can have
 
 pub mod backend;
+#[doc(hidden)]
+pub mod bench;
 #[doc(hidden)]
 pub mod colormap;
 #[doc(hidden)]

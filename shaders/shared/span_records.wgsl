@@ -1,4 +1,4 @@
-// Spans of the blank, the same as in crates/gpu/src/records.rs; a test compares both.
+// Spans of the blank, the same as in crates/gpu/src/blank_records.rs; a test compares both.
 
 // Material on a ray; normals as components along and across the rays, out of the material for rays along x; for rays
 // along y the host turns them round, which the exchanged axes make up for.

@@ -96,14 +96,6 @@ pub const PLANAR_UNCUT: Stage = Stage {
     variants: &[&[]],
 };
 
-/// Dexels of a field once more, for the next plan.
-pub const PLANAR_AGAIN: Stage = Stage {
-    name: "planar_again",
-    text: concat!(include_str!("../shared/records.wgsl"), include_str!("../planar_again.wgsl")),
-    bindings: &["launch", "before_mm", "before_passes", "heights_mm", "passes"],
-    variants: &[&[]],
-};
-
 /// Figures of the columns of a field.
 pub const FLANK_FIGURES: Stage = Stage {
     name: "flank_figures",
@@ -117,7 +109,7 @@ pub fn planar_variant(frozen: bool, arcs: bool) -> usize {
     2 * usize::from(frozen) + usize::from(arcs)
 }
 
-/// Rays through the blank, cut by sections of sweeps.
+/// Rays through the blank, cut by closed outlines: strokes, and sections of sweeps.
 pub const BLANK_RAYS: Stage = Stage {
     name: "blank_rays",
     text: concat!(
@@ -126,20 +118,7 @@ pub const BLANK_RAYS: Stage = Stage {
         include_str!("../shared/blank_spans.wgsl"),
         include_str!("../blank_rays.wgsl"),
     ),
-    bindings: &["launch", "tiles", "passes", "parts", "spans", "counts", "removed", "needs", "pieces"],
-    variants: &[&[]],
-};
-
-/// Rays through the blank, cut by strokes.
-pub const BLANK_STROKES: Stage = Stage {
-    name: "blank_strokes",
-    text: concat!(
-        include_str!("../shared/span_records.wgsl"),
-        include_str!("../shared/stroke_records.wgsl"),
-        include_str!("../shared/blank_spans.wgsl"),
-        include_str!("../blank_strokes.wgsl"),
-    ),
-    bindings: &["launch", "tiles", "visits", "passes", "outline", "spans", "rays", "ledger"],
+    bindings: &["launch", "tiles", "visits", "passes", "outline", "spans", "rays", "ledger", "pieces"],
     variants: &[&[]],
 };
 
@@ -148,7 +127,7 @@ pub const BLANK_LISTS: Stage = Stage {
     name: "blank_lists",
     text: concat!(
         include_str!("../shared/span_records.wgsl"),
-        include_str!("../shared/stroke_records.wgsl"),
+        include_str!("../shared/blank_records.wgsl"),
         include_str!("../blank_lists.wgsl"),
     ),
     bindings: &["launch", "spans", "rays", "packed", "ledger"],
@@ -181,12 +160,10 @@ pub const STAGES: &[Stage] = &[
     planar_flank(Rows::Many),
     planar_flank(Rows::Few),
     PLANAR_UNCUT,
-    PLANAR_AGAIN,
     FLANK_FIGURES,
     spatial_flank(Rows::Many),
     spatial_flank(Rows::Few),
     BLANK_RAYS,
-    BLANK_STROKES,
     BLANK_LISTS,
 ];
 

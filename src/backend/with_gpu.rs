@@ -111,6 +111,18 @@ pub struct Devices {
     pub auto_why: String,
 }
 
+/// The processor and every adapter that opens, each with its name: all whose kernels can be timed.
+pub fn bench_machines() -> Vec<(String, Box<dyn Backend>)> {
+    let native = Cpu::default();
+    let mut machines: Vec<(String, Box<dyn Backend>)> = vec![(native.name(), Box::new(native))];
+    for found in adapter::adapters().iter().filter(|found| found.facts.lacks.is_none()) {
+        if let Ok(gpu) = Gpu::on(found, options(OnFailure::Stop)) {
+            machines.push((found.facts.name.clone(), Box::new(gpu)));
+        }
+    }
+    machines
+}
+
 /// Looks for adapters.
 pub fn devices() -> Devices {
     let adapters: Vec<AdapterFacts> = adapter::adapters().into_iter().map(|a| a.facts).collect();

@@ -40,6 +40,12 @@ pub struct Devices {
     pub native: String,
 }
 
+/// The processor with its name: all whose kernels can be timed.
+pub fn bench_machines() -> Vec<(String, Box<dyn Backend>)> {
+    let native = Cpu::default();
+    vec![(native.name(), Box::new(native))]
+}
+
 /// The processor.
 pub fn devices() -> Devices {
     Devices { native: Cpu::default().name() }

@@ -102,8 +102,8 @@ pub enum Command {
         files but those named by --save.")]
     Texture(Box<TextureArguments>),
     /// List what can compute here.
-    #[command(after_help = "Example:\n  gearcut devices")]
-    Devices,
+    #[command(after_help = "Examples:\n  gearcut devices\n  gearcut devices --bench")]
+    Devices(DevicesArguments),
     /// Print the JSON Schema of scene files, for editors that complete and check TOML.
     #[command(after_help = "Example:\n  gearcut schema > scene.schema.json")]
     Schema,
@@ -205,6 +205,14 @@ pub enum Command {
         Writes a folder (out/<scene>_calibration unless --out is given): report.html, results.json, tables/fits.csv, \
         tables/numbers.csv, tables/lines.csv, tables/places.csv. See docs/budget.md.")]
     Calibrate(CalibrateArguments),
+}
+
+/// Arguments of `devices`.
+#[derive(Debug, Args)]
+pub struct DevicesArguments {
+    /// Time every kernel on the processor and on every adapter, on two small gears: some ten seconds for each.
+    #[arg(long)]
+    pub bench: bool,
 }
 
 /// Arguments of `check`.

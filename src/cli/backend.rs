@@ -2,9 +2,13 @@
 
 use super::args::{BackendChoice, GpuFailureChoice, RunArguments};
 use super::drivers;
-use gearcut::Error;
 use gearcut::backend::{BackendWish, Choice, OnFailure, choose};
+use gearcut::interrupt::Interrupt;
 use gearcut::output::progress::{Progress, ProgressMode};
+use gearcut::scene::Scene;
+use gearcut::steps::backend_trial::BackendTrial;
+use gearcut::{Error, process};
+use serde_json::{Value, json};
 
 /// The backend, `auto` unless the command line names one; the program may be started anew for it ([`drivers`]), so that
 /// nothing but reading comes before.
@@ -28,19 +32,40 @@ pub fn chosen(wish: Option<BackendChoice>, on_failure: GpuFailureChoice) -> Resu
     choose(wish, on_failure)
 }
 
-/// Backend, the processor unless the command line names one, and progress of a command that cuts on few places; it is
-/// shown as events where `json` says so.
+/// Backend, the processor unless the command line names one, and progress of a command that cuts on few places of a
+/// scene; it is shown as events where `json` says so.
 ///
 /// # Errors
-/// As for [`chosen`].
-pub fn of_few_places(arguments: &RunArguments, json: bool) -> Result<(Choice, Progress), Error> {
+/// As for [`chosen`]; a GPU on trial that fails, or a scene that cannot be cut.
+pub fn of_few_places(arguments: &RunArguments, json: bool, scene: &Scene) -> Result<(Choice, Progress), Error> {
     let wish = arguments.backend.unwrap_or(BackendChoice::Cpu);
-    let choice = chosen(Some(wish), GpuFailureChoice::Redo)?;
+    let mut choice = chosen(Some(wish), GpuFailureChoice::Redo)?;
+    if choice.on_trial {
+        choice = tried(choice, scene)?;
+    }
     let progress = Progress::new(ProgressMode::choose(arguments.quiet, json));
     if wish != BackendChoice::Cpu {
         progress.note(&note(&choice));
     }
     Ok((choice, progress))
+}
+
+/// A choice on trial, settled on tiles of the scene.
+fn tried(choice: Choice, scene: &Scene) -> Result<Choice, Error> {
+    let mut trial = None;
+    process::prepare(scene)?.with_gear(&mut |gear| {
+        trial = Some(BackendTrial::new(gear, choice.backend.as_ref(), &Interrupt::default())?);
+        Ok(())
+    })?;
+    Ok(match trial {
+        Some(trial) => trial.settle(choice),
+        None => choice,
+    })
+}
+
+/// What run records say of it.
+pub fn record(choice: &Choice) -> [(&'static str, Value); 2] {
+    [("backend", json!(choice.backend.name())), ("backend_why", json!(choice.why))]
 }
 
 /// What was taken, and why.

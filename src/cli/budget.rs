@@ -19,12 +19,13 @@ pub fn run(arguments: &BudgetArguments) -> Result<(), Failure> {
     let out = arguments.out.clone().unwrap_or_else(|| PathBuf::from("out").join(format!("{name}_budget")));
     let flanks = arguments.flanks.iter().map(|text| flank(text)).collect::<Result<_, _>>()?;
     let options = BudgetOptions { parameters: arguments.parameters.clone(), flanks, numbers: arguments.numbers };
-    let (choice, progress) = backend::of_few_places(&arguments.run, false)?;
+    let (choice, progress) = backend::of_few_places(&arguments.run, false, &loaded.scene)?;
     let filled = folder::fill_partly(&out, "budget", |folder, interrupt, known| {
         let found = budget::budget(&loaded, &options, &choice, &progress, interrupt, known)?;
         let tree = budget::findings(&loaded.scene, &found);
         budget::write(&loaded, &choice.backend.name_in_files(), &found, &tree, folder)?;
-        let record = vec![("parameters", json!(options.parameters)), ("scene", json!(loaded.resolved_toml()))];
+        let mut record = vec![("parameters", json!(options.parameters)), ("scene", json!(loaded.resolved_toml()))];
+        record.extend(backend::record(&choice));
         Ok((record, (budget::printed(&found), tree.warnings), found.complete))
     });
     let (path, (rows, warnings), complete) = filled.map_err(|error| Failure::of_scene(&loaded, error))?;

@@ -22,12 +22,12 @@ pub fn run(arguments: &CalibrateArguments) -> Result<(), Failure> {
     let measured = read(&loaded, arguments).map_err(|error| Failure::of_scene(&loaded, error))?;
     let name = &loaded.scene.name;
     let out = arguments.out.clone().unwrap_or_else(|| PathBuf::from("out").join(format!("{name}_calibration")));
-    let (choice, progress) = backend::of_few_places(&arguments.run, false)?;
+    let (choice, progress) = backend::of_few_places(&arguments.run, false, &loaded.scene)?;
     let filled = folder::fill_partly(&out, "calibrate", |folder, interrupt, known| {
         let found = Calibration::new(&loaded, &parameters, &measured, &choice, &progress, interrupt, known)?;
         let tree = calibrate::findings(&loaded.scene, &measured, &found);
         calibrate::write(&loaded, &choice.backend.name_in_files(), &measured, &found, &tree, folder)?;
-        let record = vec![
+        let mut record = vec![
             ("measured", json!(arguments.measured)),
             ("noise_um", json!(arguments.noise_um)),
             ("surface_percent", json!(arguments.surface_percent)),
@@ -36,6 +36,7 @@ pub fn run(arguments: &CalibrateArguments) -> Result<(), Failure> {
             ("settings", json!(found.settings)),
             ("scene", json!(loaded.resolved_toml())),
         ];
+        record.extend(backend::record(&choice));
         let complete = found.complete;
         Ok((record, (found, tree), complete))
     });

@@ -23,7 +23,7 @@ pub fn run(arguments: &DiagnoseArguments) -> Result<(), Failure> {
     let points = measured::read(&arguments.measured)?;
     let name = &loaded.scene.name;
     let out = arguments.out.clone().unwrap_or_else(|| PathBuf::from("out").join(format!("{name}_diagnosis")));
-    let (choice, progress) = backend::of_few_places(&arguments.run, false)?;
+    let (choice, progress) = backend::of_few_places(&arguments.run, false, &loaded.scene)?;
     let names = &arguments.parameters;
     let filled = folder::fill_partly(&out, "diagnose", |folder, interrupt, known| {
         let cuts = MeasuredCuts::new(&loaded, &points, choice.backend.as_ref(), known)?;
@@ -31,12 +31,13 @@ pub fn run(arguments: &DiagnoseArguments) -> Result<(), Failure> {
         let (model, found) = diagnose::diagnose(&cuts, &measured_um, noise_um, names, &progress, interrupt)?;
         let tree = diagnose::findings(&loaded.scene, &model, &points, noise_um, &found);
         diagnose::write(&loaded, &choice.backend.name_in_files(), (&model, &found), &tree, folder)?;
-        let record = vec![
+        let mut record = vec![
             ("measured", json!(arguments.measured)),
             ("noise_um", json!(noise_um)),
             ("parameters", json!(names)),
             ("scene", json!(loaded.resolved_toml())),
         ];
+        record.extend(backend::record(&choice));
         let complete = model.complete;
         Ok((record, (model, found, tree), complete))
     });

@@ -31,7 +31,11 @@ use failure::Failure;
 
 /// Runs the command and reports what went wrong.
 pub fn run(arguments: CommandLine) -> ExitCode {
-    let computes = !matches!(arguments.command, Command::Schema | Command::New(_) | Command::Devices);
+    let computes = match &arguments.command {
+        Command::Schema | Command::New(_) => false,
+        Command::Devices(arguments) => arguments.bench,
+        _ => true,
+    };
     if let Err(failure) = if computes { threads::start() } else { Ok(()) } {
         return failure.report().into();
     }
@@ -41,7 +45,7 @@ pub fn run(arguments: CommandLine) -> ExitCode {
         Command::Axes(arguments) => axes::run(&arguments),
         Command::Compare(arguments) => compare::run(&arguments),
         Command::Texture(arguments) => texture::run(&arguments),
-        Command::Devices => devices::run(),
+        Command::Devices(arguments) => devices::run(&arguments),
         Command::Schema => {
             print::to_stdout(&gearcut::scene::schema::json_schema(gearcut::process::table())).map_err(Failure::from)
         }

@@ -26,12 +26,14 @@ pub fn run(arguments: &PairArguments) -> Result<(), Failure> {
     let name = format!("{}_with_{}", a.scene.name, b.scene.name);
     let out = arguments.out.clone().unwrap_or_else(|| PathBuf::from("out").join(&name));
     let words = std::env::args().skip(1).collect::<Vec<_>>();
-    let (choice, progress) = backend::of_few_places(&arguments.run, arguments.json)?;
+    let (choice, progress) = backend::of_few_places(&arguments.run, arguments.json, scenes[0])?;
     let (path, found) = folder::fill(&out, "pair", |folder, interrupt| {
         let watch = Watch::new(&progress, interrupt);
         let [scene_a, scene_b] = [&a, &b].map(LoadedScene::resolved_toml);
         let run = PairRecord { backend: choice.backend.name_in_files(), scenes: [scene_a.clone(), scene_b.clone()] };
-        let record = [("arguments", json!(words)), ("scene_A", json!(scene_a)), ("scene_B", json!(scene_b))].to_vec();
+        let mut record =
+            [("arguments", json!(words)), ("scene_A", json!(scene_a)), ("scene_B", json!(scene_b))].to_vec();
+        record.extend(backend::record(&choice));
         if spline::is_spline(scenes) {
             let fit = spline::fit(scenes, &options, choice.backend.as_ref(), &watch)?;
             let found = spline::report::findings(&name, scenes, &fit);

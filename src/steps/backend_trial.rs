@@ -7,6 +7,7 @@
 //!
 //! Road not taken: rates of known adapters. Drivers, memory and what else runs there decide as much.
 
+use crate::backend::Choice;
 use crate::interrupt::Interrupt;
 use crate::job::{GearJob, rows_z_mm};
 use crate::output::text::significant;
@@ -29,6 +30,8 @@ pub struct BackendTrial {
     pub native_s: f64,
     /// Fastest round of the GPU, s.
     pub gpu_s: f64,
+    /// What the trial itself took, s.
+    pub took_s: f64,
 }
 
 impl BackendTrial {
@@ -38,13 +41,21 @@ impl BackendTrial {
     /// The tool generates no flank; the backend's; Ctrl-C.
     pub fn new(gear: &dyn GearJob, gpu: &dyn Backend, interrupt: &Interrupt) -> Result<Self> {
         let native = Cpu::default();
-        let mut trial = Self { native_s: f64::INFINITY, gpu_s: f64::INFINITY };
+        let started = Instant::now();
+        let mut trial = Self { native_s: f64::INFINITY, gpu_s: f64::INFINITY, took_s: 0.0 };
         for _ in 0..ROUNDS {
             interrupt.check()?;
             trial.gpu_s = trial.gpu_s.min(round_s(gear, gpu)?);
             trial.native_s = trial.native_s.min(round_s(gear, &native)?);
         }
-        Ok(trial)
+        Ok(Self { took_s: started.elapsed().as_secs_f64(), ..trial })
+    }
+
+    /// What a choice on trial comes to, with the reason.
+    pub fn settle(&self, choice: Choice) -> Choice {
+        let why = format!("{}, {}", choice.why, self.why());
+        let backend = if self.takes_gpu() { choice.backend } else { Box::new(Cpu::default()) };
+        Choice { backend, why, on_trial: false }
     }
 
     /// Whether the GPU is worth taking.
@@ -54,9 +65,12 @@ impl BackendTrial {
 
     /// Its verdict in words.
     pub fn why(&self) -> String {
-        let [gpu_ms, native_ms] = [self.gpu_s, self.native_s].map(|s| significant(1e3 * s, 3));
+        let [gpu_ms, native_ms, took_ms] = [self.gpu_s, self.native_s, self.took_s].map(|s| significant(1e3 * s, 3));
         let verdict = if self.takes_gpu() { "faster" } else { "not faster" };
-        format!("{verdict} than the processor on tiles of this scene: {gpu_ms} ms, the processor {native_ms} ms")
+        format!(
+            "{verdict} than the processor on tiles of this scene: {gpu_ms} ms, the processor {native_ms} ms (tried in \
+            {took_ms} ms)"
+        )
     }
 }
 

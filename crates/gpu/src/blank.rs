@@ -2,8 +2,8 @@
 //!
 //! In: a [`BlankField`], an operation, as [`gearcut_core::cut::cpu::blank`]. Out: the field after it and what every
 //! pass removed. The host places every tooth in f64 and hands over its pose alone; outlines go to the device once.
-//! Tiles of all slices and both families are cut in one submission ([`super::blank_strokes`]), a few thousand at a
-//! time.
+//! Tiles of all slices and both families are cut in one submission ([`super::blank_rays`]), a few thousand at a time;
+//! tiles that do not fit the device together go one half after the other.
 //!
 //! **Places.** A tooth's centre and the rays lie tens of millimetres from the axis, where an f32 resolves nanometres.
 //! Both go over as whole units, so that their difference is exact; the outline counts from the tooth's centre and is
@@ -12,15 +12,16 @@
 //! Return strokes go through the shader in their turn: they take nothing and tell the longest material that they meet
 //! on a ray of each tile. Where and how deep a stroke rubs is worked out natively, on the tiles that met any.
 
-use super::blank_strokes::StrokeWork;
+use super::blank_rays::{CutOutcome, PackedRays, RayLists, RayPasses, list_bytes, outline_pieces, unit_mm, units};
+use super::blank_records::{BlankPass, BlankTile, NO_ACCOUNT, OutlinePiece};
 use super::context::Gpu;
 use super::problem::GpuProblem;
-use super::stroke_records::{OutlinePiece, StrokePass, StrokeTile};
 use gearcut_core::cut::cpu::blank::rubs_of_tile;
 use gearcut_core::cut::{BlankCut, BlankOperation, Rub};
 use gearcut_core::dexel::BlankField;
+use gearcut_core::dexel::blank_field::RayMaterial;
 use gearcut_core::frame::Rigid2;
-use gearcut_core::math::planar_rays::{ClosedCurve, FAMILIES, Piece, RayRow};
+use gearcut_core::math::planar_rays::{FAMILIES, Family, RayRow};
 use gearcut_core::passes::StrokeSet;
 use gearcut_core::passes::planar::blank_candidates::{PlacedPass, passes_at};
 use gearcut_core::tool::closed_tooth::{ClosedTooth, PlacedScratch};
@@ -39,8 +40,6 @@ const FIRST_ROOM: usize = 24;
 const UNNOTICED_MM: f32 = 5e-4;
 /// Units of the ledger in a millimetre: a quarter of a nanometre each.
 const UNITS_PER_MM: f64 = (1 << 22) as f64;
-/// Bits of places across: their differences stay below 2^31.
-const PLACE_BITS: f64 = 29.0;
 /// Rays of a tile: one for each thread.
 const TILE_RAYS: usize = WORKGROUP_THREADS as usize;
 
@@ -58,7 +57,7 @@ struct SlicePasses {
     returns: Vec<PlacedPass>,
     /// Centre and reach of every record, in the order of time.
     circles: Vec<(DVec2, f64)>,
-    records: Vec<StrokePass>,
+    records: Vec<BlankPass>,
 }
 
 impl Gpu {
@@ -80,7 +79,7 @@ impl Gpu {
         let widths_mm = grid.slice_widths_mm();
         let widest_mm = widths_mm.iter().copied().fold(0.0, f64::max);
         let outlines = Outlines::new(operation.teeth);
-        let mm_per_unit = unit_mm(operation, &grid.rows);
+        let mm_per_unit = unit_mm(farthest_mm(operation, &grid.rows));
         let mut after = field.clone();
         let mut removed = vec![[0_u64; 2]; (set.end_pass() - set.first_pass) as usize];
         let mut rubs = Vec::new();
@@ -103,38 +102,27 @@ impl Gpu {
                     placed[slice].visits(tile, &grid.rows[tile.family], first_record[slice])
                 })
                 .collect();
-            let (mut first_visit, mut first_ray) = (0, 0);
-            let mut tiles = Vec::with_capacity(chunk.len());
+            let mut work = RayPasses {
+                passes: placed.iter().flat_map(|slice| &slice.records).copied().collect(),
+                outline: outlines.pieces.clone(),
+                mm_per_unit: mm_per_unit as f32,
+                reach_mm: outlines.reach_mm as f32,
+                accounts: removed.len(),
+                ..RayPasses::default()
+            };
+            let (mut tiles, mut lists) = (Vec::with_capacity(chunk.len()), PackedRays::default());
             for (tile, visits) in chunk.iter().zip(&visits) {
                 let units_per_mm = UNITS_PER_MM * widths_mm[tile.slice] / widest_mm;
-                tiles.push(StrokeTile {
-                    first_visit,
-                    visit_count: visits.len() as u32,
-                    first_ray,
-                    ray_count: tile.rays.len() as u32,
-                    family: tile.family as u32,
-                    units_per_mm: units_per_mm as f32,
-                    padding_1: 0,
-                    padding_2: 0,
-                });
-                first_visit += visits.len() as u32;
-                first_ray += tile.rays.len() as u32;
+                let first = lists.rays.len();
+                tiles.push(work.tile(first..first + tile.rays.len(), tile.family, units_per_mm, visits));
+                let rays = &after.slices[tile.slice].rays[tile.family];
+                for ray in tile.rays.clone() {
+                    let place = units(grid.rows[tile.family].at_mm(ray), mm_per_unit);
+                    lists.push(&rays[ray], FAMILIES[tile.family], place);
+                }
             }
-            let material = chunk
-                .iter()
-                .map(|tile| (FAMILIES[tile.family], &after.slices[tile.slice].rays[tile.family][tile.rays.clone()]));
-            let places = chunk.iter().flat_map(|tile| {
-                let row = grid.rows[tile.family];
-                tile.rays.clone().map(move |ray| units(row.at_mm(ray), mm_per_unit))
-            });
-            let mut work = StrokeWork::new(tiles, material, places);
-            work.visits = visits.concat();
-            work.passes = placed.iter().flat_map(|slice| &slice.records).copied().collect();
-            work.outline.clone_from(&outlines.pieces);
-            work.mm_per_unit = mm_per_unit as f32;
-            work.reach_mm = outlines.reach_mm as f32;
-            work.pass_ids = set.first_pass..set.end_pass();
-            let done = self.run_strokes(&work, &mut capacity_beside)?;
+            let families: Vec<Family> = chunk.iter().map(|tile| FAMILIES[tile.family]).collect();
+            let done = self.run_strokes(&tiles, &families, &lists, &work, &mut capacity_beside)?;
             for (sum, taken) in removed.iter_mut().zip(&done.removed) {
                 *sum = [0, 1].map(|f| sum[f] + taken[f]);
             }
@@ -167,6 +155,76 @@ impl Gpu {
         let removed_mm3 = removed.into_iter().map(|units| units.map(|units| units as f64 * mm3_per_unit)).collect();
         Ok(Some(BlankCut { removed_mm3, rubs, ..BlankCut::default() }))
     }
+
+    /// Runs tiles with all their passes; `room` is what a ray has for more spans than it has, and grows where that is
+    /// not enough.
+    fn run_strokes(
+        &self,
+        tiles: &[BlankTile],
+        families: &[Family],
+        lists: &PackedRays,
+        work: &RayPasses,
+        room: &mut usize,
+    ) -> Result<StrokesDone, GpuProblem> {
+        let mut done =
+            StrokesDone { rays: Vec::new(), removed: vec![[0; 2]; work.accounts], longest_met_mm: Vec::new() };
+        let limits = self.allowance();
+        // Lists in slots, and on their way.
+        let limit = limits.buffer_bytes.min(limits.batch_bytes / 2);
+        let mut waiting: Vec<Range<usize>> = std::iter::once(0..tiles.len()).collect();
+        while let Some(some) = waiting.pop() {
+            let (first, last) = (tiles[some.start].first_ray, &tiles[some.end - 1]);
+            let own = lists.part(first as usize..(last.first_ray + last.ray_count) as usize);
+            let longest = own.longest();
+            let capacity = (longest + *room).max(1);
+            let bytes = list_bytes(own.rays.len(), capacity);
+            if bytes > limit && some.len() > 1 {
+                let middle = some.start.midpoint(some.end);
+                waiting.extend([middle..some.end, some.start..middle]);
+                continue;
+            }
+            if bytes > limit {
+                let rays = own.rays.len();
+                let reason = format!("lists of {capacity} spans for {rays} rays need {bytes} of {limit} bytes");
+                return Err(GpuProblem::OutOfMemory { reason });
+            }
+            let own_tiles: Vec<BlankTile> = tiles[some.clone()]
+                .iter()
+                .map(|tile| BlankTile { first_ray: tile.first_ray - first, ..*tile })
+                .collect();
+            let mut on_device = RayLists::new(self, &own, capacity, false)?;
+            let sent = on_device.send(&own_tiles, work, 0)?;
+            match on_device.collect(sent)? {
+                CutOutcome::Done(cut) => {
+                    done.longest_met_mm.extend(cut.longest_met_mm);
+                    for (sum, taken) in done.removed.iter_mut().zip(&cut.removed) {
+                        *sum = [0, 1].map(|f| sum[f] + taken[f]);
+                    }
+                    let left = on_device.all()?;
+                    for (tile, family) in own_tiles.iter().zip(&families[some]) {
+                        let rays = tile.first_ray as usize..(tile.first_ray + tile.ray_count) as usize;
+                        done.rays
+                            .extend(rays.map(|ray| left.list(ray, *family)).collect::<Result<Vec<_>, GpuProblem>>()?);
+                    }
+                }
+                CutOutcome::NeedsRoom { spans, .. } => {
+                    *room = (spans - longest).max(2 * *room);
+                    waiting.push(some);
+                }
+            }
+        }
+        Ok(done)
+    }
+}
+
+/// What tiles came back with.
+struct StrokesDone {
+    /// What is left, ray by ray.
+    rays: Vec<RayMaterial>,
+    /// What every pass removed by both families, in the tiles' units.
+    removed: Vec<[u64; 2]>,
+    /// Longest material that a return stroke met on a ray of each tile, mm.
+    longest_met_mm: Vec<f32>,
 }
 
 /// Tiles of all slices in their order, as many at a time as one submission takes.
@@ -185,17 +243,11 @@ fn chunks(slices_z_mm: &[f64], rows: &[RayRow; 2]) -> Vec<Vec<TilePlace>> {
     tiles.chunks(MOST_TILES).map(<[TilePlace]>::to_vec).collect()
 }
 
-/// Unit of places: the power of two by which the farthest ray and the farthest centre of a tooth in the blank's reach
-/// are some 2^29.
-fn unit_mm(operation: &BlankOperation, rows: &[RayRow; 2]) -> f64 {
+/// The farthest ray or centre of a tooth in the blank's reach.
+fn farthest_mm(operation: &BlankOperation, rows: &[RayRow; 2]) -> f64 {
     let teeth_mm = operation.teeth.iter().map(|tooth| tooth.reach_mm).fold(0.0, f64::max);
     let rays_mm = rows.iter().flat_map(|row| [row.first_mm, row.at_mm(row.count)]).map(f64::abs).fold(0.0, f64::max);
-    let farthest_mm = rays_mm.max(operation.blank_reach_mm + teeth_mm);
-    (farthest_mm.log2().ceil() - PLACE_BITS).exp2()
-}
-
-fn units(at_mm: f64, mm_per_unit: f64) -> i32 {
-    (at_mm / mm_per_unit).round() as i32
+    rays_mm.max(operation.blank_reach_mm + teeth_mm)
 }
 
 /// Outlines of all teeth of a cutter, from the centres of their edges.
@@ -213,24 +265,7 @@ impl Outlines {
         for tooth in teeth {
             let curve = tooth.placed(&Rigid2::new(0.0, DVec2::ZERO), &mut scratch);
             let first = pieces.len() as u32;
-            let count = curve.pieces().len();
-            pieces.extend(curve.pieces().iter().enumerate().map(|(index, piece)| {
-                let node_mm = curve.node_mm(index);
-                let rates = if piece.law == Piece::STRAIGHT {
-                    [curve.node_mm((index + 1) % count) - node_mm; 2]
-                } else {
-                    let [start, end] = piece.range;
-                    piece.range.map(|at| curve.place(piece.law, at)[1] * (end - start))
-                };
-                let pair = |v: DVec2| v.as_vec2().to_array();
-                OutlinePiece {
-                    node_mm: pair(node_mm - tooth.center_mm),
-                    rate_start: pair(rates[0]),
-                    rate_end: pair(rates[1]),
-                    sagitta_mm: piece.sagitta_mm as f32,
-                    padding: 0,
-                }
-            }));
+            pieces.extend(outline_pieces(&curve, tooth.center_mm));
             of_tooth.push(first..pieces.len() as u32);
         }
         let reach_mm = teeth.iter().map(|tooth| tooth.reach_mm).fold(0.0, f64::max);
@@ -258,14 +293,15 @@ impl SlicePasses {
             .map(|&(stroke, returning, pass)| {
                 let pieces = &outlines.of_tooth[pass.edge];
                 let rotation = pass.work_from_blade.rotation.as_vec2();
-                StrokePass {
+                let pass_id = set.pass_id(stroke as usize, pass.blade);
+                BlankPass {
                     cos: rotation.x,
                     sin: rotation.y,
                     center: pass.center_mm.to_array().map(|at_mm| units(at_mm, mm_per_unit)),
                     first_piece: pieces.start,
                     piece_count: pieces.end - pieces.start,
-                    pass_id: set.pass_id(stroke as usize, pass.blade),
-                    returns: u32::from(returning),
+                    pass_id,
+                    account: if returning { NO_ACCOUNT } else { pass_id - set.first_pass },
                 }
             })
             .collect();

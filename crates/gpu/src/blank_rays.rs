@@ -1,230 +1,308 @@
-//! Launches of the kernel `blank_rays`: tiles of rays, and pass by pass the closed curves that are taken from them.
+//! Rays of the blank on the device, and what is taken from them: launches of the kernel `blank_rays`.
 //!
-//! In: tiles with what is left on their rays and their passes in order of time, every curve split into [`BlankPart`]s.
-//! Out: what is left then, what every pass took of every tile, and the pieces of material that it took, where they are
-//! asked for. The curves are sections of a hob tooth's sweep ([`super::blank_sweeps`]).
+//! In: lists of what is left on the rays; passes as closed outlines that stand in slices, and which of them visit each
+//! tile, in order of time. Out: what is left then, what every pass removed, the longest material that a return stroke
+//! met on each tile, the pieces that were taken where they are asked for. Lists go over one after the other, lie slot by
+//! slot while they are cut, and come back one after the other (`blank_lists`). They stay on the device for as many cuts
+//! as there are: of shaping one ([`super::blank`]), of hobbing one for each chunk of time ([`super::blank_sweeps`]).
 //!
-//! No list has a fixed capacity: a ray without room stops, and the tiles in work are begun again with room for what it
-//! needed. Tiles that do not fit the device together go one half after the other.
+//! No list has a fixed capacity: a ray without room stops, and the cut is begun again from lists with room for what it
+//! needed.
 
-mod launch;
-mod parts;
-mod round;
+mod back;
+mod passes;
 mod spans;
 
-pub use launch::{filled, roomy};
-pub use parts::parts;
-pub use spans::{from_record, to_record};
+pub use passes::{RayPasses, outline_pieces, unit_mm, units};
+pub use spans::{PackedRays, from_record};
 
+use super::adapter::AdapterKind;
+use super::blank_records::{BlankLaunch, BlankPiece, BlankSpan, BlankTile, LEDGER_HEAD, RayState};
 use super::context::Gpu;
+use super::device::Device;
 use super::problem::GpuProblem;
-use super::records::{BlankLaunch, BlankPart, BlankPiece, BlankSpan};
-use gearcut_core::dexel::blank_field::RayMaterial;
-use gearcut_core::dexel::intervals::Span;
-use gearcut_core::math::planar_rays::Family;
-use gearcut_shaders::WORKGROUP_THREADS;
-use round::PassRound;
+use super::stamps::{STAMP_BYTES, Stamps, device_ns};
+use back::{Returning, filled, roomy};
+use gearcut_shaders::{BLANK_RAYS, WORKGROUP_THREADS};
 use wgpu::BufferUsages as Use;
 
-/// Bytes of parts in one launch at most; the adapter's own limit may be lower.
-const LAUNCH_BYTES: usize = 64 << 20;
-/// Spans that a ray has room for at first, beside those it has.
-const FIRST_ROOM: usize = 8;
-/// Three numbers: the largest list that had no room, crossings that had none, pieces that were taken.
-const NEEDS_BYTES: usize = 12;
-
-/// Neighbouring rays and the passes that visit them.
-pub struct TileWork<'a> {
-    /// Direction of the rays.
-    pub family: Family,
-    /// What is left on them.
-    pub rays: &'a [RayMaterial],
-    /// In order of time.
-    pub passes: Vec<PassWork>,
+/// Iterations of all its loops that a thread may take in one launch. llvmpipe ends every loop after 65,535 of them in
+/// all, without a word; a GPU is reset if a launch lasts for seconds, and takes some tens of nanoseconds for each.
+fn most_iterations(kind: AdapterKind) -> usize {
+    if kind == AdapterKind::Software { 50_000 } else { 4_000_000 }
+}
+/// What a visit may take of these beside one for each piece of the outline: Newton's steps and places in the list for
+/// each of eight crossings; so many times the room of a ray's list for its spans.
+const ITERATIONS_PER_VISIT: usize = 8 * (12 + 8 + 2);
+const LIST_WALKS_PER_VISIT: usize = 4 * 4 + 2;
+/// Distance of the parts of a uniform buffer that different launches bind: what every device takes.
+const UNIFORM_STEP: usize = 256;
+/// What a cut came back with besides lists.
+pub struct RaysCut {
+    /// Longest material that a return stroke met on a ray of each tile, mm.
+    pub longest_met_mm: Vec<f32>,
+    /// What was removed by both families, account by account, in the tiles' units.
+    pub removed: Vec<[u64; 2]>,
+    /// Pieces that were taken, if asked for, in any order.
+    pub pieces: Vec<BlankPiece>,
 }
 
-/// One pass over one tile.
-pub struct PassWork {
-    /// Pass id.
-    pub id: u32,
-    /// Its curve.
-    pub parts: Vec<BlankPart>,
+/// How a cut ended.
+pub enum CutOutcome {
+    /// Whole.
+    Done(RaysCut),
+    /// A list needs room for so many spans, or so many pieces were taken; 0: there is room.
+    NeedsRoom {
+        /// Spans of the largest list.
+        spans: usize,
+        /// Pieces.
+        pieces: usize,
+    },
 }
 
-/// What holds for all tiles of an operation.
-pub struct Terms {
-    /// Distance of neighbouring rays, mm.
-    pub spacing_mm: f64,
-    /// Material that a pass can take of one ray at most, mm.
-    pub longest_mm: f64,
-    /// Spans that a ray has room for at first, beside those it has.
-    pub first_room: usize,
-    /// Pieces of a launch that there is room for, which grows; 0 if nobody asks for them.
-    pub piece_room: usize,
+/// Lists of rays on the device.
+pub struct RayLists<'a> {
+    gpu: &'a Gpu,
+    rays: usize,
+    /// Spans that a ray has room for.
+    pub capacity: usize,
+    spans: wgpu::Buffer,
+    states: wgpu::Buffer,
+    packed: wgpu::Buffer,
+    /// Spans and states before the last cut, if they are kept.
+    kept: Option<[wgpu::Buffer; 2]>,
+    /// What is yet to be sent.
+    commands: Vec<wgpu::CommandBuffer>,
 }
 
-impl Terms {
-    /// Terms without pieces.
-    pub fn new(spacing_mm: f64, longest_mm: f64, first_room: Option<usize>) -> Self {
-        Self { spacing_mm, longest_mm, first_room: first_room.unwrap_or(FIRST_ROOM), piece_room: 0 }
-    }
+/// A cut on its way.
+pub struct CutSent {
+    returning: Returning,
+    pieces: wgpu::Buffer,
+    tiles: usize,
+    accounts: usize,
+    piece_room: usize,
+    pieces_sent: usize,
+    is_timed: bool,
 }
 
-/// Material that a pass took from a ray; ends that it left bear its id.
-pub struct TakenPiece {
-    /// Pass id.
-    pub pass: u32,
-    /// Ray of the tile.
-    pub ray: usize,
-    /// The material.
-    pub span: Span,
+/// Bytes of the lists of so many rays.
+pub fn list_bytes(rays: usize, capacity: usize) -> u64 {
+    (rays * capacity * size_of::<BlankSpan>()) as u64
 }
 
-/// What a tile came back with.
-#[derive(Default)]
-pub struct TileDone {
-    /// What is left.
-    pub rays: Vec<RayMaterial>,
-    /// Passes that took anything, in order of time, with the length, mm.
-    pub removed_mm: Vec<(u32, f64)>,
-    /// What was taken, if asked for, by pass, ray and place.
-    pub pieces: Vec<TakenPiece>,
-}
-
-/// How a launch over some tiles ended.
-enum Outcome {
-    Done(Vec<TileDone>),
-    NeedsSpans(usize),
-    NeedsPieces(usize),
-}
-
-impl Gpu {
-    /// Runs tiles with all their passes, with more room for their lists until they fit.
-    pub(super) fn run_blank_tiles(&self, work: &[TileWork], terms: &mut Terms) -> Result<Vec<TileDone>, GpuProblem> {
-        let rays: usize = work.iter().map(|tile| tile.rays.len()).sum();
-        let longest = work.iter().flat_map(|tile| tile.rays).map(Vec::len).max().unwrap_or(0);
-        let mut capacity = (longest + terms.first_room).max(1);
-        loop {
-            let bytes = rays * capacity * size_of::<BlankSpan>();
-            let bytes = bytes.max(terms.piece_room * size_of::<BlankPiece>());
-            let limit = self.device.facts.binding_bytes.min(self.device.facts.buffer_bytes);
-            if bytes as u64 > limit {
-                if let (first, second @ [_, ..]) = work.split_at(work.len().div_ceil(2)) {
-                    terms.piece_room = terms.piece_room.div_ceil(2);
-                    let mut done = self.run_blank_tiles(first, terms)?;
-                    done.extend(self.run_blank_tiles(second, terms)?);
-                    return Ok(done);
-                }
-                let reason = format!("lists of {capacity} spans for {rays} rays need {bytes} of {limit} bytes");
-                return Err(GpuProblem::OutOfMemory { reason });
-            }
-            match self.try_blank_tiles(work, terms, capacity)? {
-                Outcome::Done(done) => return Ok(done),
-                Outcome::NeedsSpans(needed) => capacity = needed.max(2 * capacity),
-                Outcome::NeedsPieces(needed) => terms.piece_room = needed.max(2 * terms.piece_room),
-            }
-        }
-    }
-
-    fn try_blank_tiles(&self, work: &[TileWork], terms: &Terms, capacity: usize) -> Result<Outcome, GpuProblem> {
-        let device = &self.device;
-        let counts: Vec<u32> = work.iter().flat_map(|tile| tile.rays).map(|ray| ray.len() as u32).collect();
-        let units_per_mm = (f64::from(u32::MAX) / (f64::from(WORKGROUP_THREADS) * terms.longest_mm)) as f32;
-        let launch = BlankLaunch {
-            spacing_mm: terms.spacing_mm as f32,
-            units_per_mm,
-            capacity: capacity as u32,
-            piece_room: terms.piece_room as u32,
-            rays: counts.len() as u32,
+impl<'a> RayLists<'a> {
+    /// Lists with what is left; `keeps` what they were before a cut, so that it can be taken back.
+    pub fn new(gpu: &'a Gpu, packed: &PackedRays, capacity: usize, keeps: bool) -> Result<Self, GpuProblem> {
+        let device = &gpu.device;
+        let rays = packed.rays.len();
+        let bytes = list_bytes(rays, capacity) as usize;
+        // Room that is not in use holds NaN in tests: whoever reads it shows.
+        let poison = vec![0xFF; if gpu.options.poison_outputs { bytes } else { 0 }];
+        let both = Use::STORAGE | Use::COPY_SRC;
+        let states: &[u8] = bytemuck::cast_slice(&packed.rays);
+        let kept = || -> Result<[wgpu::Buffer; 2], GpuProblem> {
+            Ok([roomy(device, "spans before", bytes, &[], both)?, filled(device, "rays before", states, both)?])
         };
-        // Room that is not in use holds NaN: whoever reads it shows.
-        let unused = f32::from_bits(u32::MAX);
-        let no_span = BlankSpan { low_mm: unused, high_mm: unused, ..bytemuck::Zeroable::zeroed() };
-        let mut spans = vec![no_span; counts.len() * capacity];
-        let rays = work.iter().flat_map(|tile| tile.rays.iter().map(|ray| (tile.family, ray)));
-        for (index, (family, ray)) in rays.enumerate() {
-            for (slot, span) in ray.iter().enumerate() {
-                spans[slot * counts.len() + index] = to_record(span, family);
-            }
-        }
-        let launch_buffer = filled(device, "blank launch", bytemuck::bytes_of(&launch), Use::UNIFORM)?;
-        let spans_buffer = filled(device, "spans", bytemuck::cast_slice(&spans), Use::STORAGE | Use::COPY_SRC)?;
-        let counts_buffer = filled(device, "counts", bytemuck::cast_slice(&counts), Use::STORAGE | Use::COPY_SRC)?;
-        let piece_bytes = terms.piece_room * size_of::<BlankPiece>();
-        let poison = vec![0xFF; if self.options.poison_outputs { piece_bytes } else { 0 }];
-        let pieces_buffer = roomy(device, "pieces", piece_bytes, &poison, Use::STORAGE | Use::COPY_SRC)?;
-        let parts_of_tile =
-            LAUNCH_BYTES.min(device.facts.binding_bytes as usize) / size_of::<BlankPart>() / work.len().max(1);
-        let mut done: Vec<TileDone> = work.iter().map(|_| TileDone::default()).collect();
-        let mut next = vec![0; work.len()];
-        while let Some(round) = PassRound::compose(work, &mut next, capacity, parts_of_tile) {
-            let zeros = vec![0_u32; round.passes.len()];
-            let removed_buffer = filled(device, "removed", bytemuck::cast_slice(&zeros), Use::STORAGE | Use::COPY_SRC)?;
-            let needs_buffer = filled(device, "needs", &[0; NEEDS_BYTES], Use::STORAGE | Use::COPY_SRC)?;
-            let tiles_buffer = filled(device, "blank tiles", bytemuck::cast_slice(&round.tiles), Use::STORAGE)?;
-            let passes_buffer = filled(device, "blank passes", bytemuck::cast_slice(&round.passes), Use::STORAGE)?;
-            let parts_buffer = filled(device, "parts", bytemuck::cast_slice(&round.parts), Use::STORAGE)?;
-            let bindings = [
-                &launch_buffer,
-                &tiles_buffer,
-                &passes_buffer,
-                &parts_buffer,
-                &spans_buffer,
-                &counts_buffer,
-                &removed_buffer,
-                &needs_buffer,
-                &pieces_buffer,
-            ];
-            self.launch_blank(&bindings, round.tiles.len())?;
-            let needs: Vec<u32> = self.bring_back(&needs_buffer, NEEDS_BYTES)?;
-            let (spans_needed, crossings_missed, pieces_taken) = (needs[0] as usize, needs[1], needs[2] as usize);
-            if crossings_missed > 0 {
-                let reason = "a ray crosses the curve of one pass more than eight times".to_owned();
-                return Err(GpuProblem::Invalid { reason });
-            }
-            if spans_needed > 0 {
-                return Ok(Outcome::NeedsSpans(spans_needed));
-            }
-            if pieces_taken > terms.piece_room {
-                return Ok(Outcome::NeedsPieces(pieces_taken));
-            }
-            let removed: Vec<u32> = self.bring_back(&removed_buffer, 4 * round.passes.len())?;
-            let length = |units: u32| f64::from(units) / f64::from(units_per_mm);
-            for (tile, done) in round.tiles.iter().zip(&mut done) {
-                let own = tile.first_pass as usize..(tile.first_pass + tile.pass_count) as usize;
-                let removed = round.passes[own.clone()].iter().zip(&removed[own]).filter(|(_, units)| **units > 0);
-                done.removed_mm.extend(removed.map(|(pass, units)| (pass.pass_id, length(*units))));
-            }
-            let pieces: Vec<BlankPiece> = self.bring_back(&pieces_buffer, pieces_taken * size_of::<BlankPiece>())?;
-            for piece in &pieces {
-                let tile = round.tiles.partition_point(|tile| tile.first_ray <= piece.ray) - 1;
-                done[tile].pieces.push(TakenPiece {
-                    pass: piece.pass_id,
-                    ray: (piece.ray - round.tiles[tile].first_ray) as usize,
-                    span: from_record(&piece.span, work[tile].family),
-                });
-            }
-        }
-        let counts: Vec<u32> = self.bring_back(&counts_buffer, size_of_val(counts.as_slice()))?;
-        let spans: Vec<BlankSpan> = self.bring_back(&spans_buffer, size_of_val(spans.as_slice()))?;
-        let mut rays = counts.iter().enumerate();
-        for (tile, done) in work.iter().zip(&mut done) {
-            let left = rays.by_ref().take(tile.rays.len());
-            let list = |(ray, &count): (usize, &u32)| {
-                spans[ray..]
-                    .iter()
-                    .step_by(counts.len())
-                    .take(count as usize)
-                    .map(|s| from_record(s, tile.family))
-                    .collect()
-            };
-            done.rays = left.map(list).collect();
-            // Threads list their pieces as they come.
-            done.pieces.sort_by(|a, b| {
-                let place = |piece: &TakenPiece| (piece.pass, piece.ray);
-                place(a).cmp(&place(b)).then(a.span.low.at_mm.total_cmp(&b.span.low.at_mm))
-            });
-        }
-        Ok(Outcome::Done(done))
+        let mut lists = Self {
+            gpu,
+            rays,
+            capacity,
+            spans: roomy(device, "spans", bytes, &poison, both)?,
+            states: filled(device, "rays", states, both)?,
+            packed: roomy(device, "packed spans", bytes, bytemuck::cast_slice(&packed.spans), both)?,
+            kept: if keeps { Some(kept()?) } else { None },
+            commands: Vec::new(),
+        };
+        // Spreading counts nothing.
+        let no_ledger = filled(device, "ledger", &[0; 4 * LEDGER_HEAD], both)?;
+        lists.run_lists(false, &no_ledger)?;
+        Ok(lists)
     }
+
+    /// What holds for launches over these lists.
+    fn launch(&self) -> BlankLaunch {
+        BlankLaunch {
+            rays: self.rays as u32,
+            capacity: self.capacity as u32,
+            first_visit: 0,
+            visit_count: 0,
+            mm_per_unit: 0.0,
+            reach_mm: 0.0,
+            piece_room: 0,
+            padding: 0,
+        }
+    }
+
+    /// Encodes lists on their way: to slots, or back.
+    fn run_lists(&mut self, back: bool, ledger: &wgpu::Buffer) -> Result<(), GpuProblem> {
+        let device = &self.gpu.device;
+        let pipeline = &self.gpu.blank_lists[usize::from(back)];
+        let launch = filled(device, "launch", bytemuck::bytes_of(&self.launch()), Use::UNIFORM)?;
+        let workgroups = self.rays.div_ceil(WORKGROUP_THREADS as usize) as u32;
+        let commands = device.checked(|| {
+            let buffers = [&launch, &self.spans, &self.states, &self.packed, ledger];
+            let group = bind(device, pipeline, buffers.map(wgpu::Buffer::as_entire_binding));
+            let mut encoder = device.handle.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+            let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
+            pass.set_pipeline(pipeline);
+            pass.set_bind_group(0, &group, &[]);
+            pass.dispatch_workgroups(workgroups, 1, 1);
+            drop(pass);
+            encoder.finish()
+        })?;
+        self.commands.push(commands);
+        Ok(())
+    }
+
+    /// Sends passes over tiles of the lists; `expected` pieces come back at once, others with a second wait.
+    pub fn send(&mut self, own: &[BlankTile], work: &RayPasses, expected: usize) -> Result<CutSent, GpuProblem> {
+        let device = &self.gpu.device;
+        // As many visits in a launch as a thread's loops may take.
+        let pieces = work.passes.iter().map(|pass| pass.piece_count).max().unwrap_or(0) as usize;
+        let of_visit = pieces + ITERATIONS_PER_VISIT + LIST_WALKS_PER_VISIT * self.capacity;
+        let window = (most_iterations(device.facts.kind) / of_visit).max(1);
+        let most_visits = own.iter().map(|tile| tile.visit_count).max().unwrap_or(0) as usize;
+        let windows = most_visits.div_ceil(window).max(1);
+        let mut launches = vec![0; windows * UNIFORM_STEP];
+        for (index, bytes) in launches.chunks_exact_mut(UNIFORM_STEP).enumerate() {
+            let launch = BlankLaunch {
+                first_visit: (index * window) as u32,
+                visit_count: window as u32,
+                mm_per_unit: work.mm_per_unit,
+                reach_mm: work.reach_mm,
+                piece_room: work.piece_room as u32,
+                ..self.launch()
+            };
+            bytes[..size_of::<BlankLaunch>()].copy_from_slice(bytemuck::bytes_of(&launch));
+        }
+        let both = Use::STORAGE | Use::COPY_SRC;
+        let ledger_bytes = 4 * (LEDGER_HEAD + own.len() + 4 * work.accounts);
+        let piece_bytes = work.piece_room * size_of::<BlankPiece>();
+        let poison = vec![0xFF; if self.gpu.options.poison_outputs { piece_bytes } else { 0 }];
+        let launch_buffer = filled(device, "blank launches", &launches, Use::UNIFORM)?;
+        let tiles = filled(device, "blank tiles", bytemuck::cast_slice(own), Use::STORAGE)?;
+        let visits = filled(device, "visits", bytemuck::cast_slice(&work.visits), Use::STORAGE)?;
+        let passes = filled(device, "blank passes", bytemuck::cast_slice(&work.passes), Use::STORAGE)?;
+        let outline = filled(device, "outline", bytemuck::cast_slice(&work.outline), Use::STORAGE)?;
+        let ledger = filled(device, "ledger", &vec![0; ledger_bytes], both)?;
+        let pieces = roomy(device, "pieces", piece_bytes, &poison, both)?;
+        let stamps = device.facts.timestamps.then(|| Stamps::new(device, 1));
+        let pipeline = &self.gpu.blank_rays[0];
+        let commands = device.checked(|| {
+            let mut encoder = device.handle.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+            if let Some([spans, states]) = &self.kept {
+                encoder.copy_buffer_to_buffer(&self.spans, 0, spans, 0, spans.size());
+                encoder.copy_buffer_to_buffer(&self.states, 0, states, 0, states.size());
+            }
+            let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
+                label: Some(BLANK_RAYS.name),
+                timestamp_writes: stamps.as_ref().map(|stamps| stamps.writes(0)),
+            });
+            pass.set_pipeline(pipeline);
+            for window in 0..windows {
+                let uniform = wgpu::BindingResource::Buffer(wgpu::BufferBinding {
+                    buffer: &launch_buffer,
+                    offset: (window * UNIFORM_STEP) as u64,
+                    size: std::num::NonZero::new(size_of::<BlankLaunch>() as u64),
+                });
+                let others = [&tiles, &visits, &passes, &outline, &self.spans, &self.states, &ledger, &pieces];
+                let [a, b, c, d, e, f, g, h] = others.map(wgpu::Buffer::as_entire_binding);
+                pass.set_bind_group(0, &bind(device, pipeline, [uniform, a, b, c, d, e, f, g, h]), &[]);
+                pass.dispatch_workgroups(own.len() as u32, 1, 1);
+            }
+            drop(pass);
+            if let Some(stamps) = &stamps {
+                stamps.resolve(&mut encoder, 1);
+            }
+            encoder.finish()
+        })?;
+        self.commands.push(commands);
+        let pieces_sent = expected.min(work.piece_room);
+        let mut wanted = vec![(&ledger, ledger_bytes), (&pieces, pieces_sent * size_of::<BlankPiece>())];
+        wanted.extend(stamps.as_ref().map(|stamps| (&stamps.resolved, STAMP_BYTES)));
+        let returning = self.gpu.send_back(std::mem::take(&mut self.commands), &wanted)?;
+        Ok(CutSent {
+            returning,
+            pieces,
+            tiles: own.len(),
+            accounts: work.accounts,
+            piece_room: work.piece_room,
+            pieces_sent,
+            is_timed: stamps.is_some(),
+        })
+    }
+    /// Waits for a cut; a ray that crosses one outline more than eight times is a problem.
+    pub fn collect(&self, sent: CutSent) -> Result<CutOutcome, GpuProblem> {
+        let CutSent { returning, pieces, tiles, accounts, piece_room, pieces_sent, is_timed } = sent;
+        let parts = self.gpu.collect_back(returning)?;
+        let stamps = if is_timed { parts.last() } else { None };
+        self.gpu.log().count(BLANK_RAYS.name, stamps.map(|stamps| device_ns(&self.gpu.device, stamps)));
+        let ledger: Vec<u32> = bytemuck::pod_collect_to_vec(&parts[0]);
+        let (head, rest) = ledger.split_at(LEDGER_HEAD);
+        let [needed, crossings, taken] = [0, 1, 3].map(|k| head[k] as usize);
+        if crossings > 0 {
+            let reason = format!("a ray crosses one outline {crossings} times; eight are expected at most");
+            return Err(GpuProblem::Invalid { reason });
+        }
+        let pieces_needed = if piece_room > 0 && taken > piece_room { taken } else { 0 };
+        if needed > 0 || pieces_needed > 0 {
+            return Ok(CutOutcome::NeedsRoom { spans: needed, pieces: pieces_needed });
+        }
+        let mut listed: Vec<BlankPiece> = bytemuck::pod_collect_to_vec(&parts[1]);
+        listed.truncate(taken);
+        if taken > pieces_sent {
+            let all = self.gpu.send_back(Vec::new(), &[(&pieces, taken * size_of::<BlankPiece>())])?;
+            listed = bytemuck::pod_collect_to_vec(&self.gpu.collect_back(all)?[0]);
+        }
+        let (met, sums) = rest.split_at(tiles);
+        let pair = |sums: &[u32]| u64::from(sums[0]) + (u64::from(sums[1]) << 32);
+        let removed = sums.chunks_exact(4).take(accounts).map(|of| [pair(&of[..2]), pair(&of[2..])]);
+        Ok(CutOutcome::Done(RaysCut {
+            longest_met_mm: met.iter().map(|&bits| f32::from_bits(bits)).collect(),
+            removed: removed.collect(),
+            pieces: listed,
+        }))
+    }
+
+    /// Takes the last cut back.
+    pub fn take_back(&mut self) -> Result<(), GpuProblem> {
+        let device = &self.gpu.device;
+        let Some([spans, states]) = &self.kept else { return Ok(()) };
+        let commands = device.checked(|| {
+            let mut encoder = device.handle.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+            encoder.copy_buffer_to_buffer(spans, 0, &self.spans, 0, spans.size());
+            encoder.copy_buffer_to_buffer(states, 0, &self.states, 0, states.size());
+            encoder.finish()
+        })?;
+        self.commands.push(commands);
+        Ok(())
+    }
+
+    /// All lists, one after the other.
+    pub fn all(&mut self) -> Result<PackedRays, GpuProblem> {
+        let ledger = filled(&self.gpu.device, "ledger", &[0; 4 * LEDGER_HEAD], Use::STORAGE | Use::COPY_SRC)?;
+        self.run_lists(true, &ledger)?;
+        let commands = std::mem::take(&mut self.commands);
+        let head = self.gpu.collect_back(self.gpu.send_back(commands, &[(&ledger, 4 * LEDGER_HEAD)])?)?;
+        let head: Vec<u32> = bytemuck::pod_collect_to_vec(&head[0]);
+        let wanted = [
+            (&self.states, self.rays * size_of::<RayState>()),
+            (&self.packed, head[2] as usize * size_of::<BlankSpan>()),
+        ];
+        let parts = self.gpu.collect_back(self.gpu.send_back(Vec::new(), &wanted)?)?;
+        let [rays, spans] = [&parts[0], &parts[1]];
+        Ok(PackedRays { rays: bytemuck::pod_collect_to_vec(rays), spans: bytemuck::pod_collect_to_vec(spans) })
+    }
+}
+
+fn bind<const N: usize>(
+    device: &Device,
+    pipeline: &wgpu::ComputePipeline,
+    resources: [wgpu::BindingResource; N],
+) -> wgpu::BindGroup {
+    let entry = |(binding, resource)| wgpu::BindGroupEntry { binding, resource };
+    let entries: Vec<wgpu::BindGroupEntry> = (0..).zip(resources).map(entry).collect();
+    let layout = pipeline.get_bind_group_layout(0);
+    device.handle.create_bind_group(&wgpu::BindGroupDescriptor { label: None, layout: &layout, entries: &entries })
 }

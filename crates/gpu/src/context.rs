@@ -11,10 +11,7 @@ use gearcut_core::cut::cpu::Cpu;
 use gearcut_core::cut::{Backend, CutStats, StageTime};
 use gearcut_core::dexel::Layer;
 use gearcut_core::error::Error;
-use gearcut_shaders::{
-    BLANK_LISTS, BLANK_RAYS, BLANK_STROKES, FLANK_FIGURES, PLANAR_AGAIN, PLANAR_UNCUT, Rows, planar_flank,
-    spatial_flank,
-};
+use gearcut_shaders::{BLANK_LISTS, BLANK_RAYS, FLANK_FIGURES, PLANAR_UNCUT, Rows, planar_flank, spatial_flank};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// Batches on the device at once: one in work, one on its way.
@@ -48,10 +45,8 @@ pub struct Gpu {
     pub(crate) device: Device,
     pub(crate) planar_flank: Vec<wgpu::ComputePipeline>,
     pub(crate) planar_uncut: Vec<wgpu::ComputePipeline>,
-    pub(crate) planar_again: Vec<wgpu::ComputePipeline>,
     pub(crate) flank_figures: Vec<wgpu::ComputePipeline>,
     pub(crate) blank_rays: Vec<wgpu::ComputePipeline>,
-    pub(crate) blank_strokes: Vec<wgpu::ComputePipeline>,
     pub(crate) blank_lists: Vec<wgpu::ComputePipeline>,
     pub(crate) spatial_flank: Vec<wgpu::ComputePipeline>,
     pub(crate) options: GpuOptions,
@@ -99,10 +94,8 @@ impl Gpu {
         let rows = options.rows.unwrap_or(by_kind);
         let planar_flank = pipeline::pipelines(&device, &planar_flank(rows))?;
         let planar_uncut = pipeline::pipelines(&device, &PLANAR_UNCUT)?;
-        let planar_again = pipeline::pipelines(&device, &PLANAR_AGAIN)?;
         let flank_figures = pipeline::pipelines(&device, &FLANK_FIGURES)?;
         let blank_rays = pipeline::pipelines(&device, &BLANK_RAYS)?;
-        let blank_strokes = pipeline::pipelines(&device, &BLANK_STROKES)?;
         let blank_lists = pipeline::pipelines(&device, &BLANK_LISTS)?;
         let spatial_flank = pipeline::pipelines(&device, &spatial_flank(rows))?;
         let native = Cpu::default();
@@ -110,10 +103,8 @@ impl Gpu {
             device,
             planar_flank,
             planar_uncut,
-            planar_again,
             flank_figures,
             blank_rays,
-            blank_strokes,
             blank_lists,
             spatial_flank,
             options,

@@ -13,7 +13,7 @@
 //! - `device`: a device that reports its problems
 //! - `pipeline`: pipelines of the stages that the crate `gearcut-shaders` holds
 //! - `stamps`: when launches begin and end
-//! - [`records`]: what the shaders of shaping read and write, byte for byte
+//! - [`records`]: what the shaders of shaped flanks read and write, byte for byte
 //! - `readback`: a batch sent, cut and brought back
 //! - [`sweep_records`]: what the shader of hobbed flanks reads
 //! - [`near_edge`]: the piece of an edge that a tile can meet, as one polynomial
@@ -23,9 +23,8 @@
 //! - `planar`: flanks cut by strokes
 //! - [`edge_cells`]: tables of an edge for the spatial shader
 //! - `spatial`: flanks cut by sweeps
-//! - `blank_rays`: launches of the kernel that cuts rays of the blank
-//! - [`stroke_records`]: what the shaders of the blank of shaping read
-//! - `blank_strokes`: launches of the kernel that cuts rays of the blank by strokes
+//! - [`blank_records`]: what the shaders of the blank read and write
+//! - `blank_rays`: rays of the blank on the device, and launches of the kernel that cuts them
 //! - `blank`: the blank of shaping
 //! - `blank_sweeps`: the blank of hobbing
 //! - `backend`: the backend as the program sees it
@@ -35,7 +34,7 @@ mod backend;
 pub mod batches;
 mod blank;
 mod blank_rays;
-mod blank_strokes;
+pub mod blank_records;
 mod blank_sweeps;
 pub mod compose;
 mod context;
@@ -49,7 +48,6 @@ mod readback;
 pub mod records;
 mod spatial;
 mod stamps;
-pub mod stroke_records;
 pub mod sweep_records;
 
 pub use context::{Gpu, GpuOptions, OnGpuFailure};

@@ -305,7 +305,6 @@ impl FieldInputs {
             wanted: self.figures.as_ref().map_or(Wanted::Dexels, |(figure_launch, lines)| {
                 let bytes = bytemuck::bytes_of(figure_launch);
                 Wanted::Figures(FigureInputs {
-                    again: (&gpu.planar_again[0], launch(), workgroups),
                     pipeline: &gpu.flank_figures[0],
                     inputs: [
                         Input::Shared { label: "figure launch", bytes, usage: Use::UNIFORM },

@@ -97,8 +97,6 @@ pub enum Wanted<'a> {
 
 /// How figures are made.
 pub struct FigureInputs<'a> {
-    /// Copies dexels for the next step, so that those before stay as they are; with its launch and workgroups.
-    pub again: (&'a wgpu::ComputePipeline, Input<'a>, [u32; 2]),
     /// Makes the figures of a step and of what follows.
     pub pipeline: &'a wgpu::ComputePipeline,
     /// Bindings before the dexels.

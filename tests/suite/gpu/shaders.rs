@@ -1,7 +1,7 @@
 //! The shaders as naga sees them: every file in every variant is valid, and both sides of the border agree.
 
 use gearcut::gpu::shaders::{ROUND_RECORDS, STAGES, STORAGE_BUFFERS, Stage, WORKGROUP_THREADS};
-use gearcut::gpu::{records, stroke_records, sweep_records};
+use gearcut::gpu::{blank_records, records, sweep_records};
 use naga::back::pipeline_constants::process_overrides;
 use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
 use naga::{AddressSpace, Literal, Module, ShaderStage, TypeInner};
@@ -131,28 +131,27 @@ fn records_have_the_same_members_on_both_sides() {
                 profile_pass,
             }
         ),
-        layout!("blank_rays", records::BlankLaunch { spacing_mm, units_per_mm, capacity, piece_room, rays }),
-        layout!("blank_rays", records::BlankTile { first_pass, pass_count, first_ray, ray_count }),
-        layout!("blank_rays", records::BlankPass { first_part, part_count, pass_id }),
-        layout!("blank_rays", records::BlankPart { along, across, across_end_mm, padding_1, padding_2, padding_3 }),
-        layout!("blank_rays", records::BlankSpan { low_mm, high_mm, low_pass, high_pass, low_normal, high_normal }),
-        layout!("blank_rays", records::BlankPiece { span, ray, pass_id }),
         layout!(
-            "blank_strokes",
-            stroke_records::StrokeLaunch {
+            "blank_rays",
+            blank_records::BlankSpan { low_mm, high_mm, low_pass, high_pass, low_normal, high_normal }
+        ),
+        layout!("blank_rays", blank_records::BlankPiece { span, ray, pass_id }),
+        layout!(
+            "blank_rays",
+            blank_records::BlankLaunch {
                 rays,
                 capacity,
                 first_visit,
                 visit_count,
                 mm_per_unit,
                 reach_mm,
-                first_pass,
+                piece_room,
                 padding,
             }
         ),
         layout!(
-            "blank_strokes",
-            stroke_records::StrokeTile {
+            "blank_rays",
+            blank_records::BlankTile {
                 first_visit,
                 visit_count,
                 first_ray,
@@ -164,11 +163,11 @@ fn records_have_the_same_members_on_both_sides() {
             }
         ),
         layout!(
-            "blank_strokes",
-            stroke_records::StrokePass { cos, sin, center, first_piece, piece_count, pass_id, returns }
+            "blank_rays",
+            blank_records::BlankPass { cos, sin, center, first_piece, piece_count, pass_id, account }
         ),
-        layout!("blank_strokes", stroke_records::OutlinePiece { node_mm, rate_start, rate_end, sagitta_mm, padding }),
-        layout!("blank_strokes", stroke_records::RayState { place, count, first }),
+        layout!("blank_rays", blank_records::OutlinePiece { node_mm, rate_start, rate_end, sagitta_mm, padding }),
+        layout!("blank_rays", blank_records::RayState { place, count, first }),
         layout!(
             "spatial_flank",
             sweep_records::SpatialTile { middle, first_group, group_count, first_record, record_count }
@@ -221,8 +220,9 @@ fn records_have_the_same_members_on_both_sides() {
 fn constants_agree() {
     for (stage, name, ours) in [
         ("planar_flank", "ROUND_RECORDS", ROUND_RECORDS),
-        ("blank_strokes", "LEDGER_HEAD", stroke_records::LEDGER_HEAD as u32),
-        ("blank_strokes", "NO_ROOM", stroke_records::NO_ROOM),
+        ("blank_rays", "LEDGER_HEAD", blank_records::LEDGER_HEAD as u32),
+        ("blank_rays", "NO_ROOM", blank_records::NO_ROOM),
+        ("blank_rays", "NO_ACCOUNT", blank_records::NO_ACCOUNT),
     ] {
         let (module, _) = checked(stage_of(stage));
         let (_, constant) = module.constants.iter().find(|(_, c)| c.name.as_deref() == Some(name)).expect(name);

@@ -2,6 +2,7 @@
 
 use crate::fixtures::command::read_json;
 use gearcut::backend::Choice;
+use gearcut::bench::kernel_rates;
 use gearcut::cut::cpu::Cpu;
 use gearcut::cut::sweep_chips::SweepsCut;
 use gearcut::cut::{Backend, BlankCut, BlankOperation, CutStats};
@@ -72,5 +73,33 @@ fn a_gpu_that_is_slower_is_not_taken_and_the_record_says_why() {
     assert_eq!(record["backend"], Cpu::default().name());
     let why = record["backend_why"].as_str().expect("a text");
     assert!(why.starts_with("auto: slow, not faster than the processor on tiles of this scene: "), "{why}");
-    assert!(BackendTrial { native_s: 0.02, gpu_s: 0.01 }.takes_gpu());
+    assert!(BackendTrial { native_s: 0.02, gpu_s: 0.01, took_s: 0.1 }.takes_gpu());
+}
+
+#[test]
+fn rates_are_those_of_the_backend_kernel_by_kernel() {
+    let count = std::cell::Cell::new(0);
+    let rates = |backend: &dyn Backend| {
+        kernel_rates(backend, &|| count.set(count.get() + 1)).expect("cuts").map(|rate| (rate.kernel, rate.per_second))
+    };
+    let (native, slow) = (rates(&Cpu::default()), rates(&Slow::default()));
+    println!("{native:?}\n{slow:?}");
+    assert_eq!(count.get(), 8);
+    // A flank of 24 teeth takes milliseconds; waiting for 200 of them shows, and only where the backend waits.
+    assert!(slow[0].1 < native[0].1 / 2.0);
+    assert!((1..4).all(|kernel| slow[kernel].1 > native[kernel].1 / 20.0));
+    assert!(native.iter().all(|(_, per_second)| per_second.is_finite() && *per_second > 0.0));
+}
+
+#[test]
+fn a_choice_on_trial_is_settled_with_its_reason() {
+    let on_trial = || Choice { backend: Box::new(Slow::default()), why: "auto: slow".to_owned(), on_trial: true };
+    let faster = BackendTrial { native_s: 0.02, gpu_s: 0.01, took_s: 0.09 }.settle(on_trial());
+    assert_eq!(faster.backend.name(), "slow");
+    let slower = BackendTrial { native_s: 0.01, gpu_s: 0.02, took_s: 0.09 }.settle(on_trial());
+    assert_eq!(slower.backend.name(), Cpu::default().name());
+    for (settled, verdict) in [(faster, "faster"), (slower, "not faster")] {
+        assert!(!settled.on_trial && settled.why.starts_with(&format!("auto: slow, {verdict} than the processor")));
+        assert!(settled.why.ends_with("(tried in 90.0 ms)"), "{}", settled.why);
+    }
 }

@@ -219,6 +219,11 @@ impl SweptSections {
         BAND_SHARE * self.outlines.iter().map(|outline| outline.tip_mm).fold(f64::INFINITY, f64::min)
     }
 
+    /// No place of a section lies farther than this from its middle, mm: sections lie within the tool's tips.
+    pub fn reach_mm(&self) -> f64 {
+        self.outlines.iter().map(|outline| 2.0 * outline.tip_mm).fold(0.0, f64::max)
+    }
+
     /// Outline of the edge of a pass's blade.
     pub(super) fn outline_of(&self, pass: &Sweeping) -> &EdgeOutline {
         &self.outlines[pass.edge]
