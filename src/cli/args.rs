@@ -210,7 +210,7 @@ pub enum Command {
 /// Arguments of `devices`.
 #[derive(Debug, Args)]
 pub struct DevicesArguments {
-    /// Time every kernel on the processor and on every adapter, on two small gears: some ten seconds for each.
+    /// Time every kernel on the processor and on every adapter, on two small gears: under a minute for each.
     #[arg(long)]
     pub bench: bool,
 }
