@@ -4,12 +4,17 @@
 //! FOLDER (default `out/flank_heights`) and prints the largest deviation of the finishing operation. SCENE is
 //! `scenes/shaping/elliptical_normal.toml` by default, TOOTH is 4.
 
-use gearcut::findings::Datum;
+use gearcut::findings::{QuantityRow, Table};
 use gearcut::output::line_chart::{LineChart, LineSeries, Panel};
 use gearcut::output::table::write_table;
 use gearcut::{Flank, Job, Side};
 use std::error::Error;
 use std::path::{Path, PathBuf};
+
+static FLANK: QuantityRow = QuantityRow::new("flank", "", "flank of the tooth");
+static OPERATION: QuantityRow = QuantityRow::new("operation", "", "name of the operation");
+static ARC: QuantityRow = QuantityRow::new("arc", "mm", "arc along the profile from the form point");
+static DEVIATION: QuantityRow = QuantityRow::new("deviation", "um", "normal deviation from the target");
 
 fn main() -> Result<(), Box<dyn Error>> {
     let mut arguments = std::env::args().skip(1);
@@ -25,13 +30,15 @@ fn main() -> Result<(), Box<dyn Error>> {
     let middle = |flank: &Flank| flank.face_mm.len() / 2;
     let rows = flanks.iter().flat_map(|flank| {
         flank.operations.iter().enumerate().flat_map(move |(operation, name)| {
-            let cells = move |(arc_mm, deviation_um)| -> Vec<Datum> {
-                vec![flank.side.name().into(), name.as_str().into(), Datum::Number(arc_mm), Datum::Number(deviation_um)]
-            };
-            flank.profile(operation, middle(flank)).into_iter().map(cells)
+            flank.profile(operation, middle(flank)).into_iter().map(move |place| (flank, name, place))
         })
     });
-    write_table(&folder.join("flank_heights.csv"), &["flank", "operation", "arc_mm", "deviation_um"], rows)?;
+    let table = Table::over("flank_heights", "Deviations along the profile", rows)
+        .column(&FLANK, |(flank, ..)| flank.side.name())
+        .column(&OPERATION, |(_, name, _)| name.as_str())
+        .column(&ARC, |(.., (arc_mm, _))| *arc_mm)
+        .column(&DEVIATION, |(.., (_, deviation_um))| *deviation_um);
+    write_table(&folder.join("flank_heights.csv"), &table.into())?;
 
     // One panel for each operation: roughing leaves a thousand times what finishing leaves.
     let panels = flanks[0].operations.iter().enumerate().map(|(operation, name)| Panel {

@@ -13,7 +13,7 @@
 //! compliances nor strokes nor edges.
 
 use gearcut::cut::cpu::Cpu;
-use gearcut::findings::Datum;
+use gearcut::findings::{QuantityRow, Table};
 use gearcut::measure::topography::Form;
 use gearcut::output::table::write_table;
 use gearcut::process::shaping::ShapingJob;
@@ -304,6 +304,9 @@ fn row(name: &str, window_mm: f64, parameter: &str, normal: &Gear, traditional: 
     ]
 }
 
+/// Cells are words: a mean stands with its range.
+static CELL: QuantityRow = QuantityRow::new("cell", "", "what the head of the column says");
+
 fn main() -> Result<(), Box<dyn Error>> {
     let folder = std::env::args().nth(1).map_or_else(|| PathBuf::from("out/paper_experiment"), PathBuf::from);
     std::fs::create_dir_all(&folder)?;
@@ -345,7 +348,9 @@ fn main() -> Result<(), Box<dyn Error>> {
             }
         }
     }
-    let cells = rows.iter().map(|row| row.iter().map(|cell| Datum::from(cell.as_str())).collect::<Vec<_>>());
-    write_table(&folder.join("paper_experiment.csv"), &columns, cells)?;
+    let table = columns.iter().enumerate().fold(Table::over("paper", "Hypotheses", &rows), |table, (place, name)| {
+        table.column(CELL.as_column().keyed(*name), move |row| row[place].as_str())
+    });
+    write_table(&folder.join("paper_experiment.csv"), &table.into())?;
     Ok(())
 }

@@ -7,7 +7,7 @@
 //! flank, 2 mm about the pitch curve, and the whole flank, on which the cusps' height itself changes.
 
 use gearcut::cut::cpu::Cpu;
-use gearcut::findings::Datum;
+use gearcut::findings::{QuantityRow, Table};
 use gearcut::measure::topography::Form;
 use gearcut::output::line_chart::{LineChart, LineSeries, Panel};
 use gearcut::output::table::write_table;
@@ -24,6 +24,14 @@ const FEEDS_MM: [f64; 9] = [0.1, 0.2, 0.3, 0.5, 0.75, 1.0, 1.25, 1.5, 2.0];
 /// Length of the windows along the profile, mm: in the middle of the flank, about the pitch curve.
 const LENGTHS_MM: [f64; 2] = [4.0, 2.0];
 const SYMBOLS: [&str; 5] = ["Sa", "Sq", "Sk", "Spk", "Svk"];
+
+static WINDOW: QuantityRow = QuantityRow::new("window", "", "window on the flank");
+static SURFACE: QuantityRow = QuantityRow::new("surface", "", "operation and linkage");
+static FLANK: QuantityRow = QuantityRow::new("flank", "", "flank of tooth 3");
+static FEED: QuantityRow = QuantityRow::new("feed_mm_per_stroke", "1", "circular feed per double stroke, mm");
+static STROKES: QuantityRow = QuantityRow::new("strokes_per_revolution", "1", "double strokes per revolution");
+static MARKS: QuantityRow = QuantityRow::new("marks", "1", "facets along the profile in the window");
+static PARAMETER: QuantityRow = QuantityRow::new("parameter", "um", "parameter of ISO 25178-2");
 
 /// What one operation left on one flank at one feed.
 struct Row {
@@ -126,25 +134,17 @@ fn main() -> Result<(), Box<dyn Error>> {
     rows.sort_by(|a, b| {
         (a.window, &a.surface, a.side).cmp(&(b.window, &b.surface, b.side)).then(a.feed_mm.total_cmp(&b.feed_mm))
     });
-    let mut columns = vec!["window", "surface", "flank", "feed_mm_per_stroke", "strokes_per_revolution", "marks"];
-    let named = SYMBOLS.map(|symbol| format!("{symbol}_um"));
-    columns.extend(named.iter().map(String::as_str));
-    write_table(
-        &folder.join("roughness_against_feed.csv"),
-        &columns,
-        rows.iter().map(|row| {
-            let mut cells: Vec<Datum> = vec![
-                row.window.into(),
-                row.surface.as_str().into(),
-                row.side.name().into(),
-                row.feed_mm.into(),
-                (row.strokes as u32).into(),
-                (row.marks as u32).into(),
-            ];
-            cells.extend(row.values_um.map(Datum::from));
-            cells
-        }),
-    )?;
+    let mut table = Table::over("roughness_against_feed", "Roughness against feed", &rows)
+        .column(&WINDOW, |row| row.window)
+        .column(&SURFACE, |row| row.surface.as_str())
+        .column(&FLANK, |row| row.side.name())
+        .column(&FEED, |row| row.feed_mm)
+        .column(&STROKES, |row| row.strokes)
+        .column(&MARKS, |row| row.marks);
+    for (place, symbol) in SYMBOLS.into_iter().enumerate() {
+        table = table.column(PARAMETER.as_column().keyed(symbol), |row| row.values_um[place]);
+    }
+    write_table(&folder.join("roughness_against_feed.csv"), &table.into())?;
     println!("| window | surface | flank | feed mm | strokes | marks | Sa | Sq | Sk | Spk | Svk um |");
     println!("| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |");
     for row in &rows {

@@ -24,6 +24,7 @@ mod lines;
 mod maps;
 pub(crate) mod notices;
 mod page;
+pub(crate) mod quantities;
 mod ranked;
 pub mod surfaces;
 mod table;

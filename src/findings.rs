@@ -14,6 +14,7 @@
 //! Roads not taken: a struct for each process, which every renderer had to know; headline numbers marked by a level
 //! inside their sections, which a file with the headline first would have to move or to repeat.
 
+pub mod column;
 pub mod damage;
 pub mod datum;
 pub mod entry;
@@ -29,6 +30,7 @@ pub mod table;
 pub mod tree;
 pub mod unit;
 
+pub use column::{Cell, Cells};
 pub use datum::Datum;
 pub use entry::Entry;
 pub use json::{RESULTS_FILE, SCHEMA, SCHEMA_VERSION};

@@ -24,3 +24,4 @@ pub mod measured;
 pub mod measured_table;
 pub(crate) mod notices;
 pub mod numbers;
+pub mod quantities;

@@ -8,7 +8,12 @@
 
 use crate::colormap::ColourScale;
 use crate::findings::notices::{InvertedHeights, PoorCorrelation};
-use crate::findings::{Datum, Notice, Quantity, Section, Table, TableColumn};
+use crate::findings::quantities::surfaces::{
+    CHAIN_OF_BOTH, CORRELATION, CURVE_OF_FIRST, CURVE_OF_SECOND, CURVES, DIFFERENCE_HIGHEST, DIFFERENCE_LOWEST,
+    DIFFERENCE_RMS, FIRST, MIRROR, OF_DIFFERENCE, OF_FIRST, OF_SECOND, OVERLAP, OVERLAY, PARAMETER, PARAMETER_UNIT,
+    PARAMETERS, RATIO, SECOND, SHIFT_X, SHIFT_Y, WHAT_IT_IS,
+};
+use crate::findings::{Notice, Section};
 use crate::measure::topography::align::{self, Aligned, SurfaceMarks};
 use crate::measure::topography::{Arguments, Chain, Evaluation, Parameter, Surface};
 use crate::output::atomic::file_error;
@@ -242,55 +247,39 @@ impl SurfaceComparison {
     }
 
     /// The comparison as findings: how the second was laid over the first, and the parameters of both.
-    pub fn section(&self, key: &str, title: impl Into<String>) -> Section {
+    pub fn section(&self) -> Section {
         let a = &self.aligned.alignment;
-        let um = |value: f64, definition: &'static str| Quantity::number(value, "um", definition);
         let [low, high] = self.difference.ends_um();
-        let missing = "the parameter does not exist on this surface";
-        let columns = vec![
-            TableColumn::words("parameter", "symbol of ISO 25178-2"),
-            TableColumn::words("unit", "unit of its values"),
-            TableColumn::by_row("first", "of the first surface").or(missing),
-            TableColumn::by_row("second", "of the second surface").or(missing),
-            TableColumn::by_row("difference", "second less first").or(missing),
-            TableColumn::words("definition", "what it is"),
-        ];
-        let parameters = self.rows().into_iter().map(|row| {
-            let difference = row.difference();
-            let [first, second, difference] = [row.values[0], row.values[1], difference].map(Datum::from);
-            let [symbol, unit, definition] = [row.symbol.as_str(), row.unit, row.definition.as_str()].map(Datum::from);
-            vec![symbol, unit, first, second, difference, definition]
-        });
-        let none = "the curve has no height there";
-        let curves = vec![
-            TableColumn::new("ratio", "%", "areal material ratio"),
-            TableColumn::new("first", "um", "height of the first surface over its mean").or(none),
-            TableColumn::new("second", "um", "height of the second surface over its mean").or(none),
-        ];
+        let parameters = PARAMETERS
+            .table(self.rows())
+            .column(&PARAMETER, |row| row.symbol.clone())
+            .column(&PARAMETER_UNIT, |row| row.unit)
+            .column(&OF_FIRST, |row| row.values[0])
+            .column(&OF_SECOND, |row| row.values[1])
+            .column(&OF_DIFFERENCE, ComparedRow::difference)
+            .column(&WHAT_IT_IS, |row| row.definition.clone());
         let [first, second] = [0, 1].map(|k| self.curve(k, TABLE_POINTS));
-        let heights = first.into_iter().zip(second);
-        let heights = heights.map(|((ratio, a), (_, b))| vec![Datum::from(ratio), a.into(), b.into()]);
-        Section::new(key, title)
-            .with("first", Quantity::text(&self.names[0], "surface that keeps its place"))
-            .with("second", Quantity::text(&self.names[1], "surface that is laid over it"))
-            .with("mirror", Quantity::text(self.mirror(), "axes of the second that run the other way"))
-            .with("shift_x", um(a.shift_um[0], "place of the second's first point along x of the first"))
-            .with("shift_y", um(a.shift_um[1], "place of the second's first point along y of the first"))
-            .with(
-                "correlation",
-                Quantity::number(
-                    a.correlation,
-                    "1",
-                    "of the heights of both on the points that they share, planes off",
-                ),
-            )
-            .with("overlap", Quantity::number(100.0 * a.overlap, "%", "shared points, of the smaller surface's"))
-            .with("difference_rms", um(self.difference_um(), "root mean square of second less first, levelled"))
-            .with("difference_lowest", um(low, "lowest value of second less first, levelled"))
-            .with("difference_highest", um(high, "highest value of second less first, levelled"))
-            .with("chain", Quantity::text(self.chain.join("; "), "what both went through before their parameters"))
-            .table(Table::new("parameters", "Parameters on shared points", columns).with_rows(parameters))
-            .table(Table::new("curves", "Material ratio curves of both", curves).with_rows(heights))
+        let curves = CURVES
+            .table(first.into_iter().zip(second))
+            .column(&RATIO, |((ratio, _), _)| *ratio)
+            .column(&CURVE_OF_FIRST, |((_, height), _)| *height)
+            .column(&CURVE_OF_SECOND, |(_, (_, height))| *height);
+        OVERLAY
+            .section([
+                FIRST.of(self.names[0].as_str()),
+                SECOND.of(self.names[1].as_str()),
+                MIRROR.of(self.mirror()),
+                SHIFT_X.of(a.shift_um[0]),
+                SHIFT_Y.of(a.shift_um[1]),
+                CORRELATION.of(a.correlation),
+                OVERLAP.of(100.0 * a.overlap),
+                DIFFERENCE_RMS.of(self.difference_um()),
+                DIFFERENCE_LOWEST.of(low),
+                DIFFERENCE_HIGHEST.of(high),
+                CHAIN_OF_BOTH.of(self.chain.join("; ")),
+            ])
+            .table(parameters)
+            .table(curves)
     }
 
     /// Axes of the second that run the other way.

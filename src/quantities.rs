@@ -7,6 +7,7 @@ use crate::findings::quantities::SHARED;
 use crate::findings::{QuantityGroup, QuantityRow, unit};
 use crate::process::PROCESSES;
 use crate::wrap::wrapped;
+use crate::{compare, influence, pair_job, scatter, texture};
 use std::fmt::Write as _;
 
 /// Widest line of the page but for tables, characters.
@@ -15,17 +16,24 @@ const COLUMNS: usize = 120;
 /// All groups, those that processes share first.
 pub fn groups() -> Vec<&'static QuantityGroup> {
     let own = PROCESSES.iter().flat_map(|process| process.quantities);
-    SHARED.iter().chain(own).copied().collect()
+    let others = [
+        texture::quantities::QUANTITIES,
+        pair_job::quantities::QUANTITIES,
+        influence::quantities::QUANTITIES,
+        scatter::quantities::QUANTITIES,
+        compare::quantities::QUANTITIES,
+    ];
+    SHARED.iter().chain(own).chain(others.into_iter().flatten()).copied().collect()
 }
 
 /// The page of the docs.
 pub fn markdown() -> String {
-    let lead = "What `results.json` can hold: key, symbol, unit, definition, and the reasons for which there may be no \
+    let lead = "What `results.json` and tables can hold: key, symbol, unit, definition, and the reasons for which there may be no \
         value. The same key is the same quantity in every process. `<...>` is a name of the scene or a number. This \
         page is printed from the table in the source.";
     let mut page = format!("# Quantities\n\n{}", paragraph(lead));
     for group in groups() {
-        let place = paragraph(&format!("In `results.json`: {}.", group.place.replace('<', "\\<")));
+        let place = paragraph(&format!("Where: {}.", group.place.replace('<', "\\<")));
         let _ = write!(page, "\n## {}\n\n{place}\n", group.title);
         page.push_str("| key | symbol | unit | definition | no value because |\n| --- | --- | --- | --- | --- |\n");
         for row in group.rows {

@@ -17,6 +17,7 @@ pub mod layers;
 pub(crate) mod notices;
 pub mod numbers;
 pub mod page;
+pub mod quantities;
 pub mod rows;
 pub mod seeds;
 pub mod statistics;

@@ -8,6 +8,7 @@ use gearcut::output::text::{Sheet, plain};
 use gearcut::pair_job::flanks::FlankSource;
 use gearcut::pair_job::options::PairOptions;
 use gearcut::pair_job::page::PairRecord;
+use gearcut::pair_job::quantities::{DISTANCE, PAIR};
 use gearcut::pair_job::watch::Watch;
 use gearcut::pair_job::{findings, member, rolled, spline, write};
 use gearcut::scene::{LoadedScene, Mate};
@@ -63,7 +64,7 @@ pub fn run(arguments: &PairArguments) -> Result<(), Failure> {
 fn heading(found: &Findings, teeth: [u32; 2], module_mm: f64, sheet: &mut Sheet) {
     let [a, b] = teeth;
     let module = plain(module_mm);
-    let axes = match found.find("pair").and_then(|pair| pair.number("center_distance")) {
+    let axes = match found.group(&PAIR).and_then(|pair| pair.value(&DISTANCE)) {
         Some(apart_mm) => format!("axes {} mm apart", plain(apart_mm)),
         None => "a splined shaft in its hub".to_owned(),
     };

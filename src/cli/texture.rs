@@ -6,12 +6,12 @@ mod reading;
 use std::path::Path;
 
 use gearcut::Refusal;
+use gearcut::findings::Entry;
 use gearcut::interrupt::Interrupt;
 use gearcut::measure::topography::height_steps::coarse_step_um;
 use gearcut::measure::topography::{Arguments, Chain, Evaluation, Parameter, ProfileTrace, Surface};
 use gearcut::output::surface_files::{SurfaceFile, write_surface};
 use gearcut::output::text::{Sheet, plain, significant};
-use gearcut::texture::quantities;
 use serde_json::{Value, json};
 
 use super::args::TextureArguments;
@@ -126,7 +126,7 @@ fn check(arguments: &TextureArguments) -> Result<(), Refusal> {
 
 /// Parameters as an object.
 fn by_symbol(parameters: &[Parameter]) -> serde_json::Map<String, Value> {
-    quantities(parameters).into_iter().map(|(symbol, quantity)| (symbol, json!(quantity))).collect()
+    parameters.iter().map(|of| (of.symbol.clone(), json!(Entry::from(of).quantity))).collect()
 }
 
 fn document(

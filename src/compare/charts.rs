@@ -3,7 +3,7 @@
 //! asks for those: all results in one picture, a panel for each column of a table.
 
 use super::{Compared, letters};
-use crate::findings::{ColumnChart, Datum, Findings, Table, TableColumn, unit};
+use crate::findings::{ColumnChart, Findings, Table, TableColumn, unit};
 use crate::output::bar_chart::{BarChart, BarSeries};
 use crate::output::line_chart::{LineChart, LineSeries, Panel};
 use crate::output::table;
@@ -15,7 +15,7 @@ pub(super) fn charts(results: &[Compared]) -> Vec<(String, BarChart)> {
     for path in paths(results, ColumnChart::Bars) {
         let tables: Vec<(&str, Option<&Table>)> =
             results.iter().map(|one| (one.name.as_str(), table_at(&one.findings, &path))).collect();
-        let rows = |table: &&Table| table.rows.len();
+        let rows = |table: &&Table| table.len();
         // The longest one, for the names of columns and rows.
         let Some(longest) = tables.iter().filter_map(|of| of.1).max_by_key(rows).filter(|table| rows(table) > 0) else {
             continue;
@@ -26,7 +26,7 @@ pub(super) fn charts(results: &[Compared]) -> Vec<(String, BarChart)> {
             let of = |count: usize, what: &str, tables: &[(&str, Option<&Table>)]| {
                 chart(&path, what, longest, count, column, tables)
             };
-            charts.push((stem.clone(), of(longest.rows.len(), "", &tables)));
+            charts.push((stem.clone(), of(longest.len(), "", &tables)));
             let Some(period) = period else { continue };
             let first = format!(", 1 to {period}: the first period");
             charts.push((format!("{stem}_first_period"), of(period, &first, &tables)));
@@ -49,15 +49,15 @@ pub(super) fn curves(results: &[Compared]) -> Result<Vec<(String, LineChart)>> {
         let mut x = (String::new(), String::new());
         for one in results {
             let Some(table) = table_at(&one.findings, &path) else { continue };
-            let rows = table::rows(table, &one.folder)?;
+            let table = table::with_rows(table, &one.folder)?;
             title.clone_from(&table.title);
             x = (words(&table.columns[0]), signs(&table.columns[0]));
             for (k, column) in table.columns.iter().enumerate() {
                 if column.chart != Some(ColumnChart::Curve) {
                     continue;
                 }
-                let value = |row: &[Datum], k: usize| row[k].number().unwrap_or(f64::NAN);
-                let points = rows.iter().map(|row| (value(row, 0), value(row, k))).collect();
+                let value = |row: usize, k: usize| table.cells[k].datum(row).number().unwrap_or(f64::NAN);
+                let points = (0..table.len()).map(|row| (value(row, 0), value(row, k))).collect();
                 let series = LineSeries { name: one.name.clone(), points };
                 let name = words(column);
                 match panels.iter_mut().find(|panel| panel.value_name == name) {
@@ -125,11 +125,10 @@ fn chart(
     column: &TableColumn,
     tables: &[(&str, Option<&Table>)],
 ) -> BarChart {
-    let names = |table: &Table| table.rows.iter().map(|row| row[0].name()).collect::<Vec<_>>();
-    let categories: Vec<String> = names(longest).into_iter().take(count).collect();
+    let categories: Vec<String> = longest.names().take(count).collect();
     let series = tables.iter().map(|&(name, table)| {
         let values: Vec<(String, Option<f64>)> =
-            table.map_or_else(Vec::new, |table| names(table).into_iter().zip(table.numbers(&column.key)).collect());
+            table.map_or_else(Vec::new, |table| table.names().zip(table.numbers(&column.key)).collect());
         let value = |category: &String| values.iter().find(|(name, _)| name == category).and_then(|(_, value)| *value);
         BarSeries { name: name.to_owned(), values: categories.iter().map(value).collect() }
     });

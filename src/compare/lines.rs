@@ -6,11 +6,11 @@
 use std::collections::HashMap;
 
 use super::Compared;
+use super::quantities::FIGURE_OF_FLANK;
+use crate::findings::quantities::OPERATIONS;
 use crate::findings::quantities::inspection::{FIGURE, FIGURES, INSPECTION, LEFT, NAME, RIGHT};
-use crate::findings::{Datum, Entry, Findings, Level, Quantity};
+use crate::findings::{Entry, Findings, Level, Quantity};
 
-/// Section whose parts are named by themselves.
-const OPERATIONS: &str = "operations";
 /// Keys of quantities that say where something was looked at: they are shown, but not subtracted.
 const PLACES: [&str; 3] = ["tooth", "center_profile", "center_lead"];
 
@@ -57,7 +57,7 @@ fn named(findings: &Findings, headline: bool) -> Vec<(String, Entry)> {
     findings.walk(&mut |path, section| {
         let above = path.rsplit_once('.').and_then(|(above, _)| titles.get(above)).cloned().unwrap_or_default();
         // That an operation is one of the operations says nothing.
-        let own = Some(section.title.clone()).filter(|_| section.key != OPERATIONS);
+        let own = Some(section.title.clone()).filter(|_| section.key != OPERATIONS.key);
         let titled: Vec<String> = above.into_iter().chain(own).collect();
         named.extend(section.entries.iter().map(|entry| {
             let title = plain_title(&titled, &entry.heading());
@@ -93,21 +93,14 @@ fn figures(findings: &Findings) -> Vec<Entry> {
     let Some(table) = findings.group(&INSPECTION).and_then(|section| section.table_of(FIGURES.key)) else {
         return Vec::new();
     };
-    let [symbols, names] = [&FIGURE, &NAME].map(|row| table.column(row.key));
     let mut found = Vec::new();
-    for (row, sides) in table.rows.iter().zip(table.values(&LEFT).zip(table.values(&RIGHT))) {
-        let word = |column: Option<usize>| match column.and_then(|column| row.get(column)) {
-            Some(Datum::Word(word)) => Some(word),
-            _ => None,
-        };
-        let (Some(symbol), Some(name)) = (word(symbols), word(names)) else { continue };
+    let sides = table.values(&LEFT).zip(table.values(&RIGHT));
+    for ((symbol, name), sides) in table.words(&FIGURE).zip(table.words(&NAME)).zip(sides) {
+        let (Some(symbol), Some(name)) = (symbol, name) else { continue };
         let mut add = |side: &str, title: &str, value_um: f64| {
-            let definition = format!("{name} of ISO 1328-1{title}, of the worst flank with its sign");
-            found.push(Entry {
-                title: format!("{name}{title} {symbol}"),
-                level: Level::Summary,
-                ..Entry::new(&format!("{}{side}", name.replace(' ', "_")), Quantity::number(value_um, "um", definition))
-            });
+            let entry = FIGURE_OF_FLANK.of(value_um).remarked(&format!(": {name}{title}"));
+            let key = format!("{}{side}", name.replace(' ', "_"));
+            found.push(entry.keyed(key).titled(format!("{name}{title} {symbol}")));
         };
         match sides {
             (Some(left_um), Some(right_um)) => {

@@ -10,7 +10,7 @@
 use super::Compared;
 use super::lines::{Line, is_rounding};
 use crate::findings::quantities::inspection::{FIGURE, FIGURE_LIMIT, FIGURES, INSPECTION};
-use crate::findings::{Datum, Level, Quantity};
+use crate::findings::{Level, Quantity};
 use std::collections::{HashMap, HashSet};
 
 /// Lines that are printed first.
@@ -33,10 +33,9 @@ pub(super) fn limits_um(results: &[Compared]) -> HashMap<String, f64> {
         let Some(table) = one.findings.group(&INSPECTION).and_then(|section| section.table_of(FIGURES.key)) else {
             continue;
         };
-        let Some(symbols) = table.column(FIGURE.key) else { continue };
-        for (row, limit_um) in table.rows.iter().zip(table.values(&FIGURE_LIMIT)) {
-            if let (Some(Datum::Word(symbol)), Some(limit_um)) = (row.get(symbols), limit_um.filter(|um| *um > 0.0)) {
-                limits_um.entry(symbol.clone()).or_insert(limit_um);
+        for (symbol, limit_um) in table.words(&FIGURE).zip(table.values(&FIGURE_LIMIT)) {
+            if let (Some(symbol), Some(limit_um)) = (symbol, limit_um.filter(|um| *um > 0.0)) {
+                limits_um.entry(symbol.to_owned()).or_insert(limit_um);
             }
         }
     }

@@ -13,12 +13,14 @@
 
 mod page;
 
-use crate::findings::Datum;
+use super::quantities::{LESS, OVER};
+use crate::findings::Table;
+use crate::findings::quantities::surfaces::{OF_FIRST, OF_SECOND, PARAMETER, PARAMETER_UNIT, WHAT_IT_IS};
 use crate::output::folder::OutputFolder;
 use crate::output::report::REPORT_FILE;
 use crate::output::table::write_table;
 use crate::output::text::Sheet;
-use crate::overlay::SurfaceComparison;
+use crate::overlay::{ComparedRow, SurfaceComparison};
 use gearcut_core::error::Result;
 
 /// Writes files and page.
@@ -26,15 +28,16 @@ use gearcut_core::error::Result;
 /// # Errors
 /// Files that cannot be written.
 pub fn write(of: &SurfaceComparison, folder: &OutputFolder) -> Result<()> {
-    let columns = ["parameter", "unit", "first", "second", "second_less_first", "second_over_first", "definition"];
-    let rows = of.rows().into_iter().map(|row| {
-        let [a, b] = row.values;
-        let ratio = a.zip(b).filter(|(a, _)| *a != 0.0).map(|(a, b)| b / a);
-        let [symbol, unit, definition] = [row.symbol.as_str(), row.unit, row.definition.as_str()].map(Datum::from);
-        let [a, b, less, over] = [a, b, row.difference(), ratio].map(Datum::from);
-        [symbol, unit, a, b, less, over, definition]
-    });
-    write_table(&folder.path("comparison.csv")?, &columns, rows)?;
+    let ratio = |[a, b]: [Option<f64>; 2]| a.zip(b).filter(|(a, _)| *a != 0.0).map(|(a, b)| b / a);
+    let table = Table::over("surfaces", "Surfaces", of.rows())
+        .column(&PARAMETER, |row| row.symbol.clone())
+        .column(&PARAMETER_UNIT, |row| row.unit)
+        .column(&OF_FIRST, |row| row.values[0])
+        .column(&OF_SECOND, |row| row.values[1])
+        .column(&LESS, ComparedRow::difference)
+        .column(&OVER, |row| ratio(row.values))
+        .column(&WHAT_IT_IS, |row| row.definition.clone());
+    write_table(&folder.path("comparison.csv")?, &table.into())?;
     let pictures = of.write_maps(folder, "")?;
     let (abbott, profiles) = (of.abbott(), of.profiles());
     abbott.write_svg(&folder.path("abbott.svg")?)?;

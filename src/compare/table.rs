@@ -3,8 +3,9 @@
 use std::path::Path;
 
 use super::lines::{Line, is_rounding};
+use super::quantities::{DEFINITION, DIFFERENCE_TO_FIRST, FIRST_OVER_IT, PATH, UNIT, VALUE_OF_RESULT};
 use super::{Comparison, letters};
-use crate::findings::{Datum, Quantity};
+use crate::findings::{Quantity, Table};
 use crate::output::table::write_table;
 use crate::output::text::{Sheet, significant};
 use gearcut_core::Result;
@@ -14,18 +15,32 @@ const LONGEST_WORDS: usize = 20;
 
 impl Comparison {
     pub(super) fn write_csv(&self, path: &Path) -> Result<()> {
-        let values: Vec<String> = letters().take(self.results.len()).map(String::from).collect();
-        let others = &values[1..];
-        let differences: Vec<String> = others.iter().map(|letter| format!("difference_{letter}_minus_a")).collect();
-        let ratios: Vec<String> = others.iter().map(|letter| format!("ratio_a_to_{letter}")).collect();
-        let mut columns = vec!["quantity", "unit"];
-        columns.extend(values.iter().chain(&differences).chain(&ratios).map(String::as_str));
-        columns.push("definition");
-        let mut names = vec![Datum::from("name"), Datum::Undefined];
-        names.extend(self.results.iter().map(|one| Datum::from(one.name.as_str())));
-        names.extend(differences.iter().chain(&ratios).map(|_| Datum::Undefined));
-        names.push("name under which the result is shown".into());
-        write_table(path, &columns, [names].into_iter().chain(self.lines.iter().map(cells)))
+        write_table(path, &self.as_table())
+    }
+
+    /// A row with the names of the results, then one for each line. Values are words: those of some lines are.
+    fn as_table(&self) -> Table {
+        let rows = std::iter::once(None).chain(self.lines.iter().map(Some));
+        let mut table = Table::over("comparison", "Comparison", rows)
+            .column(&PATH, |line| line.map_or("name", |line: &Line| line.name.as_str()))
+            .column(&UNIT, |line| Some(line.as_ref()?.either()?.unit()?.to_owned()));
+        for (index, (letter, one)) in letters().zip(&self.results).enumerate() {
+            table = table.column(VALUE_OF_RESULT.as_column().keyed(letter.to_string()), |line| match line {
+                None => Some(one.name.clone()),
+                Some(line) => line.quantities[index].as_ref().and_then(in_full),
+            });
+        }
+        for (index, letter) in letters().take(self.results.len()).skip(1).enumerate() {
+            let column = DIFFERENCE_TO_FIRST.as_column().keyed(format!("difference_{letter}_minus_a"));
+            table = table.column(column, |line| line.and_then(|line| line.differences().nth(index)?));
+        }
+        for (index, letter) in letters().take(self.results.len()).skip(1).enumerate() {
+            let column = FIRST_OVER_IT.as_column().keyed(format!("ratio_a_to_{letter}"));
+            table = table.column(column, |line| line.and_then(|line| line.ratios().nth(index)?));
+        }
+        let definition = |line: &Line| Some(line.either()?.definition().to_owned());
+        let of_names = "name under which the result is shown";
+        table.column(&DEFINITION, |line| line.map_or(Some(of_names.to_owned()), definition)).into()
     }
 
     /// Titles, then one row per line: its values, difference and ratio where there are just two, the unit.
@@ -108,16 +123,9 @@ fn shown(value: f64) -> String {
     if is_rounding(value) { "0".to_owned() } else { significant(value, 4) }
 }
 
-fn cells(line: &Line) -> Vec<Datum> {
-    let of = line.either();
-    let mut cells = vec![line.name.as_str().into(), of.and_then(Quantity::unit).map_or(Datum::Undefined, Datum::from)];
-    cells.extend(line.quantities.iter().map(|quantity| match quantity {
-        Some(quantity) => quantity.words().map_or_else(|| quantity.value().into(), Datum::from),
-        None => Datum::Undefined,
-    }));
-    cells.extend(line.differences().chain(line.ratios()).map(Datum::from));
-    cells.push(of.map_or(Datum::Undefined, |quantity| quantity.definition().into()));
-    cells
+/// A value in full: the fewest digits that read back to it.
+fn in_full(quantity: &Quantity) -> Option<String> {
+    quantity.words().map(str::to_owned).or_else(|| quantity.value().map(|value| format!("{value:?}")))
 }
 
 fn printed(quantity: Option<&Quantity>) -> String {

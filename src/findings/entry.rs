@@ -3,7 +3,8 @@
 use super::datum::Datum;
 use super::place::Place;
 use super::quantity::Quantity;
-use super::row::{Level, QuantityRow, title_of};
+use super::row::{Level, QuantityRow};
+use crate::measure::topography::Parameter;
 use std::borrow::Cow;
 
 /// A quantity under its key.
@@ -47,6 +48,18 @@ impl QuantityRow {
         let unit = (!self.unit.is_empty()).then_some(Cow::Borrowed(self.unit));
         let quantity = Quantity::new(value, unit, self.definition.into(), why);
         Entry { key: self.key.to_owned(), title: self.title(), level: self.level, quantity }
+    }
+}
+
+impl From<&Parameter> for Entry {
+    /// Under its symbol; symbol, unit and definition are those of the list of parameters.
+    fn from(of: &Parameter) -> Self {
+        let (value, why) = match &of.value {
+            Ok(value) => (Datum::from(*value), "the computation gave no finite number".to_owned()),
+            Err(why) => (Datum::Undefined, why.clone()),
+        };
+        let quantity = Quantity::new(value, Some(of.unit.into()), of.definition.clone().into(), why.into());
+        Self { key: of.symbol.clone(), title: of.symbol.clone(), level: Level::Detail, quantity }
     }
 }
 
@@ -103,16 +116,6 @@ impl Entry {
     #[must_use]
     pub(super) fn first_of_all(self) -> Self {
         Self { level: Level::Headline, ..self }
-    }
-
-    /// A detail, called as its key.
-    pub fn new(key: &str, quantity: Quantity) -> Self {
-        Self { key: key.to_owned(), title: title_of(key), level: Level::Detail, quantity }
-    }
-
-    /// A number of the headline.
-    pub fn headline(key: &str, title: &str, quantity: Quantity) -> Self {
-        Self { key: key.to_owned(), title: title.to_owned(), level: Level::Headline, quantity }
     }
 
     /// The name for a heading: the title with a capital. A symbol, such as f_i", keeps its letter.

@@ -8,12 +8,13 @@ use std::path::Path;
 
 use serde_json::{Map, Value, json};
 
+use super::column::Cells;
 use super::datum::Datum;
 use super::entry::Entry;
 use super::notice::Notice;
 use super::quantity::Quantity;
 use super::row::{ColumnChart, Level, title_of};
-use super::table::{Table, TableColumn};
+use super::table::{CSV, Table, TableColumn};
 use super::tree::{Findings, Section};
 use crate::regular_file;
 use gearcut_core::{Error, Result};
@@ -111,17 +112,17 @@ fn of_section(section: &Section) -> Value {
 }
 
 fn of_table(table: &Table) -> Value {
-    let rows: &[Vec<Datum>] = if table.rows_in_file { &[] } else { &table.rows };
-    let rows = rows.iter().map(|row| row.iter().map(Datum::to_json).collect::<Vec<_>>());
+    let rows = table.rows().take(if table.rows_in_file { 0 } else { table.len() });
+    let rows = rows.map(|row| row.iter().map(Datum::to_json).collect::<Vec<_>>());
     let mut value = json!({
         "title": table.title,
-        "columns": table.columns.iter().map(of_column).collect::<Vec<_>>(),
+        "columns": table.columns.iter().zip(&table.cells).map(of_column).collect::<Vec<_>>(),
         "rows": rows.collect::<Vec<_>>(),
     });
     if let Some(rows) = table.period_rows {
         value["period_rows"] = json!(rows);
     }
-    if let Some(file) = &table.file {
+    if let Some(file) = table.file_as(CSV) {
         value["file"] = json!(file);
     }
     if table.rows_in_file {
@@ -130,8 +131,13 @@ fn of_table(table: &Table) -> Value {
     value
 }
 
-fn of_column(column: &TableColumn) -> Value {
-    let mut value = json!({"key": column.key, "unit": column.unit, "definition": column.definition});
+fn of_column((column, cells): (&TableColumn, &Cells)) -> Value {
+    let mut value = json!({
+        "key": column.key,
+        "unit": column.unit,
+        "definition": column.definition,
+        "type": cells.type_name(),
+    });
     if let Some(why) = &column.why {
         value["why"] = json!(why);
     }

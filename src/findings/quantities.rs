@@ -10,9 +10,14 @@ pub mod flanks;
 pub mod inspection;
 pub mod program;
 pub mod sizes;
+pub mod surfaces;
 pub mod teeth;
 
 use super::row::QuantityGroup;
+
+/// The section with a part for each operation.
+pub static OPERATIONS: QuantityGroup =
+    QuantityGroup { key: "operations", title: "Operations", place: "operations", rows: &[] };
 
 /// The groups of this table.
 pub static SHARED: &[&QuantityGroup] = &[
@@ -21,11 +26,17 @@ pub static SHARED: &[&QuantityGroup] = &[
     &teeth::TEETH,
     &inspection::QUALITY,
     &inspection::INSPECTION,
+    &inspection::CHARTS,
     &inspection::FIGURES,
     &sizes::SIZES,
     &cutting::CUTTING,
     &cutting::AXES,
+    &cutting::AXIS_TABLES,
     &blank::BLANK,
     &blank::DAMAGE,
     &program::PROGRAM,
+    &program::MACHINE_ERRORS,
+    &surfaces::OVERLAY,
+    &surfaces::PARAMETERS,
+    &surfaces::CURVES,
 ];

@@ -40,48 +40,6 @@ impl Quantity {
         Self { value, unit, definition, why, place: None }
     }
 
-    /// A measured or computed number; NaN and infinity become undefined.
-    pub fn number(value: f64, unit: impl Into<Cow<'static, str>>, definition: impl Into<Cow<'static, str>>) -> Self {
-        let why = if value.is_finite() {
-            String::new()
-        } else {
-            format!("the computation gave {value}, which is not a finite number")
-        };
-        Self::new(value.into(), Some(unit.into()), definition.into(), why.into())
-    }
-
-    /// A number if there is one, else undefined for the reason given.
-    pub fn number_or(
-        value: Option<f64>,
-        unit: impl Into<Cow<'static, str>>,
-        definition: impl Into<Cow<'static, str>>,
-        why: impl Into<String>,
-    ) -> Self {
-        match value {
-            Some(value) => Self::number(value, unit, definition),
-            None => Self::undefined(unit, definition, why),
-        }
-    }
-
-    /// A count of things; the unit says of what, as in "strokes".
-    pub fn count(value: u64, unit: impl Into<Cow<'static, str>>, definition: impl Into<Cow<'static, str>>) -> Self {
-        Self::new(value.into(), Some(unit.into()), definition.into(), "".into())
-    }
-
-    /// A word or sentence, such as the name of a backend; its unit is null.
-    pub fn text(value: impl Into<String>, definition: impl Into<Cow<'static, str>>) -> Self {
-        Self::new(Datum::Word(value.into()), None, definition.into(), "".into())
-    }
-
-    /// A value that does not exist here, with the reason.
-    pub fn undefined(
-        unit: impl Into<Cow<'static, str>>,
-        definition: impl Into<Cow<'static, str>>,
-        why: impl Into<String>,
-    ) -> Self {
-        Self::new(Datum::Undefined, Some(unit.into()), definition.into(), why.into().into())
-    }
-
     /// The same quantity where its value does not exist, with the reason.
     #[must_use]
     pub fn without_value(self, why: impl Into<Cow<'static, str>>) -> Self {
@@ -112,14 +70,12 @@ impl Quantity {
         self.value.number()
     }
 
-    /// The value as a cell of a table.
-    pub fn datum(&self) -> &Datum {
-        &self.value
-    }
-
-    /// Whether it counts whole things.
-    pub fn is_count(&self) -> bool {
-        matches!(self.value, Datum::Count(_))
+    /// The count of whole things, if it is one.
+    pub fn whole(&self) -> Option<u64> {
+        match self.value {
+            Datum::Count(count) => Some(count),
+            _ => None,
+        }
     }
 
     /// The word or sentence, if it is one.
@@ -192,6 +148,12 @@ impl Serialize for Quantity {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::findings::QuantityRow;
+
+    static STOCK: QuantityRow = QuantityRow::new("stock", "mm", "smallest normal stock").or(&[POINTED]);
+    static STROKES: QuantityRow = QuantityRow::new("strokes", "strokes", "strokes per revolution");
+    static BACKEND: QuantityRow = QuantityRow::new("backend", "", "backend");
+    const POINTED: &str = "the tooth is pointed";
 
     fn json(quantity: &Quantity) -> String {
         serde_json::to_string(quantity).expect("a quantity is always JSON")
@@ -199,8 +161,7 @@ mod tests {
 
     #[test]
     fn a_number_carries_unit_definition_and_place() {
-        let place = Place::on_flank(7, "left", 1.5, 12.0);
-        let stock = Quantity::number(0.1, "mm", "smallest normal stock").at(place);
+        let stock = STOCK.of(0.1).at(Place::on_flank(7, "left", 1.5, 12.0)).quantity;
         assert_eq!(
             json(&stock),
             concat!(
@@ -214,28 +175,25 @@ mod tests {
     #[test]
     fn what_is_not_finite_is_null_with_a_reason() {
         for value in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
-            let text = json(&Quantity::number(value, "mm", "tip land"));
-            assert!(text.starts_with(r#"{"value":null,"unit":"mm","definition":"tip land","why":"#), "{text}");
+            let text = json(&STOCK.of(value).quantity);
+            let null = r#"{"value":null,"unit":"mm","definition":"smallest normal stock","why":"the computation"#;
+            assert!(text.starts_with(null), "{text}");
         }
-        let text = json(&Quantity::number_or(None, "mm", "tip land", "the tooth is pointed"));
+        let text = json(&STOCK.of_or(None::<f64>, POINTED).quantity);
         assert!(text.ends_with(r#""why":"the tooth is pointed"}"#), "{text}");
     }
 
     #[test]
     fn counts_stay_whole_and_texts_have_no_unit() {
-        assert_eq!(json(&Quantity::count(4200, "strokes", "strokes per revolution")).find("4200,"), Some(9));
-        assert_eq!(json(&Quantity::text("cpu", "backend")), r#"{"value":"cpu","unit":null,"definition":"backend"}"#);
+        assert_eq!(json(&STROKES.of(4200_u32).quantity).find("4200,"), Some(9));
+        assert_eq!(json(&BACKEND.of("cpu").quantity), r#"{"value":"cpu","unit":null,"definition":"backend"}"#);
     }
 
     #[test]
     fn quantities_read_back_as_they_were() {
         let place = Place::on_flank(7, "left", 1.5, 12.0);
-        for quantity in [
-            Quantity::number(0.1 + 0.2, "mm", "stock").at(place),
-            Quantity::count(84, "flanks", "flanks cut"),
-            Quantity::text("cpu", "backend"),
-            Quantity::undefined("mm", "tip land", "the tooth is pointed"),
-        ] {
+        let entries = [STOCK.of(0.1 + 0.2).at(place), STROKES.of(84_u32), BACKEND.of("cpu"), STOCK.none(POINTED)];
+        for quantity in entries.map(|entry| entry.quantity) {
             let back: Quantity = serde_json::from_str(&json(&quantity)).expect("its own JSON");
             assert_eq!(back, quantity);
         }
@@ -246,8 +204,7 @@ mod tests {
     #[test]
     fn numbers_read_back_bit_for_bit() {
         for value in [0.1 + 0.2, 1e-300, -6.02214076e23, f64::MIN_POSITIVE, f64::MAX] {
-            let back: serde_json::Value =
-                serde_json::from_str(&json(&Quantity::number(value, "mm", "test"))).expect("valid JSON");
+            let back: serde_json::Value = serde_json::from_str(&json(&STOCK.of(value).quantity)).expect("valid JSON");
             assert_eq!(back["value"].as_f64().map(f64::to_bits), Some(value.to_bits()));
         }
     }

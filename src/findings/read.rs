@@ -5,13 +5,14 @@
 
 use serde_json::{Map, Value};
 
+use super::column::Cells;
 use super::datum::Datum;
 use super::entry::Entry;
 use super::json::{CHARTS, LEVELS};
 use super::notice::{Notice, Severity};
 use super::quantity::Quantity;
 use super::row::{Level, title_of};
-use super::table::{Table, TableColumn};
+use super::table::{CSV, Table, TableColumn};
 use super::tree::{Findings, Section};
 
 /// What reads a part, or why it cannot.
@@ -103,9 +104,17 @@ fn table(key: &str, value: &Value) -> Read<Table> {
         cells.iter().map(Datum::from_json).collect::<Read<Vec<_>>>()
     });
     let rows = rows.collect::<Read<Vec<_>>>()?;
-    let mut table = Table::new(key, title, columns).with_rows(rows);
+    let cells = list(all, "columns")?.iter().enumerate().map(|(index, column)| {
+        let none = column.get("type").and_then(Value::as_str).and_then(Cells::of_type);
+        let none = none.ok_or("the type of a column is number, count or word")?;
+        let full = rows.iter().try_fold(none, |cells, row| cells.and(&row[index]));
+        full.ok_or_else(|| format!("a cell of {} is not of its type", columns[index].key))
+    });
+    let cells = cells.collect::<Read<_>>()?;
+    let mut table = Table { columns, cells, ..Table::new(key, title) };
     table.period_rows = all.get("period_rows").and_then(Value::as_u64).and_then(|rows| rows.try_into().ok());
-    table.file = all.get("file").and_then(Value::as_str).map(str::to_owned);
+    let file = all.get("file").and_then(Value::as_str);
+    table.file = file.map(|file| file.strip_suffix(&format!(".{CSV}")).unwrap_or(file).to_owned());
     table.rows_in_file = all.get("rows_in_file").and_then(Value::as_bool).unwrap_or(false);
     Ok(table)
 }
@@ -125,41 +134,40 @@ fn column(value: &Value) -> Read<TableColumn> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::findings::Place;
+    use crate::findings::{Place, QuantityRow};
+
+    const NOTHING: &str = "it takes nothing";
+    static STOCK: QuantityRow =
+        QuantityRow::new("smallest_stock", "mm", "smallest stock").titled("smallest normal stock");
+    static BACKEND: QuantityRow = QuantityRow::new("backend", "", "backend").titled("computed by");
+    static TOOTH: QuantityRow = QuantityRow::new("tooth", "", "hob tooth");
+    static VOLUME: QuantityRow = QuantityRow::new("volume", "mm^3", "volume that it takes").or(&[NOTHING]).bars();
+    static STROKE: QuantityRow = QuantityRow::new("stroke", "1", "stroke");
+    static STROKES: QuantityRow = QuantityRow::new("strokes", "strokes", "strokes made");
+    static IDLE: QuantityRow = QuantityRow::new("idle_time", "s", "time").titled("time without a cut").shown();
+    static RATIO: QuantityRow = QuantityRow::new("ratio", "1", "share").or(&[NOTHING]);
 
     fn findings() -> Findings {
-        let stock = Quantity::number(0.1 + 0.2, "mm", "smallest stock").at(Place::on_flank(7, "left", 1.5, 12.0));
-        let columns = vec![
-            TableColumn::words("tooth", "hob tooth"),
-            TableColumn::new("volume", "mm^3", "volume that it takes").or("it takes nothing").as_bars(),
-        ];
-        let mut table = Table::new("teeth", "Hob teeth", columns)
-            .with_rows([vec!["B7".into(), 0.25.into()], vec!["8".into(), f64::NAN.into()]]);
+        let teeth = [("B7", 0.25), ("8", f64::NAN)];
+        let mut table = Table::over("teeth", "Hob teeth", teeth)
+            .column(&TOOTH, |of| of.0)
+            .column(&VOLUME, |of| of.1)
+            .in_file("teeth");
         table.period_rows = Some(1);
-        let table = table.in_file("teeth");
         let many =
-            Table::new("chips", "Chips", vec![TableColumn::new("stroke", "1", "stroke")]).rows_in_file("chips_rough");
+            Table::over("chips", "Chips", Vec::<u32>::new()).column(&STROKE, |of| *of).rows_in_file("chips_rough");
         let rough = Section::new("rough", "Rough")
-            .with("strokes", Quantity::count(4200, "strokes", "strokes made"))
-            .shown("idle_time", "time without a cut", Quantity::number(2.5, "s", "time"))
+            .entries([STROKES.of(4200_u32), IDLE.of(2.5)])
             .table(table)
             .table(many)
-            .part(Section::new("relief", "Relief").with("ratio", Quantity::undefined("1", "share", "no stroke")));
-        Findings {
-            program_version: "0.1.0".to_owned(),
-            process: "shaping".to_owned(),
-            scene: "made_by_hand".to_owned(),
-            complete: true,
-            headline: vec![
-                Entry::headline("smallest_stock", "smallest normal stock", stock),
-                Entry::headline("backend", "computed by", Quantity::text("cpu", "backend")),
-            ],
-            warnings: vec![
-                Notice::new("flank.made", Severity::Fault, "made by hand"),
-                Notice::new("texture.few_marks", Severity::Note, "few strokes").about("operations.rough"),
-            ],
-            sections: vec![Section::new("operations", "Operations").part(rough)],
-        }
+            .part(Section::new("relief", "Relief").entries([RATIO.none(NOTHING)]));
+        let headline = [STOCK.of(0.1 + 0.2).at(Place::on_flank(7, "left", 1.5, 12.0)), BACKEND.of("cpu")];
+        let warnings = [
+            Notice::new("flank.made", Severity::Fault, "made by hand"),
+            Notice::new("texture.few_marks", Severity::Note, "few strokes").about("operations.rough"),
+        ];
+        let sections = vec![Section::new("operations", "Operations").part(rough)];
+        Findings::new("shaping", "made_by_hand", true, headline, warnings, sections)
     }
 
     #[test]
@@ -179,7 +187,7 @@ mod tests {
         assert_eq!(operations.number("rough.relief.ratio"), None);
         assert!(findings.find("operations.rough.relief").is_some() && findings.find("operations.finish").is_none());
         let teeth = findings.find("operations.rough").and_then(|rough| rough.table_of("teeth")).expect("a table");
-        assert_eq!(teeth.numbers("volume").collect::<Vec<_>>(), [Some(0.25), None]);
+        assert_eq!(teeth.values(&VOLUME).collect::<Vec<_>>(), [Some(0.25), None]);
         let document = findings.to_json();
         assert_eq!(document["sections"]["operations"]["rough"]["strokes"]["value"], 4200);
         assert_eq!(document["headline"]["smallest_stock"]["place"]["tooth"], 7);
@@ -192,6 +200,10 @@ mod tests {
         document["sections"]["operations"]["rough"]["idle_time"]["value"] = Value::Null;
         let reason = Findings::from_json(&document).expect_err("null without a reason");
         assert!(reason.contains("operations.rough.idle_time") && reason.contains("why"), "{reason}");
+        let mut document = findings.to_json();
+        document["sections"]["operations"]["rough"]["teeth"]["rows"][0][1] = "much".into();
+        let reason = Findings::from_json(&document).expect_err("a word among numbers");
+        assert!(reason.contains("operations.rough.teeth: a cell of volume is not of its type"), "{reason}");
         let mut document = findings.to_json();
         document["warnings"][0]["severity"] = "grave".into();
         let reason = Findings::from_json(&document).expect_err("an unknown severity");

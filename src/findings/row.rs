@@ -163,6 +163,11 @@ impl QuantityRow {
         Self { chart: Some(ColumnChart::Curve), ..self }
     }
 
+    /// Its symbol, or what it is called where it has none.
+    pub fn symbol_or_title(&self) -> String {
+        if self.symbol.is_empty() { self.title() } else { self.symbol.to_owned() }
+    }
+
     /// What it is called where people read it: its key in words unless it has a title.
     pub fn title(&self) -> String {
         if self.title.is_empty() { title_of(self.key) } else { self.title.to_owned() }

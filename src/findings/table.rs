@@ -1,14 +1,21 @@
-//! A table of findings: columns with unit and definition, rows of numbers, counts and words.
+//! A table of findings: columns of numbers, counts or words, each with unit and definition.
+//!
+//! In: what the rows are of, and for each column its row of the table of quantities and a function. Out: [`Table`],
+//! whose [`Cells`] a writer takes column by column in the form of its choice.
 //!
 //! A table holds what is the same for every row, such as the allowances of all teeth; a value with a place or a reason
 //! of its own is an entry of a section instead.
 //!
-//! A table may have a CSV file of its own. Where it would swell `results.json`, its rows stand in that file alone:
-//! thousands of strokes and points, and rows whose values stand in the tree already, one section each.
+//! A table may have a file of its own. Where it would swell `results.json`, its rows are in that file alone: thousands
+//! of strokes and points, and rows whose values are in the tree already, one section each.
 
+use super::column::{Cell, Cells};
 use super::datum::Datum;
 use super::row::{ColumnChart, QuantityRow};
 use std::borrow::Cow;
+
+/// Ending of the files of tables that a run writes.
+pub const CSV: &str = "csv";
 
 /// Columns and rows.
 #[derive(Debug, Clone, PartialEq)]
@@ -19,17 +26,17 @@ pub struct Table {
     pub title: String,
     /// Columns; the first names the rows.
     pub columns: Vec<TableColumn>,
-    /// Rows of as many cells as there are columns.
-    pub rows: Vec<Vec<Datum>>,
+    /// Values of each column, as many of one as of another.
+    pub cells: Vec<Cells>,
     /// Rows after which the gear's shape repeats, if it does.
     pub period_rows: Option<u32>,
-    /// Its CSV file in the output folder, such as `tables/flanks.csv`; none where `results.json` is enough.
+    /// Its file in the output folder without an ending, such as `tables/flanks`; none where `results.json` is enough.
     pub file: Option<String>,
     /// Whether the rows stand in the file alone: tables read from `results.json` have none then.
     pub rows_in_file: bool,
 }
 
-/// One column.
+/// What a column holds.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TableColumn {
     /// Key.
@@ -45,13 +52,13 @@ pub struct TableColumn {
 }
 
 impl Table {
-    /// An empty table.
-    pub fn new(key: &str, title: &str, columns: Vec<TableColumn>) -> Self {
+    /// A table without columns.
+    pub(super) fn new(key: &str, title: &str) -> Self {
         Self {
             key: key.to_owned(),
             title: title.to_owned(),
-            columns,
-            rows: Vec::new(),
+            columns: Vec::new(),
+            cells: Vec::new(),
             period_rows: None,
             file: None,
             rows_in_file: false,
@@ -60,30 +67,55 @@ impl Table {
 
     /// A table with a row for each of these, whose columns follow.
     pub fn over<T>(key: &str, title: &str, of: impl IntoIterator<Item = T>) -> Columns<T> {
-        let of: Vec<T> = of.into_iter().collect();
-        let rows = of.iter().map(|_| Vec::new()).collect();
-        Columns { of, table: Self { rows, ..Self::new(key, title, Vec::new()) } }
+        Columns { of: of.into_iter().collect(), table: Self::new(key, title) }
     }
 
-    /// The table, in `tables/<name>.csv` as well.
+    /// The table, in a file of this name below `tables/` as well.
     #[must_use]
-    pub fn in_file(mut self, name: &str) -> Self {
-        self.file = Some(format!("tables/{name}.csv"));
-        self
+    pub fn in_file(self, name: &str) -> Self {
+        self.at(&format!("tables/{name}"))
     }
 
-    /// The table, its rows in `tables/<name>.csv` alone.
+    /// The table, its rows in the file of this name below `tables/` alone.
     #[must_use]
     pub fn rows_in_file(self, name: &str) -> Self {
         Self { rows_in_file: true, ..self.in_file(name) }
     }
 
-    /// The table with these rows.
+    /// The table, in this file of the output folder, which has no ending.
     #[must_use]
-    pub fn with_rows(mut self, rows: impl IntoIterator<Item = Vec<Datum>>) -> Self {
-        self.rows.extend(rows);
-        debug_assert!(self.rows.iter().all(|row| row.len() == self.columns.len()), "{}: a cell per column", self.key);
-        self
+    pub fn at(self, file: &str) -> Self {
+        Self { file: Some(file.to_owned()), ..self }
+    }
+
+    /// The name of its file in a form with this ending.
+    pub fn file_as(&self, ending: &str) -> Option<String> {
+        self.file.as_ref().map(|file| format!("{file}.{ending}"))
+    }
+
+    /// How many rows there are.
+    pub fn len(&self) -> usize {
+        self.cells.first().map_or(0, Cells::len)
+    }
+
+    /// Whether there are none, or none here.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// A row.
+    pub fn row(&self, row: usize) -> Vec<Datum> {
+        self.cells.iter().map(|cells| cells.datum(row)).collect()
+    }
+
+    /// All rows.
+    pub fn rows(&self) -> impl Iterator<Item = Vec<Datum>> {
+        (0..self.len()).map(|row| self.row(row))
+    }
+
+    /// Names of the rows: the first column in words.
+    pub fn names(&self) -> impl Iterator<Item = String> {
+        self.cells.first().into_iter().flat_map(|cells| (0..cells.len()).map(|row| cells.datum(row).name()))
     }
 
     /// Where the column of this key stands.
@@ -96,10 +128,25 @@ impl Table {
         self.numbers(row.key)
     }
 
+    /// Words of the column of a row; none for numbers and where there is none.
+    pub fn words(&self, row: &QuantityRow) -> impl Iterator<Item = Option<&str>> {
+        let cells = self.column(row.key).and_then(|column| self.cells.get(column));
+        (0..self.len()).map(move |row| match cells? {
+            Cells::Words(words) => words[row].as_deref(),
+            _ => None,
+        })
+    }
+
+    /// Numbers of two columns as the points of a curve; NaN where there is none.
+    pub fn points(&self, x: &QuantityRow, y: &QuantityRow) -> Vec<(f64, f64)> {
+        let [x, y] = [x, y].map(|row| self.values(row).map(|value| value.unwrap_or(f64::NAN)));
+        x.zip(y).collect()
+    }
+
     /// Numbers of a column, row by row; none for words, for what is undefined and for an unknown key.
     pub fn numbers(&self, key: &str) -> impl Iterator<Item = Option<f64>> {
-        let column = self.column(key);
-        self.rows.iter().map(move |row| row.get(column?)?.number())
+        let cells = self.column(key).and_then(|column| self.cells.get(column));
+        (0..self.len()).map(move |row| cells?.datum(row).number())
     }
 }
 
@@ -111,24 +158,11 @@ pub struct Columns<T> {
 }
 
 impl<T> Columns<T> {
-    /// With a column of this row.
+    /// With a column of this row of the table of quantities, or of a row with a key, unit or words of its own.
     #[must_use]
-    pub fn column<V: Into<Datum>>(self, row: &QuantityRow, value: impl Fn(&T) -> V) -> Self {
-        self.keyed(row.key, row, value)
-    }
-
-    /// With a column of this row, under a key that the row cannot know.
-    #[must_use]
-    pub fn keyed<V: Into<Datum>>(
-        mut self,
-        key: impl Into<Cow<'static, str>>,
-        row: &QuantityRow,
-        value: impl Fn(&T) -> V,
-    ) -> Self {
-        self.table.columns.push(TableColumn::of_row(key.into(), row));
-        for (cells, of) in self.table.rows.iter_mut().zip(&self.of) {
-            cells.push(value(of).into());
-        }
+    pub fn column<V: Cell>(mut self, column: impl Into<TableColumn>, value: impl Fn(&T) -> V) -> Self {
+        self.table.columns.push(column.into());
+        self.table.cells.push(V::cells(self.of.iter().map(|of| Some(value(of)))));
         self
     }
 
@@ -136,6 +170,12 @@ impl<T> Columns<T> {
     #[must_use]
     pub fn in_file(self, name: &str) -> Table {
         self.table.in_file(name)
+    }
+
+    /// The table, in this file of the output folder as well.
+    #[must_use]
+    pub fn at(self, file: &str) -> Table {
+        self.table.at(file)
     }
 
     /// The table, its rows in the file of this name below `tables/` alone.
@@ -151,24 +191,52 @@ impl<T> From<Columns<T>> for Table {
     }
 }
 
-impl TableColumn {
-    fn of_row(key: Cow<'static, str>, row: &QuantityRow) -> Self {
-        Self {
-            key,
-            unit: (!row.unit.is_empty()).then_some(Cow::Borrowed(row.unit)),
-            definition: row.definition.into(),
-            why: match row.reasons {
+impl QuantityRow {
+    /// As a column.
+    pub fn as_column(&self) -> TableColumn {
+        TableColumn {
+            key: self.key.into(),
+            unit: (!self.unit.is_empty()).then_some(Cow::Borrowed(self.unit)),
+            definition: self.definition.into(),
+            why: match self.reasons {
                 [] => None,
                 [reason] => Some(Cow::Borrowed(*reason)),
                 reasons => Some(reasons.join("; or ").into()),
             },
-            chart: row.chart,
+            chart: self.chart,
         }
     }
+}
 
-    /// A column of numbers or counts.
-    pub fn new(key: impl Into<Cow<'static, str>>, unit: &'static str, definition: &'static str) -> Self {
-        Self { key: key.into(), unit: Some(unit.into()), definition: definition.into(), why: None, chart: None }
+impl From<&QuantityRow> for TableColumn {
+    fn from(row: &QuantityRow) -> Self {
+        row.as_column()
+    }
+}
+
+impl TableColumn {
+    /// The same under this key, which its row cannot know, such as one that ends with the side of a tooth.
+    #[must_use]
+    pub fn keyed(self, key: impl Into<Cow<'static, str>>) -> Self {
+        Self { key: key.into(), ..self }
+    }
+
+    /// The same, not drawn by comparisons.
+    #[must_use]
+    pub fn undrawn(self) -> Self {
+        Self { chart: None, ..self }
+    }
+
+    /// The same in a unit that its row cannot know, such as that of an axis.
+    #[must_use]
+    pub fn in_unit(self, unit: impl Into<Cow<'static, str>>) -> Self {
+        Self { unit: Some(unit.into()), ..self }
+    }
+
+    /// The same with words after its definition that only this run knows.
+    #[must_use]
+    pub fn remarked(self, remark: &str) -> Self {
+        Self { definition: format!("{}{remark}", self.definition).into(), ..self }
     }
 
     /// Key and unit as one word for the head of a file: `AB_mm`, `removal_rate_cm3_per_min`. Pure numbers have no unit
@@ -181,37 +249,6 @@ impl TableColumn {
             Some(unit) => format!("{}_{}", self.key, unit.replace(['^', ' ', '(', ')'], "").replace('/', "_per_")),
         }
     }
-
-    /// A column of numbers of many units; a column of words says in which unit each row is.
-    pub fn by_row(key: impl Into<Cow<'static, str>>, definition: &'static str) -> Self {
-        Self { key: key.into(), unit: None, definition: definition.into(), why: None, chart: None }
-    }
-
-    /// A column of words.
-    pub fn words(key: &'static str, definition: &'static str) -> Self {
-        Self { key: key.into(), unit: None, definition: definition.into(), why: None, chart: None }
-    }
-
-    /// The column, in which a value may be missing for this reason.
-    #[must_use]
-    pub fn or(mut self, why: &'static str) -> Self {
-        self.why = Some(why.into());
-        self
-    }
-
-    /// The column, drawn as bars by comparisons.
-    #[must_use]
-    pub fn as_bars(mut self) -> Self {
-        self.chart = Some(ColumnChart::Bars);
-        self
-    }
-
-    /// The column, drawn as a curve by comparisons.
-    #[must_use]
-    pub fn as_curve(mut self) -> Self {
-        self.chart = Some(ColumnChart::Curve);
-        self
-    }
 }
 
 #[cfg(test)]
@@ -220,13 +257,13 @@ mod tests {
 
     #[test]
     fn heads_of_files_end_with_the_unit() {
-        let head = |key: &'static str, unit: &'static str| TableColumn::new(key, unit, "").head();
+        let head = |key: &'static str, unit: &'static str| QuantityRow::new(key, unit, "").as_column().head();
         assert_eq!(head("AB", "mm"), "AB_mm");
         assert_eq!(head("unevenness", "%"), "unevenness_percent");
         assert_eq!(head("removal_rate", "cm^3/min"), "removal_rate_cm3_per_min");
         assert_eq!(head("work_torque", "N m"), "work_torque_Nm");
         assert_eq!([head("tooth", "1"), head("two_flank_chips", "chips")], ["tooth", "two_flank_chips"]);
-        assert_eq!(TableColumn::words("flank", "").head(), "flank");
+        assert_eq!(head("flank", ""), "flank");
     }
 
     #[test]
@@ -240,25 +277,17 @@ mod tests {
         assert_eq!(heads, ["tooth", "F_alpha_um"]);
         assert_eq!(table.columns[1].why.as_deref(), Some("not cut; or cut away"));
         assert_eq!(table.columns[1].chart, Some(ColumnChart::Bars));
-        assert_eq!(table.rows, [vec![Datum::Count(1), Datum::Number(0.5)], vec![Datum::Count(2), Datum::Undefined]]);
+        assert_eq!(table.cells, [Cells::Counts(vec![Some(1), Some(2)]), Cells::Numbers(vec![Some(0.5), None])]);
         assert_eq!(table.values(&RANGE).collect::<Vec<_>>(), [Some(0.5), None]);
     }
 
     #[test]
     fn rows_in_a_file_are_not_in_the_results_as_well() {
-        let strokes = Table::new("strokes", "Strokes", vec![TableColumn::new("stroke", "1", "stroke")])
-            .with_rows([vec![Datum::Count(0)]]);
+        static STROKE: QuantityRow = QuantityRow::new("stroke", "1", "stroke");
+        let strokes = Table::from(Table::over("strokes", "Strokes", [0_u32]).column(&STROKE, |stroke| *stroke));
         let rows = |table: Table| {
             let section = crate::findings::Section::new("chips", "Chips").table(table);
-            let findings = crate::findings::Findings {
-                program_version: String::new(),
-                process: String::new(),
-                scene: String::new(),
-                complete: true,
-                headline: Vec::new(),
-                warnings: Vec::new(),
-                sections: vec![section],
-            };
+            let findings = crate::findings::Findings::new("", "", true, [], [], vec![section]);
             let table = findings.to_json()["sections"]["chips"]["strokes"].clone();
             (table["rows"].as_array().map(Vec::len), table["file"].as_str().map(str::to_owned))
         };

@@ -1,10 +1,11 @@
 //! The tree: what a run found, from the headline down to the last detail.
 
+use super::column::Cells;
 use super::entry::Entry;
 use super::notice::{Notice, ranked};
 use super::quantity::Quantity;
-use super::row::{Level, QuantityGroup, QuantityRow};
-use super::table::Table;
+use super::row::{QuantityGroup, QuantityRow};
+use super::table::{Columns, Table};
 
 /// Everything that a run found.
 #[derive(Debug, Clone, PartialEq)]
@@ -58,18 +59,6 @@ impl Section {
         entries.into_iter().fold(self, Self::add)
     }
 
-    /// With a detail.
-    #[must_use]
-    pub fn with(self, key: &str, quantity: Quantity) -> Self {
-        self.add(Entry::new(key, quantity))
-    }
-
-    /// With a quantity that the terminal shows under this title.
-    #[must_use]
-    pub fn shown(self, key: &str, title: &str, quantity: Quantity) -> Self {
-        self.add(Entry { title: title.to_owned(), level: Level::Summary, ..Entry::new(key, quantity) })
-    }
-
     /// With a table.
     #[must_use]
     pub fn table(mut self, table: impl Into<Table>) -> Self {
@@ -93,15 +82,15 @@ impl Section {
         sections.into_iter().fold(self, Self::part)
     }
 
-    /// The same where nothing of it holds, with the reason: entries but those of the keys in `keep` lose their values,
+    /// The same where nothing of it holds, with the reason: entries but those of the rows in `keep` lose their values,
     /// words and numbers alike, and tables their rows.
     #[must_use]
-    pub fn without_values(mut self, why: &str, keep: &[&str]) -> Self {
-        for entry in self.entries.iter_mut().filter(|entry| !keep.contains(&entry.key.as_str())) {
+    pub fn without_values(mut self, why: &str, keep: &[&QuantityRow]) -> Self {
+        for entry in self.entries.iter_mut().filter(|entry| keep.iter().all(|row| row.key != entry.key)) {
             entry.quantity = entry.quantity.clone().without_value(why.to_owned());
         }
         for table in &mut self.tables {
-            table.rows.clear();
+            table.cells.iter_mut().for_each(Cells::clear);
         }
         self.sections = self.sections.into_iter().map(|part| part.without_values(why, keep)).collect();
         self
@@ -148,6 +137,11 @@ impl Section {
         self.quantity(row.key)
     }
 
+    /// The entry of this row.
+    pub fn entry_of(&self, row: &QuantityRow) -> Option<&Entry> {
+        self.entries.iter().find(|entry| entry.key == row.key)
+    }
+
     /// The number of this row; none where there is no such quantity or it is undefined.
     pub fn value(&self, row: &QuantityRow) -> Option<f64> {
         self.of(row)?.value()
@@ -181,6 +175,11 @@ impl QuantityGroup {
     /// A section with these entries.
     pub fn section(&self, entries: impl IntoIterator<Item = Entry>) -> Section {
         Section::new(self.key, self.title).entries(entries)
+    }
+
+    /// A table with a row for each of these, whose columns follow.
+    pub fn table<T>(&self, of: impl IntoIterator<Item = T>) -> Columns<T> {
+        Table::over(self.key, self.title, of)
     }
 }
 

@@ -31,9 +31,6 @@ pub struct Figures {
     pub thickness: f64,
 }
 
-/// A figure with its key and what it is.
-pub type Named = (&'static str, &'static str, f64);
-
 impl Figures {
     /// Figures of heights at the places of a grid. Flanks with places that were not cut are left out.
     pub fn new(grid: &GearGrid, heights: &[f64]) -> Self {
@@ -56,20 +53,6 @@ impl Figures {
             total_pitch: of_pitch(PitchDeviations::total_mm),
             thickness: if all { thicker.iter().sum::<f64>() / thicker.len() as f64 } else { f64::NAN },
         }
-    }
-
-    /// All of them with their keys.
-    pub fn named(&self) -> [Named; 8] {
-        [
-            ("largest", "largest normal deviation anywhere on the flanks", self.largest),
-            ("F_alpha", "profile deviation F_alpha, largest", self.profile),
-            ("f_H_alpha", "profile slope deviation f_H_alpha of the largest size", self.profile_slope),
-            ("F_beta", "helix deviation F_beta, largest", self.helix),
-            ("f_H_beta", "helix slope deviation f_H_beta of the largest size", self.helix_slope),
-            ("f_p", "single pitch deviation f_p, largest size", self.single_pitch),
-            ("F_p", "total cumulative pitch deviation F_p", self.total_pitch),
-            ("thickness", "what the mean tooth becomes thicker, along the circle", self.thickness),
-        ]
     }
 }
 

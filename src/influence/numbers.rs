@@ -13,6 +13,7 @@ use crate::run::Run;
 use crate::scene::LoadedScene;
 use crate::steps::parts::Parts;
 use crate::texture;
+use crate::texture::quantities::{ROUGHNESS, TEXTURE};
 use gearcut_core::error::{Error, Result};
 use gearcut_core::terms::Side;
 use std::collections::BTreeMap;
@@ -71,10 +72,10 @@ pub fn texture_numbers(
 /// window's surface or of the lines across it.
 pub fn of_window(quantity: &str) -> Option<(&str, &str)> {
     let (path, symbol) = quantity.rsplit_once('.')?;
-    if let Some(window) = path.strip_prefix("texture.") {
+    if let Some(window) = path.strip_prefix(TEXTURE.key).and_then(|rest| rest.strip_prefix('.')) {
         return Some((window.strip_suffix(".parameters").unwrap_or(window), symbol));
     }
-    let lines = path.strip_prefix(texture::ROUGHNESS)?.strip_prefix('.')?;
+    let lines = path.strip_prefix(ROUGHNESS.key)?.strip_prefix('.')?;
     let window = texture::Direction::BOTH.into_iter().find_map(|way| lines.strip_suffix(way.key())?.strip_suffix('_'));
     Some((window?, symbol))
 }
@@ -92,8 +93,8 @@ fn add_section(numbers: &mut Numbers, path: &str, section: &Section) {
     }
     let of_figures = |table: &&Table| table.columns.first().is_some_and(|column| column.key == FIGURE);
     for table in section.tables.iter().filter(of_figures) {
-        for row in &table.rows {
-            for (column, cell) in table.columns.iter().zip(row).skip(1) {
+        for row in table.rows() {
+            for (column, cell) in table.columns.iter().zip(&row).skip(1) {
                 if let Some(value) = cell.number() {
                     let unit = column.unit.as_deref().unwrap_or_default().to_owned();
                     numbers.insert(format!("{path}.{}.{}.{}", table.key, row[0].name(), column.key), (value, unit));

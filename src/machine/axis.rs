@@ -134,10 +134,14 @@ impl Axis {
 
     /// Name of its column in tables, unit included: `psi_c_deg`, `work_speed_deg_per_s`.
     pub fn column(&self, order: Order) -> String {
-        let suffix = self.kind.suffix(order);
+        format!("{}_{}", self.key(order), self.kind.suffix(order))
+    }
+
+    /// The same without the unit.
+    pub fn key(&self, order: Order) -> String {
         match order {
-            Order::Position => format!("{}_{suffix}", self.position_stem),
-            Order::Speed | Order::Acceleration => format!("{}_{}_{suffix}", self.stem, order.word()),
+            Order::Position => self.position_stem.to_owned(),
+            Order::Speed | Order::Acceleration => format!("{}_{}", self.stem, order.word()),
         }
     }
 

@@ -77,7 +77,7 @@ fn brief_warnings(warnings: &[Notice]) -> Vec<String> {
 
 /// A count of nothing, which is as it should be.
 fn is_none(quantity: &Quantity) -> bool {
-    quantity.is_count() && quantity.value() == Some(0.0)
+    quantity.whole() == Some(0)
 }
 
 /// Value and unit, with the place where a line has room for it.
@@ -168,7 +168,11 @@ fn value_text(quantity: &Quantity) -> String {
         Some("%") => LEAST_PERCENT,
         _ => 0.0,
     };
-    if quantity.is_count() { plain(value) } else { significant(if value.abs() < least { 0.0 } else { value }, 4) }
+    if quantity.whole().is_some() {
+        plain(value)
+    } else {
+        significant(if value.abs() < least { 0.0 } else { value }, 4)
+    }
 }
 
 /// Value and unit.
@@ -192,54 +196,50 @@ pub fn shown(quantity: &Quantity) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::findings::Place;
     use crate::findings::Severity;
+    use crate::findings::{Place, QuantityRow};
+
+    const NO_DEXEL: &str = "no dexel was left by the first or last strokes at all";
+    const NONE: &str = "there is none";
+    static TOOTH: QuantityRow = QuantityRow::new("tooth", "1", "tooth");
+    static SA: QuantityRow = QuantityRow::new("Sa", "um", "mean height").shown();
+    static STOCK: QuantityRow = QuantityRow::new("smallest_stock", "mm", "stock").titled("smallest normal stock");
+    static WITNESS: QuantityRow = QuantityRow::new("witness_mark", "um", "witness mark").or(&[NO_DEXEL]);
+    static UNDERCUT: QuantityRow = QuantityRow::new("undercut_flanks", "flanks", "undercut");
+    static LEFT: QuantityRow = QuantityRow::new("left_volume", "mm^3", "volume").titled("left").shown();
+    static DEEPEST: QuantityRow = QuantityRow::new("deepest", "mm", "depth").or(&[NONE]).shown();
+    static SLICES: QuantityRow = QuantityRow::new("slices", "slices", "slices");
+    static MORE: QuantityRow = QuantityRow::new("more", "teeth", "teeth").shown();
 
     fn window(key: &str, sa: f64) -> Section {
         Section::new(key, key.replace('_', " "))
-            .with("tooth", Quantity::count(3, "1", "tooth"))
-            .part(Section::new("parameters", "Parameters").shown("Sa", "Sa", Quantity::number(sa, "um", "mean height")))
+            .entries([TOOTH.of(3_u32)])
+            .part(Section::new("parameters", "Parameters").entries([SA.of(sa)]))
     }
 
     fn findings() -> Findings {
-        let stock = Quantity::number(0.677_21, "mm", "stock").at(Place::on_flank(35, "left", 3.54, -15.0));
-        let undefined =
-            Quantity::undefined("um", "witness mark", "no dexel was left by the first or last strokes at all");
-        Findings {
-            program_version: "0.1.0".to_owned(),
-            process: "shaping".to_owned(),
-            scene: "made_by_hand".to_owned(),
-            complete: true,
-            headline: vec![
-                Entry::headline("smallest_stock", "smallest normal stock", stock),
-                Entry::headline("witness_mark", "witness mark", undefined),
-                Entry::headline("undercut_flanks", "undercut flanks", Quantity::count(12, "flanks", "undercut")),
-            ],
-            warnings: vec![Notice::new(
-                "flank.made",
-                Severity::Warning,
-                "words that go on and on until the line is much wider than any terminal would like it",
-            )],
-            sections: vec![
-                Section::new("texture", "Texture")
-                    .part(window("tooth_03_left", 0.25))
-                    .part(window("tooth_03_right", 2.0)),
-                Section::new("blank", "The whole gear")
-                    .shown("left_volume", "left", Quantity::number(123.4, "mm^3", "volume"))
-                    .shown("deepest", "deepest", Quantity::undefined("mm", "depth", "there is none")),
-                Section::new("empty", "Nothing to show").with("slices", Quantity::count(3, "slices", "slices")),
-            ],
-        }
+        let headline = [
+            STOCK.of(0.677_21).at(Place::on_flank(35, "left", 3.54, -15.0)),
+            WITNESS.none(NO_DEXEL),
+            UNDERCUT.of(12_u32),
+        ];
+        let words = "words that go on and on until the line is much wider than any terminal would like it";
+        let sections = vec![
+            Section::new("texture", "Texture").part(window("tooth_03_left", 0.25)).part(window("tooth_03_right", 2.0)),
+            Section::new("blank", "The whole gear").entries([LEFT.of(123.4), DEEPEST.none(NONE)]),
+            Section::new("empty", "Nothing to show").entries([SLICES.of(3_u32)]),
+        ];
+        let warnings = [Notice::new("flank.made", Severity::Warning, words)];
+        Findings::new("shaping", "made_by_hand", true, headline, warnings, sections)
     }
 
     /// Forty entries, ten sections and thirty long warnings on 33 lines, nothing but the ends of them cut off.
     #[test]
     fn a_brief_summary_is_no_longer_than_asked() {
         let mut found = findings();
-        let count = |value: u64| Quantity::count(value, "teeth", "teeth");
-        found.headline.extend((0..40).map(|i| Entry::headline("more", &format!("more {i}"), count(i))));
+        found.headline.extend((0..40_u64).map(|i| MORE.of(i).titled(format!("more {i}"))));
         let title = |i: u64| format!("section {i}");
-        found.sections.extend((0..10).map(|i| Section::new("some", title(i)).shown("a", "of it", count(i))));
+        found.sections.extend((0..10).map(|i| Section::new("some", title(i)).entries([MORE.of(i).titled("of it")])));
         found.warnings = (0..30)
             .map(|i| Notice::new("flank.made", Severity::Warning, format!("{i} {}", "many words ".repeat(30))))
             .collect();

@@ -8,6 +8,7 @@ use std::f64::consts::TAU;
 use super::double_flank::{DoubleFlank, MASTER_TEETH};
 use super::findings::ARCSEC_PER_RAD;
 use super::fit::SIDES;
+use super::quantities::{AMPLITUDE, TRANSMISSION_ERROR, WAVES};
 use super::rolled::RolledPair;
 use crate::findings::Findings;
 use crate::output::bar_chart::{BarChart, BarSeries};
@@ -171,12 +172,12 @@ fn double_flank(rolled: &RolledPair) -> Option<LineChart> {
 pub fn waves(found: &Findings) -> Option<BarChart> {
     let tables: Vec<_> = SIDES
         .iter()
-        .map(|side| found.find(&format!("transmission_error.{}", side.name()))?.table_of("waves"))
+        .map(|side| found.group(&TRANSMISSION_ERROR)?.find(side.name())?.table_of(WAVES.key))
         .collect::<Option<_>>()?;
-    let categories = tables[0].rows.iter().map(|row| row[0].name()).collect();
+    let categories = tables[0].names().collect();
     let series = SIDES.iter().zip(&tables).map(|(side, table)| BarSeries {
         name: format!("{} flanks", side.name()),
-        values: table.numbers("amplitude").collect(),
+        values: table.values(&AMPLITUDE).collect(),
     });
     Some(BarChart {
         title: "Waves of the transmission error".to_owned(),

@@ -11,11 +11,19 @@ mod play;
 mod tables;
 mod transmission;
 
+use super::flanks::FlankSource;
 use super::notices::{Interference, Jams, Misfit};
 use super::options::PairOptions;
-use super::rolled::{PROBE_UM, RolledPair};
-use crate::findings::notice::ranked;
-use crate::findings::{Entry, Findings, Notice, Place, Quantity, Section};
+use super::quantities::{
+    BACKLASH, CENTER_DISTANCE, CHANGE_OF_ERROR, CLOSING_DISTANCE, CONTACT, COUNT_OF_POSITIONS, DEEPEST_TIP, DISTANCE,
+    DISTANCE_ERROR, DOUBLE_FLANK, ECCENTRICITY_A, ECCENTRICITY_ANGLE_A, ECCENTRICITY_ANGLE_B, ECCENTRICITY_B,
+    FLANKS_ROLLED, GEAR_A, GEAR_B, IN_PLANE, INTERFERENCE, KIND, LEAST_MORE_PLAY, MARKING, MESH_RANGE, MISFIT, MODULE,
+    MOST_MORE_PLAY, OUT_OF_PLANE, PAIR, PEAK_TO_PEAK, PRESSURE_ANGLE, RANGE_AT_PITCH_POINT, RANGE_OF_CHANGE, RATIO,
+    RATIO_DEVIATION, SECTIONS, SMALLEST_BACKLASH, SMALLEST_CONTACT_RATIO, TEETH_A, TEETH_B, TIGHT_RANGE, TIP_CLEARANCE,
+    TRANSMISSION_ERROR, TURNS, WORKING_PRESSURE_ANGLE,
+};
+use super::rolled::RolledPair;
+use crate::findings::{Entry, Findings, Notice, Place, QuantityGroup, QuantityRow, Section};
 use crate::scene::Scene;
 use gearcut_core::units::UM_PER_MM;
 
@@ -38,48 +46,43 @@ pub fn findings(name: &str, scenes: [&Scene; 2], options: &PairOptions, rolled: 
         transmission::errors(rolled),
         play::backlash(rolled),
         contact::section(options, rolled),
-        contact::interference(scenes, rolled),
+        contact::interference(rolled),
         play::double_flank(rolled),
         center_distance(rolled),
     ];
-    let mut found = Findings {
-        program_version: env!("CARGO_PKG_VERSION").to_owned(),
-        process: PROCESS.to_owned(),
-        scene: name.to_owned(),
-        complete: true,
-        headline: Vec::new(),
-        warnings: ranked(warnings(rolled)),
-        sections,
-    };
-    found.headline = headline(&found);
-    found
+    Findings::new(PROCESS, name, true, headline(&sections), warnings(rolled), sections)
 }
 
-/// Numbers of the sections that are told first.
-const HEADLINE: [(&str, &str, &str); 10] = [
-    ("transmission_error.right", "peak_to_peak", "transmission error, range"),
-    ("transmission_error.right", "mesh_peak_to_peak", "its tooth-mesh part, range"),
-    ("transmission_error.right", "peak_to_peak_at_pitch_point", "at the pitch point"),
-    ("ratio", "largest_deviation", "ratio off by at most"),
-    ("backlash", "smallest", "smallest backlash"),
-    ("contact.right", "smallest_contact_ratio", "smallest contact ratio"),
-    ("interference", "deepest", "deepest tip in the mate"),
-    ("interference", "clearance", "tips clear the mate by"),
-    ("double_flank.mate", "total", "tight centre distance, range"),
-    ("center_distance", "transmission_error", "10 um of centre distance do"),
+/// Section, part of it if there is one, row and title of the numbers that come first.
+type First = (&'static QuantityGroup, &'static str, &'static QuantityRow, &'static str);
+/// Numbers of the sections that come first.
+static HEADLINE: [First; 10] = [
+    (&TRANSMISSION_ERROR, "right", &PEAK_TO_PEAK, "transmission error, range"),
+    (&TRANSMISSION_ERROR, "right", &MESH_RANGE, "its tooth-mesh part, range"),
+    (&TRANSMISSION_ERROR, "right", &RANGE_AT_PITCH_POINT, "at the pitch point"),
+    (&RATIO, "", &RATIO_DEVIATION, "ratio off by at most"),
+    (&BACKLASH, "", &SMALLEST_BACKLASH, "smallest backlash"),
+    (&CONTACT, "right", &SMALLEST_CONTACT_RATIO, "smallest contact ratio"),
+    (&INTERFERENCE, "", &DEEPEST_TIP, "deepest tip in the mate"),
+    (&INTERFERENCE, "", &TIP_CLEARANCE, "tips clear the mate by"),
+    (&DOUBLE_FLANK, "mate", &TIGHT_RANGE, "tight centre distance, range"),
+    (&CENTER_DISTANCE, "", &CHANGE_OF_ERROR, "10 um of centre distance do"),
 ];
 
-fn headline(found: &Findings) -> Vec<Entry> {
-    let entry = |(path, key, title): (&str, &str, &str)| {
-        let quantity = found.find(path)?.quantity(key)?.clone();
+fn headline(sections: &[Section]) -> Vec<Entry> {
+    let entry = |(group, part, row, title): &First| {
+        let section = sections.iter().find(|section| section.key == group.key)?;
+        let of = if part.is_empty() { section } else { section.find(part)? };
+        let entry = of.entry_of(row)?.clone();
         // Depth and clearance exclude each other; nominal flanks have neither, and say so once.
-        let silent = path == "interference" && quantity.value().is_none();
-        if silent && (key == "clearance" || found.find(path)?.number("clearance").is_some()) {
+        let is_silent = group.key == INTERFERENCE.key && entry.quantity.value().is_none();
+        if is_silent && (row.key == TIP_CLEARANCE.key || section.value(&TIP_CLEARANCE).is_some()) {
             return None;
         }
-        Some(Entry::headline(&format!("{}_{key}", path.replace('.', "_")), title, quantity))
+        let path = if part.is_empty() { group.key.to_owned() } else { format!("{}_{part}", group.key) };
+        Some(entry.keyed(format!("{path}_{}", row.key)).titled(*title))
     };
-    HEADLINE.into_iter().filter_map(entry).collect()
+    HEADLINE.iter().filter_map(entry).collect()
 }
 
 /// The driver's angle of a moment as a place.
@@ -101,109 +104,47 @@ fn pair(scenes: [&Scene; 2], options: &PairOptions, rolled: &RolledPair) -> Sect
     let own = &rolled.fit.own;
     let closing_mm = rolled.fit.pitch.center_distance_mm();
     let error_um = UM_PER_MM * rolled.meshing.center_distance_error_mm();
-    let length = |mm: f64, definition: &'static str| Quantity::number(mm, "mm", definition);
-    let angle = |rad: f64, definition: &'static str| Quantity::number(rad.to_degrees(), "deg", definition);
-    let um = |value: f64, definition: &'static str| Quantity::number(value, "um", definition);
     let [a, b] = options.eccentricity_um_deg;
-    Section::new("pair", "The pair")
-        .with("gear_A", Quantity::text(scenes[0].name.clone(), "gear A, the driver"))
-        .with("gear_B", Quantity::text(scenes[1].name.clone(), "gear B, driven"))
-        .with("kind", Quantity::text(teeth.driven.name(), "whether gear B is external or a ring"))
-        .with("teeth_A", Quantity::count(teeth.count[0].into(), "teeth", "teeth of gear A"))
-        .with("teeth_B", Quantity::count(teeth.count[1].into(), "teeth", "teeth of gear B"))
-        .with("module", length(own.module_mm, "transverse module"))
-        .with("pressure_angle", angle(own.pressure_angle_rad, "transverse pressure angle"))
-        .with(
-            "working_pressure_angle",
-            angle(teeth.pressure_angle_rad, "transverse pressure angle on the pitch curves that roll on each other"),
-        )
-        .with(
-            "flanks",
-            Quantity::text(
-                match options.source {
-                    super::flanks::FlankSource::Cut => "cut",
-                    super::flanks::FlankSource::Nominal => "nominal",
-                },
-                "whether flanks as cut or nominal ones are rolled",
-            ),
-        )
-        .shown(
-            "center_distance",
-            "centre distance",
-            length(closing_mm + error_um / UM_PER_MM, "distance of the axes at which the gears are rolled"),
-        )
-        .with(
-            "closing_center_distance",
-            length(
-                closing_mm,
-                "distance of the axes at which the pitch curves roll on each other: of round gears that of their \
-                 profile shifts, or the one that is named",
-            ),
-        )
-        .with("center_distance_error", um(error_um, "added to that distance"))
-        .with("eccentricity_A", um(a[0], "from gear A's axis of rotation to the origin of its pitch curve"))
-        .with("eccentricity_angle_A", Quantity::number(a[1], "deg", "polar angle of that vector in gear A"))
-        .with("eccentricity_B", um(b[0], "from gear B's axis of rotation to the origin of its pitch curve"))
-        .with("eccentricity_angle_B", Quantity::number(b[1], "deg", "polar angle of that vector in gear B"))
-        .with("in_plane_deviation", um(options.parallelism_um[0], "axes apart over the face, in their plane"))
-        .with("out_of_plane_deviation", um(options.parallelism_um[1], "axes apart over the face, across their plane"))
-        .with(
-            "misfit",
-            Quantity::number(
-                UM_PER_MM * rolled.fit.misfit_mm,
-                "um",
-                "largest distance of gear B's own pitch curve from the mate's that closes with gear A",
-            )
-            .at(at_angle(rolled.fit.misfit_at_rad)),
-        )
-        .with("turns", Quantity::count(rolled.period.turns.into(), "turns", "turns of gear A in a period of the pair"))
-        .with(
-            "positions",
-            Quantity::count(
-                rolled.period.moments.len() as u64,
-                "positions",
-                "positions in a period, even over the teeth",
-            ),
-        )
-        .with(
-            "sections",
-            Quantity::count(rolled.flanks.rows_mm.len() as u64, "sections", "transverse sections that are rolled"),
-        )
-        .with("marking_thickness", um(options.marking_um, "thickness of the marking compound"))
+    let flanks = match options.source {
+        FlankSource::Cut => "cut",
+        FlankSource::Nominal => "nominal",
+    };
+    PAIR.section([
+        GEAR_A.of(scenes[0].name.as_str()),
+        GEAR_B.of(scenes[1].name.as_str()),
+        KIND.of(teeth.driven.name()),
+        TEETH_A.of(teeth.count[0]),
+        TEETH_B.of(teeth.count[1]),
+        MODULE.of(own.module_mm),
+        PRESSURE_ANGLE.of(own.pressure_angle_rad.to_degrees()),
+        WORKING_PRESSURE_ANGLE.of(teeth.pressure_angle_rad.to_degrees()),
+        FLANKS_ROLLED.of(flanks),
+        DISTANCE.of(closing_mm + error_um / UM_PER_MM),
+        CLOSING_DISTANCE.of(closing_mm),
+        DISTANCE_ERROR.of(error_um),
+        ECCENTRICITY_A.of(a[0]),
+        ECCENTRICITY_ANGLE_A.of(a[1]),
+        ECCENTRICITY_B.of(b[0]),
+        ECCENTRICITY_ANGLE_B.of(b[1]),
+        IN_PLANE.of(options.parallelism_um[0]),
+        OUT_OF_PLANE.of(options.parallelism_um[1]),
+        MISFIT.of(UM_PER_MM * rolled.fit.misfit_mm).at(at_angle(rolled.fit.misfit_at_rad)),
+        TURNS.of(rolled.period.turns),
+        COUNT_OF_POSITIONS.of(rolled.period.moments.len()),
+        SECTIONS.of(rolled.flanks.rows_mm.len()),
+        MARKING.of(options.marking_um),
+    ])
 }
 
 fn center_distance(rolled: &RolledPair) -> Section {
     let change = &rolled.sensitivity;
-    let of = |what: &str| format!("{what} when the axes are moved {PROBE_UM} um further apart");
     let [low, high] = change.backlash_um;
-    Section::new("center_distance", "What the centre distance does")
-        .with(
-            "transmission_error",
-            Quantity::number(
-                change.error_arcsec,
-                "arcsec",
-                of("largest change of the driving flanks' transmission error"),
-            ),
-        )
-        .shown(
-            "transmission_error_range",
-            "10 um: change of error, range",
-            Quantity::number(
-                change.error_range_arcsec,
-                "arcsec",
-                of("largest less smallest change of the transmission error: 0 on round gears"),
-            ),
-        )
-        .shown(
-            "smallest_backlash_change",
-            "10 um: more backlash, least",
-            Quantity::number(low, "um", of("smallest change of the circumferential backlash")),
-        )
-        .shown(
-            "largest_backlash_change",
-            "10 um: more backlash, most",
-            Quantity::number(high, "um", of("largest change of the circumferential backlash")),
-        )
+    CENTER_DISTANCE.section([
+        CHANGE_OF_ERROR.of(change.error_arcsec),
+        RANGE_OF_CHANGE.of(change.error_range_arcsec),
+        LEAST_MORE_PLAY.of(low),
+        MOST_MORE_PLAY.of(high),
+    ])
 }
 
 fn warnings(rolled: &RolledPair) -> Vec<Notice> {

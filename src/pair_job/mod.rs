@@ -38,6 +38,7 @@ pub mod options;
 pub mod outline;
 pub mod page;
 pub mod pictures;
+pub mod quantities;
 pub mod rolled;
 pub mod spline;
 pub mod teeth;

@@ -6,10 +6,13 @@
 
 use super::charts::{self, NamedLines};
 use super::options::PairOptions;
+use super::quantities::{
+    BACKLASH, CENTER_DISTANCE, CONTACT, DOUBLE_FLANK, FLANKS_ROLLED, INTERFERENCE, PAIR, RATIO, TRANSMISSION_ERROR,
+};
 use super::rolled::RolledPair;
 use super::teeth::ToothContact;
 use super::view;
-use crate::findings::{Findings, Notice};
+use crate::findings::{Findings, QuantityGroup};
 use crate::output::folder::OutputFolder;
 use crate::output::range_chart::{RangeChart, RangeSeries};
 use crate::output::report::{Block, Page, PageSection};
@@ -17,7 +20,7 @@ use crate::output::text::plain;
 use crate::scene::Scene;
 use crate::steps;
 use crate::steps::report::facts::gear_words;
-use crate::steps::report::quantities;
+use crate::steps::report::{page_of, quantities};
 use gearcut_core::error::Result;
 
 /// What the page shows beside numbers and charts: pictures with their PNG, and its end.
@@ -53,20 +56,23 @@ pub fn page(
         let found = lines.iter().find(|(own, _)| *own == name);
         found.map(|(_, chart)| Block::Lines(chart.clone()))
     };
-    let table = |path: &str| found.find(path).map(|section| Block::Table(quantities::table(section)));
+    let table = |group: &QuantityGroup| found.group(group).map(|section| Block::Table(quantities::table(section)));
+    let part_of = |group: &QuantityGroup, key: &str| {
+        found.group(group).and_then(|section| section.find(key)).map(|part| Block::Table(quantities::table(part)))
+    };
     let part = |blocks: Vec<Option<Block>>| blocks.into_iter().flatten().collect::<Vec<_>>();
     let rolling = Block::Picture("The gears in mesh, first pitches; contacts are marked".to_owned(), parts.animation);
     let patterns = parts.patterns.into_iter().map(|(words, png)| Some(Block::Picture(words, png)));
     let mut contact = part(vec![chart("contact_ratio"), Some(Block::Ranges(by_tooth(rolled)))]);
     contact.extend(patterns.flatten());
-    contact.extend(part(vec![table("contact.right"), table("contact.left")]));
+    contact.extend(part(vec![part_of(&CONTACT, "right"), part_of(&CONTACT, "left")]));
     let sections = vec![
         PageSection::new(
             "ratio",
             "Ratio",
             "What the pair is for: the ratio of the speeds that the pitch curves ask for, and the one that the flanks \
             achieve.",
-            part(vec![chart("ratio"), table("ratio"), Some(rolling)]),
+            part(vec![chart("ratio"), table(&RATIO), Some(rolling)]),
         ),
         PageSection::new(
             "transmission-error",
@@ -76,8 +82,8 @@ pub fn page(
             part(vec![
                 chart("transmission_error"),
                 charts::waves(found).map(Block::Bars),
-                table("transmission_error.right"),
-                table("transmission_error.left"),
+                part_of(&TRANSMISSION_ERROR, "right"),
+                part_of(&TRANSMISSION_ERROR, "left"),
             ]),
         ),
         PageSection::new(
@@ -85,7 +91,7 @@ pub fn page(
             "Backlash",
             "What B can turn while A is held, at the pitch point across the line of centres and normal to the flanks. \
             Below zero the pair jams.",
-            part(vec![chart("backlash"), table("backlash")]),
+            part(vec![chart("backlash"), table(&BACKLASH)]),
         ),
         PageSection::new(
             "contact",
@@ -98,7 +104,7 @@ pub fn page(
             "interference",
             "Interference",
             "How deep tip corners are in the mate where the pitch curves want them, or how far they stay clear of it.",
-            part(vec![table("interference")]),
+            part(vec![table(&INTERFERENCE)]),
         ),
         PageSection::new(
             "double-flank",
@@ -106,36 +112,32 @@ pub fn page(
             "The centre distance at which both flanks touch, less the nominal one.",
             part(vec![
                 chart("double_flank"),
-                table("double_flank.mate"),
-                table("double_flank.master_A"),
-                table("double_flank.master_B"),
+                part_of(&DOUBLE_FLANK, "mate"),
+                part_of(&DOUBLE_FLANK, "master_A"),
+                part_of(&DOUBLE_FLANK, "master_B"),
             ]),
         ),
         PageSection::new(
             "center-distance",
             "Centre distance",
             "What 10 µm more do. Round gears turn as evenly at any distance; non-circular ones do not.",
-            part(vec![table("center_distance"), table("pair")]),
+            part(vec![table(&CENTER_DISTANCE), table(&PAIR)]),
         ),
     ];
     let gears = scenes.iter().zip(["A drives", "B is driven"]);
     Page {
         what: "rolling report",
-        title: found.scene.clone(),
         subtitle: format!(
             "{} flanks, {} positions in a period; axes {} mm apart",
-            found.find("pair").map_or("", |pair| pair.words("flanks")),
+            found.group(&PAIR).map_or("", |pair| pair.text(&FLANKS_ROLLED)),
             rolled.period.moments.len(),
             plain(rolled.fit.pitch.center_distance_mm() + rolled.meshing.center_distance_error_mm()),
         ),
         operations: gears.map(|(scene, role)| format!("{role}: {}. {}", scene.name, gear_words(&scene.gear))).collect(),
-        complete: true,
         done: "rolled over a whole period",
-        program: format!("gearcut {}", found.program_version),
-        key_numbers: found.headline.iter().map(quantities::key_number).collect(),
-        warnings: found.warnings.iter().map(Notice::with_signs).collect(),
         viewer,
         sections: sections.into_iter().map(|section| with_marking(section, options)).chain(parts.end).collect(),
+        ..page_of(found)
     }
 }
 

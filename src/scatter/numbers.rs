@@ -8,7 +8,9 @@
 //! rough flank would give its roughness. For pitch they are turned into shifts along the circle through the place.
 
 use super::FlankWish;
-use crate::findings::TableColumn;
+use super::quantities::{SA, SIDE_SINGLE_PITCH, SIDE_TOTAL_PITCH, SK, SPK, SQ, SVK, UNEVENNESS};
+use crate::findings::QuantityRow;
+use crate::findings::quantities::flanks::{F_ALPHA, F_BETA, F_F_ALPHA, F_H_ALPHA, F_H_BETA};
 use crate::influence::gear_grid::FlankGrid;
 use crate::job::{GearJob, rows_z_mm};
 use crate::measure::deviation::{PitchDeviations, Trace};
@@ -36,54 +38,21 @@ const HELIX_SHARE: f64 = 0.9;
 /// Rays whose mean stands for a place.
 const PLACE_RAYS: usize = 11;
 
-/// A number of a gear.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Number {
-    /// Key.
-    pub key: &'static str,
-    /// What it is called on a page.
-    pub symbol: &'static str,
-    /// Unit.
-    pub unit: &'static str,
-    /// What it is.
-    pub definition: &'static str,
-}
-
-impl Number {
-    /// Its column in a table, whose head is its name in files.
-    pub fn column(&self) -> TableColumn {
-        TableColumn::new(self.key, self.unit, self.definition).or(NONE)
-    }
-}
-
-/// Why a number may not exist.
-const NONE: &str = "no pass came to a place that it needs, or no operation leaves stock for another one";
-
-const fn um(key: &'static str, symbol: &'static str, definition: &'static str) -> Number {
-    Number { key, symbol, unit: "um", definition }
-}
-
 /// All of them, in order.
-pub const NUMBERS: [Number; 13] = [
-    um("Sa", "Sa", "arithmetical mean height (ISO 25178-2)"),
-    um("Sq", "Sq", "root mean square height"),
-    um("Sk", "Sk", "core height"),
-    um("Spk", "Spk", "reduced peak height"),
-    um("Svk", "Svk", "reduced valley depth"),
-    um("F_alpha", "F_α", "total profile deviation"),
-    um("f_H_alpha", "f_Hα", "profile slope deviation"),
-    um("f_f_alpha", "f_fα", "profile form deviation"),
-    um("F_beta", "F_β", "total helix deviation"),
-    um("f_H_beta", "f_Hβ", "helix slope deviation"),
-    um("f_p", "f_p", "largest single pitch deviation of the flank's side"),
-    um("F_p", "F_p", "total cumulative pitch deviation of the flank's side"),
-    Number {
-        key: "unevenness",
-        symbol: "unevenness",
-        unit: "%",
-        definition: "largest difference of the first operation's stock left and right of a tooth, over the mean of \
-                     both",
-    },
+pub static NUMBERS: [&QuantityRow; 13] = [
+    &SA,
+    &SQ,
+    &SK,
+    &SPK,
+    &SVK,
+    &F_ALPHA,
+    &F_H_ALPHA,
+    &F_F_ALPHA,
+    &F_BETA,
+    &F_H_BETA,
+    &SIDE_SINGLE_PITCH,
+    &SIDE_TOTAL_PITCH,
+    &UNEVENNESS,
 ];
 
 /// A gear's values of [`NUMBERS`].

@@ -3,8 +3,10 @@
 use super::Scatter;
 use super::findings::place_of;
 use super::layers::{ALL, IDEAL, all_but, alone};
-use super::numbers::{NUMBERS, Number};
-use crate::findings::{Datum, Findings, Notice, RESULTS_FILE, Table, unit};
+use super::numbers::NUMBERS;
+use super::quantities::{GEARS, LAYERS, SA, SHARE, SIDE_SINGLE_PITCH, SIDE_TOTAL_PITCH, SK, SPK, SVK, UNEVENNESS};
+use crate::findings::quantities::flanks::{F_ALPHA, F_BETA, F_H_ALPHA};
+use crate::findings::{Findings, QuantityGroup, QuantityRow, RESULTS_FILE, Table, unit};
 use crate::machine_errors::ErrorLayer;
 use crate::output::bar_chart::BarSeries;
 use crate::output::bar_panels::{BarPanel, BarPanels};
@@ -16,14 +18,14 @@ use crate::output::table::write_tables;
 use crate::output::text::{plain, significant};
 use crate::scene::Scene;
 use crate::steps::report::facts::gear_words;
-use crate::steps::report::quantities;
+use crate::steps::report::page_of;
 use gearcut_core::error::Result;
 
 /// Charts of layers: name of the file, what it shows, its numbers.
-const CHARTS: [(&str, &str, &[&str]); 3] = [
-    ("layers_texture", "Texture", &["Sa", "Sk", "Spk", "Svk"]),
-    ("layers_form", "Profile and helix", &["F_alpha", "f_H_alpha", "F_beta"]),
-    ("layers_pitch", "Pitch and stock", &["f_p", "F_p", "unevenness"]),
+static CHARTS: [(&str, &str, &[&QuantityRow]); 3] = [
+    ("layers_texture", "Texture", &[&SA, &SK, &SPK, &SVK]),
+    ("layers_form", "Profile and helix", &[&F_ALPHA, &F_H_ALPHA, &F_BETA]),
+    ("layers_pitch", "Pitch and stock", &[&SIDE_SINGLE_PITCH, &SIDE_TOTAL_PITCH, &UNEVENNESS]),
 ];
 
 /// Smallest distance of two ticks: a nanometre, a thousandth of a percent. What is less is rounding.
@@ -39,7 +41,7 @@ const ROUNDING: f64 = 1e-6;
 /// Files that cannot be written.
 pub fn write(scene: &Scene, scatter: &Scatter, found: &Findings, folder: &OutputFolder) -> Result<()> {
     write_tables(found, folder)?;
-    for (file, ..) in CHARTS {
+    for (file, ..) in &CHARTS {
         if let Some(chart) = layers_chart(scatter, file) {
             chart.write_svg(&folder.path(format!("pictures/{file}.svg"))?)?;
         }
@@ -60,11 +62,10 @@ fn layers(scatter: &Scatter) -> &[ErrorLayer] {
 
 /// One of [`CHARTS`]: for every layer what it makes alone and what is left without it; none if no gear has its numbers.
 fn layers_chart(scatter: &Scatter, file: &str) -> Option<BarPanels> {
-    let (_, what, keys) = CHARTS.into_iter().find(|(name, ..)| *name == file)?;
+    let (_, what, rows) = CHARTS.iter().find(|(name, ..)| *name == file)?;
     let layers = layers(scatter);
-    let panel = |key: &&str| {
-        let number = place_of(key);
-        let Number { symbol, unit, .. } = NUMBERS[number];
+    let panel = |row: &&QuantityRow| {
+        let number = place_of(row);
         let value = |case: &str| scatter.in_case(case, number).map(without_rounding);
         let series = |name: &str, case: fn(ErrorLayer) -> String| BarSeries {
             name: name.to_owned(),
@@ -76,14 +77,14 @@ fn layers_chart(scatter: &Scatter, file: &str) -> Option<BarPanels> {
         // What no layer makes is in the table.
         let made = shown.iter().flat_map(|series| &series.values).any(|value| value.is_some_and(|value| value != 0.0));
         made.then(|| BarPanel {
-            value_name: symbol.to_owned(),
-            unit: unit::signs(unit),
+            value_name: row.symbol_or_title(),
+            unit: unit::signs(row.unit),
             least_division: LEAST_DIVISION,
             series: shown,
             limits: [ALL, IDEAL].into_iter().filter_map(limit).collect(),
         })
     };
-    let panels: Vec<BarPanel> = keys.iter().filter_map(panel).collect();
+    let panels: Vec<BarPanel> = rows.iter().filter_map(panel).collect();
     (!panels.is_empty()).then(|| BarPanels {
         title: format!("{what}: each layer of errors alone, and all but it"),
         category_name: "layer".to_owned(),
@@ -95,20 +96,20 @@ fn layers_chart(scatter: &Scatter, file: &str) -> Option<BarPanels> {
 /// Every gear as a dot; none where there are no gears.
 fn gears_chart(scatter: &Scatter) -> Option<StripChart> {
     let spreads = scatter.spreads();
-    let strip = |key: &&str| {
-        let number = place_of(key);
+    let strip = |row: &&QuantityRow| {
+        let number = place_of(row);
         let spread = spreads[number]?;
         let dots: Vec<(u32, f64)> = scatter.values(number).collect();
         dots.iter().any(|dot| without_rounding(dot.1) != 0.0).then(|| Strip {
-            name: NUMBERS[number].symbol.to_owned(),
-            unit: unit::signs(NUMBERS[number].unit),
+            name: row.symbol_or_title(),
+            unit: unit::signs(row.unit),
             least_division: LEAST_DIVISION,
             dots,
             interval: [spread.low, spread.median, spread.high],
             interval_name: "5 to 95 %".to_owned(),
         })
     };
-    let strips: Vec<Strip> = CHARTS.iter().flat_map(|(.., keys)| keys.iter()).filter_map(strip).collect();
+    let strips: Vec<Strip> = CHARTS.iter().flat_map(|(.., rows)| rows.iter()).filter_map(strip).collect();
     (!strips.is_empty()).then(|| StripChart {
         title: format!("{} gears of the same machine", scatter.gears.unwrap_or(0)),
         dot_name: "seed".to_owned(),
@@ -119,21 +120,22 @@ fn gears_chart(scatter: &Scatter) -> Option<StripChart> {
 /// The page.
 fn page(scene: &Scene, scatter: &Scatter, found: &Findings, files: Vec<String>) -> Page {
     let charts = CHARTS.iter().filter_map(|(file, ..)| layers_chart(scatter, file)).map(Block::Panels);
-    let table = |path: &str, key: &str| found.find(path).and_then(|section| section.table_of(key)).map(page_table);
+    let table =
+        |group: &QuantityGroup, key: &str| found.group(group).and_then(|section| section.table_of(key)).map(page_table);
     let mut sections = vec![PageSection::new(
         "layers",
         "Layers of errors",
         "Predicted by simulation: the same gear with each layer of errors alone, with all of them, and with all \
             but one. Layers do not add up: a flank keeps what cuts deepest. What is left without a layer shows what \
             working on it would bring.",
-        charts.chain(table("layers", "cases").map(Block::Table)).collect(),
+        charts.chain(table(&LAYERS, "cases").map(Block::Table)).collect(),
     )];
     if let Some(chart) = gears_chart(scatter) {
         sections.push(PageSection::new(
             "gears",
             "Gears of many seeds",
             gears_lead(scatter),
-            std::iter::once(Block::Strips(chart)).chain(table("scatter", "spread").map(Block::Table)).collect(),
+            std::iter::once(Block::Strips(chart)).chain(table(&GEARS, "spread").map(Block::Table)).collect(),
         ));
     }
     sections.push(PageSection::new(
@@ -145,7 +147,6 @@ fn page(scene: &Scene, scatter: &Scatter, found: &Findings, files: Vec<String>) 
     let gears = scatter.gears.map_or_else(String::new, |gears| format!(", {gears} gears"));
     Page {
         what: "error layers and scatter",
-        title: found.scene.clone(),
         subtitle: format!(
             "{} layers of errors{gears}; tooth {} {}",
             layers(scatter).len(),
@@ -153,13 +154,9 @@ fn page(scene: &Scene, scatter: &Scatter, found: &Findings, files: Vec<String>) 
             scatter.flank.side.name()
         ),
         operations: vec![gear_words(&scene.gear)],
-        complete: found.complete,
         done: "all gears cut",
-        program: format!("gearcut {}", found.program_version),
-        key_numbers: found.headline.iter().map(quantities::key_number).collect(),
-        warnings: found.warnings.iter().map(Notice::with_signs).collect(),
-        viewer: None,
         sections,
+        ..page_of(found)
     }
 }
 
@@ -191,13 +188,12 @@ fn page_table(table: &Table) -> PageTable {
         None => "–".to_owned(),
         Some(value) => significant(without_rounding(value), DIGITS).replace('-', "−"),
     };
-    let heads = table.rows.iter().map(|row| match &row[0] {
-        Datum::Number(share) => format!("{} %", plain(*share)),
-        name => name.name(),
-    });
-    let rows = NUMBERS.iter().map(|number| {
-        let values = table.numbers(number.key).map(cell);
-        [number.symbol.to_owned(), unit::signs(number.unit)].into_iter().chain(values).collect()
+    let shares: Vec<Option<f64>> = table.values(&SHARE).collect();
+    let heads =
+        table.names().zip(shares).map(|(name, share)| share.map_or(name, |share| format!("{} %", plain(share))));
+    let rows = NUMBERS.iter().map(|row| {
+        let values = table.values(row).map(cell);
+        [row.symbol_or_title(), unit::signs(row.unit)].into_iter().chain(values).collect()
     });
     PageTable {
         caption: table.title.clone(),

@@ -12,7 +12,7 @@ pub type SeedFile = RowFile<u32>;
 
 /// The seed and the numbers.
 fn kind() -> RowKind {
-    let heads = NUMBERS.iter().map(|number| number.column().head());
+    let heads = NUMBERS.iter().map(|number| number.as_column().head());
     let header = std::iter::once("seed".to_owned()).chain(heads).collect::<Vec<_>>().join(",");
     RowKind { header, numbers: Some(NUMBERS.len()) }
 }

@@ -26,7 +26,7 @@ fn cases_sheet(heading: &str, found: &Scatter) -> String {
     let mut rows = vec![std::iter::once("layers".to_owned()).chain(names).collect()];
     for (number, known) in NUMBERS.iter().enumerate() {
         let values = found.cases.iter().map(|(_, values)| cell(values[number]));
-        rows.push(std::iter::once(known.column().head()).chain(values).collect());
+        rows.push(std::iter::once(known.as_column().head()).chain(values).collect());
     }
     format!("{heading}\n\n{}", aligned(&rows))
 }
@@ -36,7 +36,7 @@ fn spread_sheet(seeds: u32, spreads: &[Option<Spread>]) -> String {
     let mut rows = vec![["number", "5 %", "median", "95 %"].map(str::to_owned).to_vec()];
     for (number, spread) in NUMBERS.iter().zip(spreads) {
         let numbers = spread.map_or([const { String::new() }; 3], |of| [of.low, of.median, of.high].map(shown));
-        rows.push(std::iter::once(number.column().head()).chain(numbers).collect());
+        rows.push(std::iter::once(number.as_column().head()).chain(numbers).collect());
     }
     format!("\n{seeds} gears\n\n{}", aligned(&rows))
 }

@@ -162,7 +162,7 @@ pub fn size_rows(sizes: &Section) -> Vec<[String; 3]> {
         let sign = SIZES.rows.iter().find(|row| row.key == entry.key).map_or("", |row| row.symbol);
         let quantity = &entry.quantity;
         let value = match (quantity.value(), quantity.why()) {
-            (Some(value), _) if quantity.is_count() => format!("{value}"),
+            (Some(value), _) if quantity.whole().is_some() => format!("{value}"),
             (Some(value), _) if quantity.unit() == Some("mm") => format!("{value:.4} mm"),
             // A rounded zero has no sign.
             (Some(value), _) => format!("{:.4}", (1e4 * value).round() / 1e4 + 0.0),

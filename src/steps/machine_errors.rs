@@ -4,14 +4,13 @@
 //! for every layer that is on; none of a machine without errors. What a layer does to the gear is not told here: a cut
 //! has all of them at once, and `gearcut scatter` cuts the gear with each alone.
 
-use crate::findings::{Quantity, Section};
+use crate::findings::Section;
+use crate::findings::quantities::program::{LAYER, MACHINE_ERRORS};
 use crate::machine::{Axis, AxisKind};
 use crate::machine_errors::{AxisErrors, ErrorLayer, Guide, MachineErrors, NoiseLaw, ToolMounting, WorkMounting};
 use crate::output::text::significant;
 use gearcut_core::units::UM_PER_MM;
 
-/// Key of the section.
-pub const KEY: &str = "machine_errors";
 /// mm per mm as um in 100 mm.
 const UM_IN_100MM: f64 = 1e5;
 
@@ -32,15 +31,15 @@ pub fn section<const N: usize>(
         (ErrorLayer::Guide, guide(&errors.guide).join("; ")),
         (ErrorLayer::Mounting, mounting(&errors.mounting).join("; ")),
     ];
-    let mut section = Section::new(KEY, "Errors of the machine");
-    for layer in ErrorLayer::ALL {
+    let entry = |layer: &ErrorLayer| {
         let all = of_all_machines.iter().chain(own);
         let words: Vec<&str> =
-            all.filter(|(of, words)| *of == layer && !words.is_empty()).map(|(_, words)| words.as_str()).collect();
-        if !words.is_empty() {
-            section = section.with(layer.name(), Quantity::text(words.join("; "), layer.definition()));
-        }
-    }
+            all.filter(|(of, words)| of == layer && !words.is_empty()).map(|(_, words)| words.as_str()).collect();
+        let entry = (!words.is_empty()).then(|| LAYER.of(words.join("; ")))?;
+        let remark = format!(": {}", layer.definition());
+        Some(entry.keyed(layer.name()).titled(layer.name().replace('_', " ")).remarked(&remark))
+    };
+    let section = MACHINE_ERRORS.section(ErrorLayer::ALL.iter().filter_map(entry));
     (!section.entries.is_empty()).then_some(section)
 }
 

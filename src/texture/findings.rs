@@ -1,8 +1,14 @@
 //! Texture of windows as findings: a section for each operation, in it one for each window.
 
 use super::files::{named, stems, stems_of};
+use super::quantities::{
+    ABBOTT, CENTER_LEAD, CENTER_PROFILE, CHAIN, CURVE_HEIGHT, FILES, LENGTH_LEAD, LENGTH_PROFILE, LOWER,
+    MARKS_ALONG_PROFILE, MARKS_ALONG_TOOTH, PARAMETERS, SPACING_LEAD, SPACING_PROFILE, TEXTURE, UPPER, WINDOW_PERCENT,
+};
 use super::{SampledWindow, Window, WindowNote, WindowTexture, chart, laid_over};
-use crate::findings::{Datum, Notice, Quantity, Section, Table, TableColumn};
+use crate::findings::quantities::surfaces::RATIO;
+use crate::findings::quantities::teeth::{FLANK, TOOTH};
+use crate::findings::{Entry, Notice, Section, Table};
 use crate::job::GearJob;
 use crate::measure::topography::{Evaluation, Parameter};
 use gearcut_core::units::UM_PER_MM;
@@ -11,16 +17,6 @@ use gearcut_core::units::UM_PER_MM;
 const CURVE_INTERVALS: u32 = 200;
 /// Parameters that are read first: of the height and of the core.
 const FIRST: [&str; 6] = ["Sa", "Sq", "Sz", "Sk", "Spk", "Svk"];
-const CHAIN: &str = "what was done before the evaluation, step by step";
-
-/// Parameters as quantities by symbol.
-pub fn quantities(parameters: &[Parameter]) -> Vec<(String, Quantity)> {
-    let quantity = |p: &Parameter| match &p.value {
-        Ok(value) => Quantity::number(*value, p.unit, p.definition.clone()),
-        Err(why) => Quantity::undefined(p.unit, p.definition.clone(), why.clone()),
-    };
-    parameters.iter().map(|p| (p.symbol.clone(), quantity(p))).collect()
-}
 
 /// Texture of all windows, operation by operation.
 pub fn findings(job: &dyn GearJob, textures: &[WindowTexture]) -> Section {
@@ -31,7 +27,7 @@ pub fn findings(job: &dyn GearJob, textures: &[WindowTexture]) -> Section {
         operations.iter().enumerate().filter(|(index, _)| of(*index).next().is_some()).map(|(index, (name, _))| {
             Section::new(*name, format!("Left by {name}")).parts(of(index).map(|(texture, stem)| window(texture, stem)))
         });
-    Section::new("texture", "Surface texture (ISO 25178-2)").parts(parts)
+    TEXTURE.section([]).parts(parts)
 }
 
 /// What a reader must know before trusting the numbers of windows and their cut tells: a sentence for all windows of an
@@ -81,8 +77,8 @@ fn told<'a>(job: &dyn GearJob, noted: impl Iterator<Item = (StemmedWindow<'a>, W
         let names = group.iter().map(|(of, _)| format!("{} {}", of.window.tooth, of.window.side.name()));
         let names = names.collect::<Vec<_>>().join(", ");
         let section = match group.as_slice() {
-            [(of, _)] => format!("texture.{operation}.{}", key_of(of.stem)),
-            _ => format!("texture.{operation}"),
+            [(of, _)] => format!("{}.{operation}.{}", TEXTURE.key, key_of(of.stem)),
+            _ => format!("{}.{operation}", TEXTURE.key),
         };
         notes[0].notice(&notes, &format!("texture of tooth {names} after {operation}: ")).about(section)
     };
@@ -97,77 +93,47 @@ pub(super) fn key_of(stem: &str) -> &str {
 fn window(texture: &WindowTexture, stem: &str) -> Section {
     let window = &texture.window;
     let (center, length, spacing) = (window.center_mm(), window.length_mm(), window.spacing_mm());
-    let mm = |value: f64, definition: &'static str| Quantity::number(value, "mm", definition);
-    let um = |value: f64, definition: &'static str| Quantity::number(value * UM_PER_MM, "um", definition);
-    let marks = |count: usize, definition: &'static str| Quantity::count(count as u64, "marks", definition);
-    let section = Section::new(key_of(stem), format!("tooth {} {}", window.tooth, window.side.name()))
-        .with("tooth", Quantity::count(window.tooth.into(), "1", "tooth, from 1"))
-        .with("flank", Quantity::text(window.side.name(), "flank: left or right"))
-        .with(
-            "center_profile",
-            mm(
-                center[1],
-                "middle of the window as arc along the profile from the start of the involute, in the section in the \
-                 middle of the face",
-            ),
-        )
-        .with("center_lead", mm(center[0], "middle of the window along the tooth from the middle of the face"))
-        .with("length_profile", mm(length[1], "length of the window along the profile"))
-        .with("length_lead", mm(length[0], "length of the window along the tooth"))
-        .with("spacing_profile", um(spacing[1], "distance of points along the profile, uniform in arc length"))
-        .with("spacing_lead", um(spacing[0], "distance of points along the tooth"))
-        .with(
-            "marks_along_profile",
-            marks(texture.marks[1], "facets that follow each other along the profile in the middle of the window"),
-        )
-        .with(
-            "marks_along_tooth",
-            marks(
-                texture.marks[0],
-                "facets that follow each other along the tooth in the middle of the window; 0: the axes rest during \
-                 strokes, marks run along the tooth without end",
-            ),
-        )
-        .with("files", Quantity::text(stem, "files of the window without their endings, in the output folder"));
+    let section = Section::new(key_of(stem), format!("tooth {} {}", window.tooth, window.side.name())).entries([
+        TOOTH.of(window.tooth),
+        FLANK.of(window.side.name()),
+        CENTER_PROFILE.of(center[1]),
+        CENTER_LEAD.of(center[0]),
+        LENGTH_PROFILE.of(length[1]),
+        LENGTH_LEAD.of(length[0]),
+        SPACING_PROFILE.of(spacing[1] * UM_PER_MM),
+        SPACING_LEAD.of(spacing[0] * UM_PER_MM),
+        MARKS_ALONG_PROFILE.of(texture.marks[1]),
+        MARKS_ALONG_TOOTH.of(texture.marks[0]),
+        FILES.of(stem),
+    ]);
     let section = match &texture.evaluated {
         Ok(evaluated) => section
-            .with("chain", Quantity::text(evaluated.chain.join("; "), CHAIN))
+            .entries([CHAIN.of(evaluated.chain.join("; "))])
             .part(parameters(&evaluated.evaluation))
             .part(material_ratio(&evaluated.evaluation)),
-        Err(reason) => section.with("chain", Quantity::undefined("1", CHAIN, reason.clone())),
+        Err(reason) => section.entries([CHAIN.none(reason.clone())]),
     };
     section.parts(texture.overlaid.as_ref().map(laid_over::section))
 }
 
 fn parameters(evaluation: &Evaluation) -> Section {
-    let section = Section::new("parameters", "Parameters");
-    quantities(&evaluation.parameters).into_iter().fold(section, |section, (symbol, quantity)| {
-        if FIRST.contains(&symbol.as_str()) {
-            section.shown(&symbol, &symbol, quantity)
-        } else {
-            section.with(&symbol, quantity)
-        }
-    })
+    let entry = |of: &Parameter| {
+        let entry = Entry::from(of);
+        if FIRST.contains(&of.symbol.as_str()) { entry.shown() } else { entry }
+    };
+    PARAMETERS.section(evaluation.parameters.iter().map(entry))
 }
 
 /// The material ratio curve with the construction of the Sk family, for drawing.
 fn material_ratio(evaluation: &Evaluation) -> Section {
     let core = &evaluation.core;
-    let columns = vec![
-        TableColumn::new("ratio", "%", "areal material ratio"),
-        TableColumn::new("height", "um", "height over the mean plane").or("the curve has no height there"),
-    ];
-    let points = chart::points(&evaluation.curve, CURVE_INTERVALS).into_iter();
-    let rows = points.map(|(ratio, height)| vec![Datum::from(ratio), height.into()]);
-    Section::new("abbott", "Material ratio curve")
-        .with("window_percent", Quantity::number(core.window_percent, "%", "where the 40 % window begins"))
-        .with(
-            "upper_um",
-            Quantity::number(core.upper_um, "um", "equivalent line at 0 %, by least squares in the 40 % window"),
-        )
-        .with(
-            "lower_um",
-            Quantity::number(core.lower_um, "um", "equivalent line at 100 %, by least squares in the 40 % window"),
-        )
-        .table(Table::new("curve", "Heights at equally spaced areal material ratios", columns).with_rows(rows))
+    let curve = Table::over(
+        "curve",
+        "Heights at equally spaced areal material ratios",
+        chart::points(&evaluation.curve, CURVE_INTERVALS),
+    );
+    let curve = curve.column(&RATIO, |(ratio, _)| *ratio).column(&CURVE_HEIGHT, |(_, height)| *height);
+    ABBOTT
+        .section([WINDOW_PERCENT.of(core.window_percent), UPPER.of(core.upper_um), LOWER.of(core.lower_um)])
+        .table(curve)
 }

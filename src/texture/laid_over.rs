@@ -14,14 +14,12 @@ use super::files::{stems, words};
 use super::measured::MeasuredSurface;
 use super::{Window, WindowTexture};
 use crate::findings::notices::NotLaidOver;
-use crate::findings::{Notice, Quantity, Section};
+use crate::findings::quantities::surfaces::{CORRELATION, OVERLAY};
+use crate::findings::{Notice, Section};
 use crate::job::GearJob;
 use crate::measure::topography::Surface;
 use crate::output::folder::OutputFolder;
 use crate::overlay::SurfaceComparison;
-
-/// Key of the section in that of the window.
-pub const MEASURED: &str = "measured";
 
 /// A measured surface laid over what was cut, or why that cannot be.
 pub type Overlaid = Result<SurfaceComparison, String>;
@@ -41,13 +39,9 @@ pub(super) fn laid_over(
 
 /// Findings of a window's measured surface.
 pub(super) fn section(overlaid: &Overlaid) -> Section {
-    let title = "Measured over cut";
     match overlaid {
-        Ok(comparison) => comparison.section(MEASURED, title),
-        Err(why) => {
-            let definition = "of the heights of both on the points that they share, planes off";
-            Section::new(MEASURED, title).with("correlation", Quantity::undefined("1", definition, why.clone()))
-        }
+        Ok(comparison) => comparison.section(),
+        Err(why) => OVERLAY.section([CORRELATION.none(why.clone())]),
     }
 }
 
@@ -55,7 +49,7 @@ pub(super) fn section(overlaid: &Overlaid) -> Section {
 pub(super) fn doubted(job: &dyn GearJob, textures: &[WindowTexture]) -> Vec<Notice> {
     let of_window = |(texture, stem): (&WindowTexture, String)| {
         let name = words(job, &texture.window);
-        let section = format!("{}.{MEASURED}", stem.replace('/', "."));
+        let section = format!("{}.{}", stem.replace('/', "."), OVERLAY.key);
         let of = format!("measured surface of {name}: ");
         let doubts = match &texture.overlaid {
             None => Vec::new(),

@@ -2,23 +2,24 @@
 //! the drawing's limits say of them.
 
 use super::files::stems;
-use super::findings::{key_of, quantities};
-use super::traces::{Direction, OfLines, Traced};
+use super::findings::key_of;
+use super::quantities::{
+    CHAIN_OF_LINES, CUTOFF, DIRECTION, EVALUATION_LENGTH, LINES, RA, RA_LARGEST, RA_LIMIT, ROUGHNESS, RZ, RZ_LARGEST,
+    RZ_LIMIT, TEXTURE, WINDOW_OF_LINES,
+};
+use super::traces::{Direction, Traced};
 use super::{Window, WindowTexture};
 use crate::findings::notices::{RoughnessLimit, RoughnessNotJudged};
-use crate::findings::{Notice, Quantity, Section};
+use crate::findings::quantities::teeth::{FLANK, TOOTH};
+use crate::findings::{Entry, Notice, QuantityRow, Section};
 use crate::job::GearJob;
-use crate::measure::topography::Parameter;
 use crate::measure::topography::parameters::{ParameterRange, of_profiles};
 use crate::scene::model::DrawnLimits;
 
-/// Key of the section.
-pub const ROUGHNESS: &str = "roughness";
-
 /// Path of the section of a window's lines, from that of the window.
 pub fn roughness_path(window: &str, direction: Direction) -> String {
-    let rest = window.strip_prefix("texture.").unwrap_or(window);
-    format!("{ROUGHNESS}.{rest}_{}", direction.key())
+    let rest = window.strip_prefix(TEXTURE.key).and_then(|rest| rest.strip_prefix('.')).unwrap_or(window);
+    format!("{}.{rest}_{}", ROUGHNESS.key, direction.key())
 }
 
 /// Parameters with a limit, and where that is.
@@ -40,61 +41,46 @@ pub fn roughness(job: &dyn GearJob, textures: &[WindowTexture]) -> Section {
         let lines = of(index).map(|(window, stem, traced)| section(window, stem, traced, limits));
         Section::new(*name, format!("Left by {name}")).parts(lines)
     });
-    Section::new(ROUGHNESS, "Roughness of profiles (ISO 21920)").parts(parts)
+    ROUGHNESS.section([]).parts(parts)
 }
 
 fn section(window: &Window, stem: &str, traced: &Traced, limits: &DrawnLimits) -> Section {
     let way = traced.direction.words();
     let title = format!("tooth {} {} {way}", window.tooth, window.side.name());
-    let section = Section::new(format!("{}_{}", key_of(stem), traced.direction.key()), title)
-        .with("tooth", Quantity::count(window.tooth.into(), "1", "tooth, from 1"))
-        .with("flank", Quantity::text(window.side.name(), "flank: left or right"))
-        .with("direction", Quantity::text(way, "which way the lines run"))
-        .with("window", Quantity::text(key_of(stem), "window that the lines cross"));
-    let cutoff = "cut-off lambda_c: nesting index of the profile L-filter";
-    let chain = "what was done to the lines, step by step";
+    let section = Section::new(format!("{}_{}", key_of(stem), traced.direction.key()), title).entries([
+        TOOTH.of(window.tooth),
+        FLANK.of(window.side.name()),
+        DIRECTION.of(way),
+        WINDOW_OF_LINES.of(key_of(stem)),
+    ]);
     let profiles = match &traced.profiles {
         Ok(profiles) => profiles,
         Err(why) => {
-            let none = |definition: &'static str, unit| Quantity::undefined(unit, definition, why.clone());
-            return section
-                .shown("Ra", "Ra", none("arithmetical mean height of the profile, mean of the lines", "um"))
-                .shown("Rz", "Rz", none("mean of the heights of the sections, mean of the lines", "um"))
-                .shown("cutoff", "cut-off", none(cutoff, "mm"))
-                .with("chain", none(chain, "1"));
+            return section.entries([&RA, &RZ, &CUTOFF, &CHAIN_OF_LINES].map(|row| row.none(why.clone())));
         }
     };
     let mean = |of: ParameterRange| {
-        let definition = format!("{}; mean of the lines", of.mean.definition);
-        Parameter { definition, ..of.mean }
-    };
-    let means: Vec<Parameter> = of_profiles(profiles, &[]).into_iter().map(mean).collect();
-    let mut section = section;
-    for (symbol, quantity) in quantities(&means) {
-        section = match symbol.as_str() {
-            "Ra" | "Rz" => section.shown(&symbol, &symbol, quantity),
-            _ => section.with(&symbol, quantity),
-        };
-    }
-    for symbol in ["Ra", "Rz"] {
-        if let Some(OfLines { largest_um, .. }) = traced.of(symbol) {
-            let definition = format!("largest {symbol} of the lines");
-            let title = format!("{symbol} at most");
-            section =
-                section.shown(&format!("{symbol}_largest"), &title, Quantity::number(largest_um, "um", definition));
+        let row = [&RA, &RZ].into_iter().find(|row| row.key == of.mean.symbol);
+        match (row, &of.mean.value) {
+            (Some(row), Ok(um)) => row.of(*um),
+            (Some(row), Err(why)) => row.none(why.clone()),
+            (None, _) => Entry::from(&of.mean).remarked("; mean of the lines"),
         }
-    }
-    let cutoff_mm = profiles.cutoff_um.unwrap_or_default() * 1e-3;
-    section = section
-        .shown("cutoff", "cut-off", Quantity::number(cutoff_mm, "mm", cutoff))
-        .with("evaluation_length", Quantity::number(profiles.evaluation_um * 1e-3, "mm", "evaluation length"))
-        .with("lines", Quantity::count(traced.places_mm.len() as u64, "1", "lines, evenly over the window"))
-        .with("chain", Quantity::text(profiles.words.join("; "), chain));
-    for (symbol, limit) in limited(limits) {
+    };
+    let largest = |row: &QuantityRow, symbol: &str| Some(row.of(traced.of(symbol)?.largest_um));
+    let mut section = section
+        .entries(of_profiles(profiles, &[]).into_iter().map(mean))
+        .entries([largest(&RA_LARGEST, "Ra"), largest(&RZ_LARGEST, "Rz")].into_iter().flatten())
+        .entries([
+            CUTOFF.of(profiles.cutoff_um.unwrap_or_default() * 1e-3),
+            EVALUATION_LENGTH.of(profiles.evaluation_um * 1e-3),
+            LINES.of(traced.places_mm.len()),
+            CHAIN_OF_LINES.of(profiles.words.join("; ")),
+        ]);
+    for ((symbol, limit), row) in limited(limits).into_iter().zip([&RA_LIMIT, &RZ_LIMIT]) {
         if let (Some(limit), Some(found)) = (limit, traced.of(symbol)) {
             let kept = if found.largest_um <= limit { "kept" } else { "exceeded" };
-            let definition = format!("whether the largest {symbol} of the lines keeps the drawing's {limit} um");
-            section = section.with(&format!("{symbol}_limit"), Quantity::text(kept, definition));
+            section = section.entries([row.of(kept).remarked(&format!(" of {limit} um"))]);
         }
     }
     section

@@ -45,6 +45,16 @@ rows! {
 }
 
 rows! {
+    /// Tables of the axes.
+    AXIS_TABLES: "axis_tables", "Tables of the axes", "columns of axes/<operation>.csv, of each axis under its name";
+
+    TIME: "time", "s", "time from the beginning of the operation, of a bevel gear from that of a slot";
+    POSITION: "position", "that of the axis", "position of the axis; angles go on beyond a turn";
+    SPEED: "speed", "that of the axis", "speed of the axis";
+    ACCELERATION: "acceleration", "that of the axis", "acceleration of the axis";
+}
+
+rows! {
     /// Peaks of an axis against its limit.
     AXES: "axes", "Peaks of the axes", "operations.<operation>.axes.<axis and order>";
 

@@ -42,6 +42,20 @@ rows! {
 }
 
 rows! {
+    /// Places of charts: those of an inspection, and those that a gear was measured at.
+    CHARTS: "charts", "Places of charts", "columns of inspection_charts.csv, and of the places of a calibration";
+
+    CHART: "chart", "", "profile, helix or pitch; places: loose ones";
+    CHART_U: "u", "mm", "arc along the profile from the form point" => or(&[OF_PITCH]);
+    CHART_V: "v", "mm", "place along the tooth from the middle of the face" => or(&[OF_PITCH]);
+    CHART_DEVIATION: "deviation", "um",
+        "normal deviation from the target, of pitch the arc of the pitch curve; positive where material is";
+}
+
+/// No place of a pitch.
+pub const OF_PITCH: &str = "pitch is taken on the pitch curve, in the middle of the face";
+
+rows! {
     /// The table of figures.
     FIGURES: "figures", "Figures and limits", "columns of inspection.figures";
 

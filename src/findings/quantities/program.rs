@@ -1,4 +1,4 @@
-//! Quantities of a program under test: how far it is off the scene's own motion, and what it leaves out.
+//! Quantities of the motion: how far a program under test is off the scene's own, and the errors of the machine.
 
 use crate::findings::rows;
 
@@ -14,4 +14,11 @@ rows! {
     SHARE_BEYOND: "share_beyond", "%", "motion beyond the ends of the scene's, as a share of it";
     PROGRAM_TIME: "time", "s", "time of the program for the motion that both make";
     SCENE_TIME: "scene_time", "s", "time of the scene for the motion that both make";
+}
+
+rows! {
+    /// Errors of the machine, layer by layer.
+    MACHINE_ERRORS: "machine_errors", "Errors of the machine", "machine_errors, of each layer under its name";
+
+    LAYER: "layer", "", "errors of a layer that is on";
 }

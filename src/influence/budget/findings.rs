@@ -1,11 +1,21 @@
 //! A budget as findings: every figure of every parameter, and the maps.
 
 use super::{Budget, BudgetLine};
-use crate::findings::{Datum, Entry, Findings, Notice, Quantity, Section, Table, TableColumn};
+use crate::findings::quantities::teeth::{FLANK, TOOTH};
+use crate::findings::{Findings, Notice, QuantityRow, Table};
+use crate::influence::derivative::Influence;
+use crate::influence::figures::Figures;
 use crate::influence::gear_grid::WHOLE_FLANK;
 use crate::influence::notices::{BudgetStopped, NotLinear, StepRefused};
+use crate::influence::quantities::budget::{
+    BEND, BUDGET, COURSE, DERIVATIVE, DOWNWARDS_OF, HALF_STEP, HELIX, HELIX_SLOPE, INFLUENCE_MAPS,
+    INFLUENCE_ON_NUMBERS, INFLUENCES, LARGEST, LARGEST_OF_STEP, PER_STEP, PER_UNIT, PROFILE, PROFILE_SLOPE, QUANTITY,
+    SHIFTED, SINGLE_PITCH, STEP, THICKNESS, TOTAL_PITCH, U, UNIT_OF_NUMBER, UPWARDS_OF, V, VALUE, WHOLE_FLANKS,
+};
+use crate::influence::quantities::{ERROR, PARAMETER, UNIT};
 use crate::output::text::{plain, significant};
 use crate::scene::Scene;
+use crate::scene::error_parameters::ErrorParameter;
 
 /// Parameters of the headline, and with maps as pictures.
 pub(super) const FIRST: usize = 4;
@@ -15,42 +25,22 @@ pub(super) const LEAST_UM: f64 = 0.005;
 /// The tree.
 pub fn findings(scene: &Scene, budget: &Budget) -> Findings {
     let first = budget.lines.iter().take(FIRST).enumerate().map(|(rank, line)| {
-        let parameter = &line.influence.parameter;
-        let definition = format!(
-            "predicted: largest normal deviation that {} {} of it leave ({})",
-            plain(parameter.step),
-            parameter.unit,
-            parameter.id
-        );
-        let um = Quantity::number(line.largest_per_step_um(), "um", definition);
-        Entry::headline(&format!("rank_{}", rank + 1), &parameter.title, um)
+        let ErrorParameter { id, title, step, unit, .. } = &line.influence.parameter;
+        let entry =
+            LARGEST_OF_STEP.of(line.largest_per_step_um()).remarked(&format!(": {} {unit} of {id}", plain(*step)));
+        entry.keyed(format!("{}_{}", LARGEST_OF_STEP.key, rank + 1)).titled(title.as_str())
     });
     let whole = budget.grid.flanks.iter().filter(|flank| !flank.is_point()).count();
-    let section = Section::new("budget", "Error budget")
-        .with("parameters", Quantity::count(budget.lines.len() as u64, "parameters", "parameters that were shifted"))
-        .with(
-            "whole_flanks",
-            Quantity::count(
-                whole as u64,
-                "flanks",
-                format!(
-                    "flanks on {} x {} places; if none was asked for, of all others the middle, for pitch",
-                    WHOLE_FLANK[0], WHOLE_FLANK[1]
-                ),
-            ),
-        )
+    let [columns, rows] = WHOLE_FLANK;
+    let section = BUDGET
+        .section([
+            SHIFTED.of(budget.lines.len()),
+            WHOLE_FLANKS.of(whole).remarked(&format!("; {columns} x {rows} places on each")),
+        ])
         .table(influences(budget))
         .table(maps(budget));
     let section = if budget.reported.is_empty() { section } else { section.table(numbers(budget)) };
-    Findings {
-        program_version: env!("CARGO_PKG_VERSION").to_owned(),
-        process: scene.process_name().to_owned(),
-        scene: scene.name.clone(),
-        complete: budget.complete,
-        headline: first.collect(),
-        warnings: warnings(budget),
-        sections: vec![section],
-    }
+    Findings::new(scene.process_name(), &scene.name, budget.complete, first, warnings(budget), vec![section])
 }
 
 fn warnings(budget: &Budget) -> Vec<Notice> {
@@ -69,94 +59,69 @@ fn warnings(budget: &Budget) -> Vec<Notice> {
     refused.chain(bent).chain(stopped).collect()
 }
 
+/// A figure of a unit of an error with its column.
+type Figure = (&'static QuantityRow, fn(&Figures) -> f64);
+/// All of them.
+static FIGURES: [Figure; 8] = [
+    (&LARGEST, |of| of.largest),
+    (&PROFILE, |of| of.profile),
+    (&PROFILE_SLOPE, |of| of.profile_slope),
+    (&HELIX, |of| of.helix),
+    (&HELIX_SLOPE, |of| of.helix_slope),
+    (&SINGLE_PITCH, |of| of.single_pitch),
+    (&TOTAL_PITCH, |of| of.total_pitch),
+    (&THICKNESS, |of| of.thickness),
+];
+
 /// A row for each parameter.
 fn influences(budget: &Budget) -> Table {
-    let mut columns = vec![
-        TableColumn::words("parameter", "key of the error, and behind @ which part of it"),
-        TableColumn::words("error", "what it is"),
-        TableColumn::words("unit", "unit of the parameter"),
-        TableColumn::by_row("step", "natural step of the parameter; it is shifted by as much to both sides"),
-        TableColumn::new("per_step", "um", "predicted: largest normal deviation that the step leaves"),
-    ];
-    if let Some(line) = budget.lines.first() {
-        columns.extend(line.per_unit.named().map(|(key, definition, _)| TableColumn {
-            definition: format!("predicted: um that a unit of it alone makes on an ideal gear: {definition}").into(),
-            ..TableColumn::by_row(format!("{key}_um_per_unit"), "").or("pitch and thickness need all flanks")
-        }));
-    }
-    columns.extend([
-        TableColumn::new(
-            "half_step",
-            "%",
-            "largest difference from what half the step gives, of the largest influence",
-        )
-        .or("it has no influence"),
-        TableColumn::new(
-            "bend",
-            "%",
-            "largest difference of both directions from their mean, of the largest influence",
-        )
-        .or("it has no influence, or is shifted upwards only"),
-        TableColumn::words("course", "linear; bent; upwards only: the scene has no value below"),
-    ]);
-    let mut table =
-        Table::new("influences", "Influence of every parameter", columns).with_rows(budget.lines.iter().map(row));
-    table.file = Some("budget.csv".to_owned());
-    table
-}
-
-fn row(line: &BudgetLine) -> Vec<Datum> {
-    let influence = &line.influence;
-    let parameter = &influence.parameter;
-    let most_um = influence.largest_um();
-    let percent = |um: f64| Datum::from((most_um > 0.0).then_some(100.0 * um / most_um));
-    let course = match (influence.upwards_only, influence.is_linear()) {
+    let percent = |of: &Influence, um: f64| Some(of.largest_um()).filter(|um| *um > 0.0).map(|most| 100.0 * um / most);
+    let course = |of: &Influence| match (of.upwards_only, of.is_linear()) {
         (true, true) => "linear, upwards only",
         (true, false) => "bent, upwards only",
         (false, true) => "linear",
         (false, false) => "bent",
     };
-    let mut row = vec![
-        parameter.id.as_str().into(),
-        parameter.title.as_str().into(),
-        parameter.unit.into(),
-        parameter.step.into(),
-        line.largest_per_step_um().into(),
-    ];
-    row.extend(line.per_unit.named().map(|(_, _, um)| Datum::from(um)));
-    row.push(percent(influence.half_step_um));
-    row.push(if influence.upwards_only { Datum::Undefined } else { percent(influence.bend_um()) });
-    row.push(course.into());
-    row
+    let mut table = INFLUENCES
+        .table(&budget.lines)
+        .column(&PARAMETER, |line| line.influence.parameter.id.as_str())
+        .column(&ERROR, |line| line.influence.parameter.title.as_str())
+        .column(&UNIT, |line| line.influence.parameter.unit)
+        .column(&STEP, |line| line.influence.parameter.step)
+        .column(&PER_STEP, |line| line.largest_per_step_um());
+    for (row, figure) in &FIGURES {
+        let column = row.as_column().keyed(format!("{}_um_per_unit", row.key));
+        table = table.column(column, |line| figure(&line.per_unit));
+    }
+    table
+        .column(&HALF_STEP, |line| percent(&line.influence, line.influence.half_step_um))
+        .column(&BEND, |BudgetLine { influence, .. }| {
+            Some(influence).filter(|of| !of.upwards_only).and_then(|of| percent(of, of.bend_um()))
+        })
+        .column(&COURSE, |line| course(&line.influence))
+        .at("budget")
 }
 
 /// The maps: a row for each place, a column for each parameter.
 fn maps(budget: &Budget) -> Table {
-    let mut columns = vec![
-        TableColumn::new("tooth", "1", "tooth, from 1"),
-        TableColumn::words("flank", "left or right"),
-        TableColumn::new("u", "mm", "arc along the profile from the form point"),
-        TableColumn::new("v", "mm", "place along the tooth from the middle of the face"),
-    ];
-    columns.extend(budget.lines.iter().map(|line| TableColumn {
-        definition: format!("predicted: normal deviation for a unit of {}", line.influence.parameter.title).into(),
-        unit: Some(per(line.influence.parameter.unit).into()),
+    let places = budget.grid.flanks.iter().flat_map(|flank| {
+        let along = flank.arcs_mm.iter().flat_map(|&u_mm| flank.faces_mm.iter().map(move |&v_mm| [u_mm, v_mm]));
+        along.map(move |place| (flank, place))
+    });
+    let mut table = INFLUENCE_MAPS
+        .table(places.enumerate())
+        .column(&TOOTH, |(_, (flank, _))| flank.tooth)
+        .column(&FLANK, |(_, (flank, _))| flank.side.name())
+        .column(&U, |(_, (_, [u_mm, _]))| *u_mm)
+        .column(&V, |(_, (_, [_, v_mm]))| *v_mm);
+    for BudgetLine { influence, .. } in &budget.lines {
+        let ErrorParameter { id, title, unit, .. } = &influence.parameter;
         // Keys have no dots: these part the steps of a path through the findings.
-        ..TableColumn::new(line.influence.parameter.id.replace(['.', '@'], "_"), "", "").or("no pass came there")
-    }));
-    let mut rows = Vec::new();
-    let mut place = 0;
-    for flank in &budget.grid.flanks {
-        for &u_mm in &flank.arcs_mm {
-            for &v_mm in &flank.faces_mm {
-                let mut row: Vec<Datum> = vec![flank.tooth.into(), flank.side.name().into(), u_mm.into(), v_mm.into()];
-                row.extend(budget.lines.iter().map(|line| Datum::from(line.influence.um_per_unit[place])));
-                rows.push(row);
-                place += 1;
-            }
-        }
+        let column =
+            PER_UNIT.as_column().keyed(id.replace(['.', '@'], "_")).in_unit(per(unit)).remarked(&format!(": {title}"));
+        table = table.column(column, |(place, _)| influence.um_per_unit[*place]);
     }
-    Table::new("maps", "Influence maps", columns).with_rows(rows).rows_in_file("influence_maps")
+    table.rows_in_file("influence_maps")
 }
 
 /// Micrometres per unit.
@@ -166,26 +131,16 @@ pub(super) fn per(unit: &str) -> String {
 
 /// A row for each parameter and each reported number that it moves.
 fn numbers(budget: &Budget) -> Table {
-    let columns = vec![
-        TableColumn::words("parameter", "key of the error, and behind @ which part of it"),
-        TableColumn::words("quantity", "path of the number in results.json; headline.KEY for those of its headline"),
-        TableColumn::words("unit", "unit of the number; derivatives are for one unit of the error"),
-        TableColumn::by_row("value", "predicted: by the scene as it is"),
-        TableColumn::by_row("derivative", "predicted: what it gains for a unit of the error, both directions")
-            .or("one of the directions is not there"),
-        TableColumn::by_row("upwards", "predicted: the same from the scene's value upwards")
-            .or("the number vanishes there"),
-        TableColumn::by_row("downwards", "predicted: the same from below to the scene's value")
-            .or("the number vanishes there, or the scene has no word for less"),
-    ];
-    let rows = budget.reported.iter().map(|of| {
-        let both = of.upwards.zip(of.downwards).map(|(up, down)| 0.5 * (up + down));
-        let mut row: Vec<Datum> = [&of.parameter, &of.quantity, &of.unit].map(|word| Datum::from(word.as_str())).into();
-        row.push(of.value.into());
-        row.extend([both, of.upwards, of.downwards].map(Datum::from));
-        row
-    });
-    Table::new("numbers", "Influence on every reported number", columns).with_rows(rows).rows_in_file("numbers")
+    INFLUENCE_ON_NUMBERS
+        .table(&budget.reported)
+        .column(&PARAMETER, |of| of.parameter.as_str())
+        .column(&QUANTITY, |of| of.quantity.as_str())
+        .column(&UNIT_OF_NUMBER, |of| of.unit.as_str())
+        .column(&VALUE, |of| of.value)
+        .column(&DERIVATIVE, |of| of.upwards.zip(of.downwards).map(|(up, down)| 0.5 * (up + down)))
+        .column(&UPWARDS_OF, |of| of.upwards)
+        .column(&DOWNWARDS_OF, |of| of.downwards)
+        .rows_in_file("numbers")
 }
 
 /// Rows for the terminal, at most 80 columns wide: what a natural step of each error makes, um.

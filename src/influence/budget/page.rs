@@ -2,7 +2,7 @@
 
 use super::Budget;
 use super::maps::{self, InfluenceSheet};
-use crate::findings::{Findings, Notice, RESULTS_FILE, unit};
+use crate::findings::{Findings, RESULTS_FILE, unit};
 use crate::output::bar_chart::{BarChart, BarSeries};
 use crate::output::folder::OutputFolder;
 use crate::output::report::{Block, Page, PageSection, PageTable, REPORT_FILE};
@@ -10,8 +10,7 @@ use crate::output::table::write_tables;
 use crate::output::text::{plain, significant};
 use crate::scene::{LoadedScene, Scene};
 use crate::steps::report::facts::gear_words;
-use crate::steps::report::quantities;
-use crate::steps::report::{SCENE, ending};
+use crate::steps::report::{SCENE, ending, page_of};
 use gearcut_core::error::Result;
 
 /// Parameters in the chart: as many as can be read.
@@ -98,20 +97,15 @@ fn page(scene: &Scene, budget: &Budget, found: &Findings, maps: Vec<InfluenceShe
     sections.extend(end);
     Page {
         what: "error budget",
-        title: found.scene.clone(),
         subtitle: format!(
             "{} errors, each shifted to both sides; heights on {} places",
             budget.lines.len(),
             budget.grid.places()
         ),
         operations: vec![gear_words(&scene.gear)],
-        complete: budget.complete,
         done: "all errors tried",
-        program: format!("gearcut {}", found.program_version),
-        key_numbers: found.headline.iter().map(quantities::key_number).collect(),
-        warnings: found.warnings.iter().map(Notice::with_signs).collect(),
-        viewer: None,
         sections,
+        ..page_of(found)
     }
 }
 

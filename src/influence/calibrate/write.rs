@@ -1,12 +1,20 @@
 //! A calibration as findings, and all that is written.
 
 use super::{Calibrated, Calibration, MeasuredGear};
-use crate::findings::{Datum, Entry, Findings, Notice, Quantity, RESULTS_FILE, Section, Table, TableColumn};
+use crate::findings::quantities::inspection::{CHART, CHART_U, CHART_V};
+use crate::findings::quantities::teeth::{FLANK, TOOTH};
+use crate::findings::{Findings, Notice, RESULTS_FILE, Table};
 use crate::influence::charts::MeasuredLine;
 use crate::influence::notices::{
     AtEnd, CalibrationBeyond, CalibrationStopped, CalibrationUnexplained, CalibrationUnsettled, NoFreedom, OneSurface,
     Unidentified,
 };
+use crate::influence::quantities::calibration::{
+    AS_MANY, CALIBRATION, CHANCE, CHI_SQUARE, COUNT, DEVIATION, DEVIATION_FITTED, DEVIATION_PREDICTED, FITS, FITTED,
+    FITTED_SHIFT, FREEDOM, HALF_WIDTH, LINE, MEASURED_LINES, MEASURED_NUMBERS, MEASURED_PLACES, OFF_FITTED,
+    OFF_PREDICTED, PREDICTED, QUANTITY, RMS, SHIFT, UNCERTAINTY, UNIDENTIFIED, VALUE,
+};
+use crate::influence::quantities::{KIND, PARAMETER, UNIT};
 use crate::output::folder::OutputFolder;
 use crate::output::report::{Block, Page, PageSection, PageTable, REPORT_FILE};
 use crate::output::table::write_tables;
@@ -15,7 +23,7 @@ use crate::scene::error_parameters::ErrorParameter;
 use crate::scene::{LoadedScene, Scene};
 use crate::steps::report::facts::gear_words;
 use crate::steps::report::quantities;
-use crate::steps::report::{SCENE, ending};
+use crate::steps::report::{SCENE, ending, page_of};
 use gearcut_core::error::Result;
 
 /// Chance that uncertainties alone are called too much to be left over.
@@ -24,36 +32,17 @@ const UNEXPLAINED_BY_CHANCE: f64 = 1e-3;
 /// The tree.
 pub fn findings(scene: &Scene, measured: &MeasuredGear, found: &Calibration) -> Findings {
     let headline = found.fitted.iter().zip(&found.at_end).enumerate().map(|(index, ((parameter, fitted), at_end))| {
-        let definition = match (fitted, at_end) {
-            (Some([_, half]), _) => format!(
-                "fitted: shift of {} beyond the scene; 95 % interval +- {} {}",
-                parameter.id,
-                significant(*half, 3),
-                parameter.unit
-            ),
-            (None, Some(_)) => {
-                format!("fitted: shift of {} beyond the scene, which the end of its range holds", parameter.id)
-            }
-            (None, None) => format!("fitted: shift of {} beyond the scene", parameter.id),
+        let ErrorParameter { id, title, unit, .. } = parameter;
+        let remark = match (fitted, at_end) {
+            (Some([_, half]), _) => format!(": {id}; 95 % interval +- {} {unit}", significant(*half, 3)),
+            (None, Some(_)) => format!(": {id}, which the end of its range holds"),
+            (None, None) => format!(": {id}"),
         };
-        let why = "the measured values do not say it: its derivatives are nothing, or those of the others";
-        let shift = fitted.map(|[shift, _]| shift).or(*at_end);
-        let quantity = Quantity::number_or(shift, parameter.unit, definition, why);
-        Entry::headline(&format!("fit_{}", index + 1), &parameter.title, quantity)
+        let entry = FITTED_SHIFT.of_or(fitted.map(|[shift, _]| shift).or(*at_end), UNIDENTIFIED).remarked(&remark);
+        entry.keyed(format!("{}_{}", FITTED_SHIFT.key, index + 1)).titled(title.as_str()).in_unit(*unit)
     });
-    let section = Section::new("calibration", "Calibration")
-        .with("chi_square", {
-            let what = "fitted: sum of the squared residuals over the uncertainties";
-            Quantity::number(found.chi_square, "1", what)
-        })
-        .with(
-            "freedom",
-            Quantity::count(found.freedom as u64, "1", "measured values less fitted ones, and one for each line"),
-        )
-        .with("chance", {
-            let what = "fitted: chance of residuals as large from the uncertainties alone: chi-square";
-            Quantity::number_or(found.chance, "1", what, "as many numbers are fitted as measured")
-        })
+    let section = CALIBRATION
+        .section([CHI_SQUARE.of(found.chi_square), FREEDOM.of(found.freedom), CHANCE.of_or(found.chance, AS_MANY)])
         .table(fits(found))
         .table(numbers(measured, found));
     let section = if measured.lines.is_empty() {
@@ -61,15 +50,8 @@ pub fn findings(scene: &Scene, measured: &MeasuredGear, found: &Calibration) -> 
     } else {
         section.table(lines(measured, found)).table(places(measured, found))
     };
-    Findings {
-        program_version: env!("CARGO_PKG_VERSION").to_owned(),
-        process: scene.process_name().to_owned(),
-        scene: scene.name.clone(),
-        complete: found.complete,
-        headline: headline.collect(),
-        warnings: warnings(measured, found),
-        sections: vec![section],
-    }
+    let warnings = warnings(measured, found);
+    Findings::new(scene.process_name(), &scene.name, found.complete, headline, warnings, vec![section])
 }
 
 fn warnings(measured: &MeasuredGear, found: &Calibration) -> Vec<Notice> {
@@ -112,40 +94,24 @@ impl Calibration {
 }
 
 fn fits(found: &Calibration) -> Table {
-    let why = "the measured values do not say it";
-    let columns = vec![
-        TableColumn::words("parameter", "key of the error, and behind @ which part of it"),
-        TableColumn::words("kind", "fitted: chosen so that the predicted values come near the measured ones"),
-        TableColumn::by_row("shift", "shift beyond the scene").or(why),
-        TableColumn::by_row("half_width", "half the width of its 95 % interval")
-            .or("the measured values do not say it, or the end of its key's range holds it"),
-        TableColumn::words("unit", "unit of both"),
-    ];
-    let rows = found.fitted.iter().zip(&found.at_end).map(|((parameter, fitted), at_end)| {
-        vec![
-            parameter.id.as_str().into(),
-            "fitted".into(),
-            Datum::from(fitted.map(|[shift, _]| shift).or(*at_end)),
-            Datum::from(fitted.map(|[_, half]| half)),
-            parameter.unit.into(),
-        ]
-    });
-    Table::new("fits", "Fitted parameters", columns).with_rows(rows).in_file("fits")
+    FITS.table(found.fitted.iter().zip(&found.at_end))
+        .column(&PARAMETER, |((parameter, _), _)| parameter.id.as_str())
+        .column(&KIND, |_| "fitted")
+        .column(&SHIFT, |((_, fitted), at_end)| fitted.map(|[shift, _]| shift).or(**at_end))
+        .column(&HALF_WIDTH, |((_, fitted), _)| fitted.map(|[_, half]| half))
+        .column(&UNIT, |((parameter, _), _)| parameter.unit)
+        .in_file("fits")
 }
 
 fn numbers(measured: &MeasuredGear, found: &Calibration) -> Table {
-    let columns = vec![
-        TableColumn::words("quantity", "path in results.json, which says its unit"),
-        TableColumn::by_row("value", "measured: value"),
-        TableColumn::by_row("uncertainty", "measured: its standard uncertainty"),
-        TableColumn::by_row("predicted", "predicted: by the scene as it is"),
-        TableColumn::by_row("fitted", "fitted: by the scene with the fitted parameters"),
-    ];
-    let rows = measured.numbers.iter().zip(&found.values).map(|(number, of)| {
-        let quantity = number.quantity.as_str().into();
-        vec![quantity, of.measured.into(), number.uncertainty.into(), of.predicted.into(), of.fitted.into()]
-    });
-    Table::new("numbers", "Measured numbers", columns).with_rows(rows).in_file("numbers")
+    MEASURED_NUMBERS
+        .table(measured.numbers.iter().zip(&found.values))
+        .column(&QUANTITY, |(number, _)| number.quantity.as_str())
+        .column(&VALUE, |(_, of)| of.measured)
+        .column(&UNCERTAINTY, |(number, _)| number.uncertainty)
+        .column(&PREDICTED, |(_, of)| of.predicted)
+        .column(&FITTED, |(_, of)| of.fitted)
+        .in_file("numbers")
 }
 
 /// Lines with their values.
@@ -163,57 +129,34 @@ fn by_line<'a>(
 
 /// A row for each line.
 fn lines(measured: &MeasuredGear, found: &Calibration) -> Table {
-    let columns = vec![
-        TableColumn::words("line", "line of a chart"),
-        TableColumn::new("places", "1", "measured: places on it"),
-        TableColumn::new("measured", "um", "measured: root mean square about the mean of the line, or a turn"),
-        TableColumn::new("off_predicted", "um", "predicted: root mean square of what the scene as it is leaves of it"),
-        TableColumn::new("off_fitted", "um", "fitted: the same of the scene with the fitted parameters"),
-    ];
-    let rows = by_line(measured, found).map(|(line, own)| {
-        let rms = |of: fn(&Calibrated) -> f64| {
-            (own.iter().map(|one| of(one).powi(2)).sum::<f64>() / own.len() as f64).sqrt().into()
-        };
-        vec![
-            Datum::Word(line.title()),
-            (own.len() as u64).into(),
-            rms(|of| of.measured),
-            rms(|of| of.measured - of.predicted),
-            rms(|of| of.measured - of.fitted),
-        ]
-    });
-    Table::new("lines", "Measured lines", columns).with_rows(rows).in_file("lines")
+    let rms = |own: &[Calibrated], of: fn(&Calibrated) -> f64| {
+        (own.iter().map(|one| of(one).powi(2)).sum::<f64>() / own.len() as f64).sqrt()
+    };
+    MEASURED_LINES
+        .table(by_line(measured, found))
+        .column(&LINE, |(line, _)| line.title())
+        .column(&COUNT, |(_, own)| own.len())
+        .column(&RMS, |(_, own)| rms(own, |of| of.measured))
+        .column(&OFF_PREDICTED, |(_, own)| rms(own, |of| of.measured - of.predicted))
+        .column(&OFF_FITTED, |(_, own)| rms(own, |of| of.measured - of.fitted))
+        .in_file("lines")
 }
 
 /// A row for each place of the lines.
 fn places(measured: &MeasuredGear, found: &Calibration) -> Table {
-    let columns = vec![
-        TableColumn::words("chart", "profile, helix, pitch; places: loose ones"),
-        TableColumn::new("tooth", "1", "tooth, from 1"),
-        TableColumn::words("flank", "left or right"),
-        TableColumn::new("u", "mm", "arc along the profile from the form point")
-            .or("pitch is taken on the pitch curve"),
-        TableColumn::new("v", "mm", "place along the tooth from the middle of the face").or("pitch is taken there"),
-        TableColumn::new("measured", "um", "measured: deviation from the mean of its line, or but for a turn"),
-        TableColumn::new("predicted", "um", "predicted: the same by the scene as it is"),
-        TableColumn::new("fitted", "um", "fitted: the same by the scene with the fitted parameters"),
-    ];
-    let rows = by_line(measured, found).flat_map(|(line, own)| {
-        line.points.iter().zip(own).map(|(point, of)| {
-            let known = |mm: f64| Datum::from(Some(mm).filter(|mm| mm.is_finite()));
-            vec![
-                line.chart.name().into(),
-                point.tooth.into(),
-                point.side.name().into(),
-                known(point.u_mm),
-                known(point.v_mm),
-                of.measured.into(),
-                of.predicted.into(),
-                of.fitted.into(),
-            ]
-        })
-    });
-    Table::new("places", "Places of the measured lines", columns).with_rows(rows).rows_in_file("places")
+    let rows = by_line(measured, found)
+        .flat_map(|(line, own)| line.points.iter().zip(own).map(move |(point, of)| (line, point, of)));
+    MEASURED_PLACES
+        .table(rows)
+        .column(&CHART, |(line, ..)| line.chart.name())
+        .column(&TOOTH, |(_, point, _)| point.tooth)
+        .column(&FLANK, |(_, point, _)| point.side.name())
+        .column(&CHART_U, |(_, point, _)| point.u_mm)
+        .column(&CHART_V, |(_, point, _)| point.v_mm)
+        .column(&DEVIATION, |(.., of)| of.measured)
+        .column(&DEVIATION_PREDICTED, |(.., of)| of.predicted)
+        .column(&DEVIATION_FITTED, |(.., of)| of.fitted)
+        .rows_in_file("places")
 }
 
 /// Writes everything but the run record.
@@ -256,11 +199,12 @@ fn page(scene: &Scene, found: &Calibration, measured: &MeasuredGear, tree: &Find
             rows: rows.collect(),
         }));
     }
-    if let Some(table) = tree.find("calibration").and_then(|section| section.table_of("lines")) {
-        let rows = table.rows.iter().map(|row| {
-            let um = |cell: &Datum| cell.number().map_or_else(String::new, shown);
-            std::iter::once(row[0].name()).chain(row[2..].iter().map(um)).collect()
-        });
+    let section = tree.group(&CALIBRATION);
+    if let Some(table) = section.and_then(|section| section.table_of(MEASURED_LINES.key)) {
+        let um = |row| table.values(row).map(|um| um.map_or_else(String::new, shown));
+        let values = um(&RMS).zip(um(&OFF_PREDICTED)).zip(um(&OFF_FITTED));
+        let rows =
+            table.names().zip(values).map(|(name, ((own, predicted), fitted))| vec![name, own, predicted, fitted]);
         let columns = ["Line", "Measured [µm]", "Left by the scene, predicted [µm]", "Left, fitted [µm]"];
         blocks.push(Block::Table(PageTable {
             caption: "Measured lines, root mean squares about their means".to_owned(),
@@ -268,7 +212,7 @@ fn page(scene: &Scene, found: &Calibration, measured: &MeasuredGear, tree: &Find
             rows: rows.collect(),
         }));
     }
-    blocks.extend(tree.find("calibration").map(|section| Block::Table(quantities::table(section))));
+    blocks.extend(section.map(|section| Block::Table(quantities::table(section))));
     if !found.settings.is_empty() {
         let settings: Vec<String> = found.settings.iter().map(|setting| format!("--set '{setting}'")).collect();
         blocks.push(Block::Note("Fitted: these arguments make the scene the fitted one.".to_owned()));
@@ -276,15 +220,9 @@ fn page(scene: &Scene, found: &Calibration, measured: &MeasuredGear, tree: &Find
     }
     Page {
         what: "calibration",
-        title: tree.scene.clone(),
         subtitle: format!("{} parameters fitted to {} measured values", found.fitted.len(), found.values.len()),
         operations: vec![gear_words(&scene.gear)],
-        complete: found.complete,
         done: "fitted",
-        program: format!("gearcut {}", tree.program_version),
-        key_numbers: tree.headline.iter().map(quantities::key_number).collect(),
-        warnings: tree.warnings.iter().map(Notice::with_signs).collect(),
-        viewer: None,
         sections: std::iter::once(PageSection::new(
             "numbers",
             "Measured and fitted",
@@ -293,5 +231,6 @@ fn page(scene: &Scene, found: &Calibration, measured: &MeasuredGear, tree: &Find
         ))
         .chain(end)
         .collect(),
+        ..page_of(tree)
     }
 }

@@ -1,25 +1,26 @@
 //! A diagnosis as findings, and for the terminal.
 
 use super::{Diagnosis, ErrorModel, FittedSize, NamedSource, StandingShape};
-use crate::findings::{Datum, Entry, Findings, Notice, Quantity, Section, Table, TableColumn};
+use crate::findings::quantities::teeth::{FLANK, TOOTH};
+use crate::findings::{Findings, Notice, QuantityRow, Table};
 use crate::influence::measured::MeasuredPoint;
 use crate::influence::notices::{
     DiagnosisStopped, DiagnosisUnexplained, DiagnosisUnsettled, Hidden, NoOwnSize, SameAs, StandsOut, StepRefused,
     Unsayable,
 };
+use crate::influence::quantities::budget::{U, V};
+use crate::influence::quantities::diagnosis::{
+    ALONE, BENT, CHANCE, DIAGNOSIS, EXPLAINED, FREEDOM, HALF_IF_RIGHT, HIGH, KIND_OF_SHAPE, LEFT, LOW, MEASURED, NAMED,
+    NO_INTERVAL, NO_TURN, NOISE, NOTHING_DEVIATES, OF_SCENE, ON_LEFT, ON_RIGHT, POINTS, RESIDUAL, RESIDUALS, ROUNDS,
+    SAME_AS, SHAPE, SIZE, SOURCES, STANDING_OUT, SURE, TURN, TURN_HIGH, TURN_LOW, UNEXPLAINED,
+};
+use crate::influence::quantities::{ERROR, KIND, PARAMETER, UNIT};
 use crate::output::summary;
 use crate::output::text::{Sheet, significant};
 use crate::scene::Scene;
 
-/// What stands behind every fitted number.
+/// What every fitted number is.
 const FITTED: &str = "fitted";
-/// Why there is no interval.
-const NO_INTERVAL: &str = "no interval holds while deviations are left that neither noise nor an error explains";
-/// Why a parameter has no size.
-const NO_SIZE: &str = "other errors say all of it";
-/// Why a parameter has no interval.
-const NO_SIZE_OR_INTERVAL: &str = "other errors say all of it, or no interval holds: deviations are left that neither \
-                                   noise nor an error explains";
 
 /// The tree.
 pub fn findings(
@@ -29,81 +30,32 @@ pub fn findings(
     noise_um: f64,
     found: &Diagnosis,
 ) -> Findings {
-    let percent = |share: Option<f64>| share.map(|share| 100.0 * share);
-    let headline = vec![
-        Entry::headline(
-            "sources",
-            "sources named",
-            Quantity::count(found.named.len() as u64, "sources", "fitted: errors that explain more than noise would"),
-        ),
-        Entry::headline(
-            "explained",
-            "explained",
-            Quantity::number_or(
-                percent(found.explained),
-                "%",
-                "fitted: share of the squared deviations, beside those of the scene and a turn, that the named sources \
-                 take away",
-                "nothing deviates",
-            ),
-        ),
-        Entry::headline(
-            "residual",
-            "left over",
-            Quantity::number(found.residual_um, "um", "fitted: root mean square of the residuals"),
-        ),
-        Entry::headline(
-            "unexplained",
-            "unexplained",
-            Quantity::number(
-                found.unexplained_um,
-                "um",
-                "fitted: root mean square of what is left beyond the stated noise; 0 where noise makes as much in more \
-                 than 1 of 1000 gears",
-            ),
-        ),
+    let headline = [
+        NAMED.of(found.named.len()),
+        EXPLAINED.of_or(found.explained.map(|share| 100.0 * share), NOTHING_DEVIATES),
+        RESIDUAL.of(found.residual_um),
+        UNEXPLAINED.of(found.unexplained_um),
     ];
-    let turn = |of: fn(FittedSize) -> f64, what| {
-        Quantity::number_or(found.turn_arcsec.map(of), "arcsec", what, "no measured place shows a turn")
+    let turn = |row: &QuantityRow, of: fn(FittedSize) -> f64| row.of_or(found.turn_arcsec.map(of), NO_TURN);
+    let turn_end = |row: &QuantityRow, of: fn(FittedSize) -> f64| {
+        if found.intervals_hold() { turn(row, of) } else { row.none(NO_INTERVAL) }
     };
-    let turn_end = |of: fn(FittedSize) -> f64, what| {
-        if found.intervals_hold() { turn(of, what) } else { Quantity::number_or(None, "arcsec", what, NO_INTERVAL) }
-    };
-    let section = Section::new("diagnosis", "Diagnosis")
-        .with("points", Quantity::count(points.len() as u64, "places", "measured places"))
-        .with("noise", Quantity::number(noise_um, "um", "stated standard deviation of every measured value"))
-        .with("turn", {
-            let what = "fitted: how far the gear stood turned on the measuring machine, counter-clockwise";
-            turn(|turn| turn.size, what)
-        })
-        .with("turn_low", turn_end(|turn| turn.interval[0], "fitted: lower end of its 95 % interval"))
-        .with("turn_high", turn_end(|turn| turn.interval[1], "fitted: upper end of its 95 % interval"))
-        .with("freedom", Quantity::count(found.freedom as u64, "1", "measured values less fitted numbers"))
-        .with("chance", {
-            let what = "chance that noise alone leaves as much: chi-square of the residuals over the stated noise";
-            Quantity::number(found.chance, "1", what)
-        })
-        .with("rounds", {
-            let what = "fitted: how often the gear was cut with the sizes found so far, until they moved no more";
-            Quantity::count(found.rounds as u64, "1", what)
-        })
-        .with("bent", {
-            let what = "measured places that the first fit went without, where the heights bend by more than the noise \
-                        within a natural step of an error; all others have them";
-            Quantity::count(found.bent as u64, "places", what)
-        })
+    let section = DIAGNOSIS
+        .section([
+            POINTS.of(points.len()),
+            NOISE.of(noise_um),
+            turn(&TURN, |turn| turn.size),
+            turn_end(&TURN_LOW, |turn| turn.interval[0]),
+            turn_end(&TURN_HIGH, |turn| turn.interval[1]),
+            FREEDOM.of(found.freedom),
+            CHANCE.of(found.chance),
+            ROUNDS.of(found.rounds),
+            BENT.of(found.bent),
+        ])
         .table(sources(model, found))
         .table(residuals(points, model, found));
     let section = if model.standing_out.is_empty() { section } else { section.table(standing_out(model, found)) };
-    Findings {
-        program_version: env!("CARGO_PKG_VERSION").to_owned(),
-        process: scene.process_name().to_owned(),
-        scene: scene.name.clone(),
-        complete: model.complete,
-        headline,
-        warnings: warnings(model, found),
-        sections: vec![section],
-    }
+    Findings::new(scene.process_name(), &scene.name, model.complete, headline, warnings(model, found), vec![section])
 }
 
 fn title(model: &ErrorModel, source: usize) -> String {
@@ -144,16 +96,13 @@ fn warnings(model: &ErrorModel, found: &Diagnosis) -> Vec<Notice> {
 
 /// A row for each thing that stands out.
 fn standing_out(model: &ErrorModel, found: &Diagnosis) -> Table {
-    let columns = vec![
-        TableColumn::words("shape", "what stands out: a tooth, bent profiles, a step along the face"),
-        TableColumn::words("kind", "fitted: beside the errors of the machine"),
-        TableColumn::new("left", "um", "its size on left flanks: normal deviation, crown or rise").or(NO_SIZE),
-        TableColumn::new("right", "um", "its size on right flanks").or(NO_SIZE),
-    ];
-    let rows = found
-        .standing_out(model)
-        .map(|(shape, um)| vec![shape.title().as_str().into(), FITTED.into(), Datum::from(um[0]), Datum::from(um[1])]);
-    Table::new("standing_out", "What stands out of the gear", columns).with_rows(rows).in_file("standing_out")
+    STANDING_OUT
+        .table(found.standing_out(model))
+        .column(&SHAPE, |(shape, _)| shape.title())
+        .column(&KIND_OF_SHAPE, |_| FITTED)
+        .column(&ON_LEFT, |(_, um)| um[0])
+        .column(&ON_RIGHT, |(_, um)| um[1])
+        .in_file("standing_out")
 }
 
 impl Diagnosis {
@@ -211,70 +160,44 @@ impl Diagnosis {
 
 /// A row for each fitted parameter.
 fn sources(model: &ErrorModel, found: &Diagnosis) -> Table {
-    let low = "lower end of its 95 % interval, over all sets of sources that explain the deviations about as well";
     let holds = found.intervals_hold();
-    let alone = "half the width of the 95 % interval if exactly the named sources are there";
-    let sure = "weight of the sets of sources with this one, of all that explain the deviations about as well";
-    let columns = vec![
-        TableColumn::words("parameter", "key of the error, and behind @ which part of it"),
-        TableColumn::words("error", "what it is"),
-        TableColumn::words("kind", "fitted: a number that was chosen so that it explains the measured values"),
-        TableColumn::by_row("size", "size, beyond that of the scene").or(NO_SIZE),
-        TableColumn::by_row("low", low).or(NO_SIZE_OR_INTERVAL),
-        TableColumn::by_row("high", "upper end of that interval").or(NO_SIZE_OR_INTERVAL),
-        TableColumn::by_row("half_if_right", alone).or(NO_SIZE_OR_INTERVAL),
-        TableColumn::words("unit", "unit of sizes and intervals"),
-        TableColumn::new("sure", "%", sure).or(NO_INTERVAL),
-        TableColumn::new("alone", "%", "share of the squared deviations that no other named source explains"),
-        TableColumn::words("same_as", "sources that would explain as much in its place"),
-    ];
-    let mut rows = Vec::new();
-    for named in &found.named {
-        let source = &model.sources[named.source];
-        for (parameter, fitted) in source.parameters.iter().zip(&named.fitted) {
-            let with_interval = fitted.filter(|_| holds);
-            let same: Vec<&str> = named.same_as.iter().map(|&other| model.sources[other].key.as_str()).collect();
-            rows.push(vec![
-                parameter.id.as_str().into(),
-                parameter.title.as_str().into(),
-                FITTED.into(),
-                Datum::from(fitted.map(|fitted| fitted.size)),
-                Datum::from(with_interval.map(|fitted| fitted.interval[0])),
-                Datum::from(with_interval.map(|fitted| fitted.interval[1])),
-                Datum::from(with_interval.map(|fitted| fitted.half_if_right)),
-                parameter.unit.into(),
-                Datum::from(holds.then_some(100.0 * named.weight)),
-                (100.0 * named.alone).into(),
-                same.join(" ").as_str().into(),
-            ]);
-        }
-    }
-    Table::new("sources", "Errors that explain the measured flanks", columns).with_rows(rows).in_file("sources")
+    let rows = found.named.iter().flat_map(|named| {
+        let parameters = model.sources[named.source].parameters.iter();
+        parameters.zip(&named.fitted).map(move |(parameter, fitted)| (named, parameter, *fitted))
+    });
+    let of_interval = |fitted: &Option<FittedSize>, of: fn(FittedSize) -> f64| fitted.filter(|_| holds).map(of);
+    let same_as = |named: &NamedSource| {
+        let keys: Vec<&str> = named.same_as.iter().map(|&other| model.sources[other].key.as_str()).collect();
+        keys.join(" ")
+    };
+    SOURCES
+        .table(rows)
+        .column(&PARAMETER, |(_, parameter, _)| parameter.id.as_str())
+        .column(&ERROR, |(_, parameter, _)| parameter.title.as_str())
+        .column(&KIND, |_| FITTED)
+        .column(&SIZE, |(.., fitted)| fitted.map(|fitted| fitted.size))
+        .column(&LOW, |(.., fitted)| of_interval(fitted, |of| of.interval[0]))
+        .column(&HIGH, |(.., fitted)| of_interval(fitted, |of| of.interval[1]))
+        .column(&HALF_IF_RIGHT, |(.., fitted)| of_interval(fitted, |of| of.half_if_right))
+        .column(&UNIT, |(_, parameter, _)| parameter.unit)
+        .column(&SURE, |(named, ..)| holds.then_some(100.0 * named.weight))
+        .column(&ALONE, |(named, ..)| 100.0 * named.alone)
+        .column(&SAME_AS, |(named, ..)| same_as(named))
+        .in_file("sources")
 }
 
 /// A row for each measured place.
 fn residuals(points: &[MeasuredPoint], model: &ErrorModel, found: &Diagnosis) -> Table {
-    let columns = vec![
-        TableColumn::new("tooth", "1", "tooth, from 1"),
-        TableColumn::words("flank", "left or right"),
-        TableColumn::new("u", "mm", "arc along the profile from the form point"),
-        TableColumn::new("v", "mm", "place along the tooth from the middle of the face"),
-        TableColumn::new("measured", "um", "measured normal deviation"),
-        TableColumn::new("predicted", "um", "predicted: that of the scene's own gear"),
-        TableColumn::new("residual", "um", "fitted: measured less that of the gear with the fitted errors, turned"),
-    ];
-    let rows = points.iter().zip(&model.before_um).zip(&found.residuals_um).map(|((point, before), residual)| {
-        vec![
-            point.tooth.into(),
-            point.side.name().into(),
-            point.u_mm.into(),
-            point.v_mm.into(),
-            point.deviation_um.into(),
-            (*before).into(),
-            (*residual).into(),
-        ]
-    });
-    Table::new("residuals", "What is left over", columns).with_rows(rows).rows_in_file("residuals")
+    RESIDUALS
+        .table(points.iter().zip(&model.before_um).zip(&found.residuals_um))
+        .column(&TOOTH, |((point, _), _)| point.tooth)
+        .column(&FLANK, |((point, _), _)| point.side.name())
+        .column(&U, |((point, _), _)| point.u_mm)
+        .column(&V, |((point, _), _)| point.v_mm)
+        .column(&MEASURED, |((point, _), _)| point.deviation_um)
+        .column(&OF_SCENE, |((_, before), _)| **before)
+        .column(&LEFT, |(_, residual)| **residual)
+        .rows_in_file("residuals")
 }
 
 /// Size in words, with its interval where that holds.

@@ -2,7 +2,8 @@
 
 use super::findings::sized;
 use super::{Diagnosis, ErrorModel};
-use crate::findings::{Findings, Notice, RESULTS_FILE, unit};
+use crate::findings::{Findings, RESULTS_FILE, unit};
+use crate::influence::quantities::diagnosis::DIAGNOSIS;
 use crate::output::bar_chart::{BarChart, BarSeries};
 use crate::output::folder::OutputFolder;
 use crate::output::report::{Block, Page, PageSection, PageTable, REPORT_FILE};
@@ -11,7 +12,7 @@ use crate::output::text::significant;
 use crate::scene::{LoadedScene, Scene};
 use crate::steps::report::facts::gear_words;
 use crate::steps::report::quantities;
-use crate::steps::report::{SCENE, ending};
+use crate::steps::report::{SCENE, ending, page_of};
 use gearcut_core::error::Result;
 
 /// Ticks of the chart stand at least so far apart, %.
@@ -42,18 +43,12 @@ fn page(scene: &Scene, model: &ErrorModel, found: &Diagnosis, tree: &Findings, e
         named.push(Block::Table(sources(model, found)));
         named.push(Block::Bars(chart(model, found)));
     }
-    let left = tree.find("diagnosis").map(|section| Block::Table(quantities::table(section)));
+    let left = tree.group(&DIAGNOSIS).map(|section| Block::Table(quantities::table(section)));
     Page {
         what: "diagnosis",
-        title: tree.scene.clone(),
         subtitle: format!("{} measured places, {} errors tried", found.residuals_um.len(), model.sources.len()),
         operations: vec![gear_words(&scene.gear)],
-        complete: model.complete,
         done: "all errors tried",
-        program: format!("gearcut {}", tree.program_version),
-        key_numbers: tree.headline.iter().map(quantities::key_number).collect(),
-        warnings: tree.warnings.iter().map(Notice::with_signs).collect(),
-        viewer: None,
         sections: [
             PageSection::new(
                 "sources",
@@ -72,6 +67,7 @@ fn page(scene: &Scene, model: &ErrorModel, found: &Diagnosis, tree: &Findings, e
         .into_iter()
         .chain(end)
         .collect(),
+        ..page_of(tree)
     }
 }
 

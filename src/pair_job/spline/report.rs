@@ -1,7 +1,7 @@
 //! What a splined shaft in its hub has shown: findings, a table tooth by tooth, a chart, the page.
 
 use super::{SplineFit, ToothInSpace};
-use crate::findings::{Datum, Entry, Findings, Notice, Place, Quantity, RESULTS_FILE, Section, Table, TableColumn};
+use crate::findings::{Entry, Findings, Notice, Place, QuantityRow, RESULTS_FILE, Section, Table};
 use crate::output::bar_chart::{BarChart, BarSeries};
 use crate::output::folder::OutputFolder;
 use crate::output::report::{Block, Page, PageSection, REPORT_FILE};
@@ -10,41 +10,38 @@ use crate::output::text::significant;
 use crate::pair_job::findings::PROCESS;
 use crate::pair_job::notices::NoClearance;
 use crate::pair_job::page::{PairRecord, ending};
+use crate::pair_job::quantities::spline::{
+    CLEARANCE, EFFECTIVE_CLEARANCE, EFFECTIVE_THICKNESS, EFFECTIVE_WIDTH, FIT, FORM_CLEARANCE_OF_HUB,
+    FORM_CLEARANCE_OF_SHAFT, GAP_OF_LEFT, GAP_OF_RIGHT, HUB, HUB_VARIATION, LARGEST_CLEARANCE, MEAN_THICKNESS,
+    MEAN_WIDTH, MODULE, PITCH_DIAMETER, PRESSURE_ANGLE, ROOT_CLEARANCE_OF_HUB, ROOT_CLEARANCE_OF_SHAFT, SHAFT,
+    SHAFT_VARIATION, SMALLEST_CLEARANCE, SPACE, TEETH, THICKNESS, TIGHTEST, TOOTH_BY_TOOTH, TOOTH_CLEARANCE,
+    TOOTH_OF_SHAFT, WIDTH,
+};
 use crate::scene::Scene;
 use crate::steps::report::facts::gear_words;
-use crate::steps::report::quantities;
+use crate::steps::report::{page_of, quantities};
 use gearcut_core::error::Result;
 use gearcut_core::units::UM_PER_MM;
 
 /// Ticks of the chart are so far apart at least, um.
 const LEAST_UM: f64 = 0.1;
-/// Numbers that are said first.
-const HEADLINE: [(&str, &str); 5] = [
-    ("clearance", "hub turns on the shaft by"),
-    ("effective_clearance", "effective clearance c_v"),
-    ("smallest_clearance_of_a_tooth", "narrowest tooth in its space"),
-    ("effective_tooth_thickness", "effective tooth thickness S_v"),
-    ("effective_space_width", "effective space width E_v"),
+/// Numbers that are said first, with their titles there.
+static HEADLINE: [(&QuantityRow, &str); 5] = [
+    (&CLEARANCE, "hub turns on the shaft by"),
+    (&EFFECTIVE_CLEARANCE, "effective clearance c_v"),
+    (&TIGHTEST, "narrowest tooth in its space"),
+    (&EFFECTIVE_THICKNESS, "effective tooth thickness S_v"),
+    (&EFFECTIVE_WIDTH, "effective space width E_v"),
 ];
 
 /// Everything that was found.
 pub fn findings(name: &str, scenes: [&Scene; 2], fit: &SplineFit) -> Findings {
-    let sections = vec![section(scenes, fit)];
-    let mut found = Findings {
-        program_version: env!("CARGO_PKG_VERSION").to_owned(),
-        process: PROCESS.to_owned(),
-        scene: name.to_owned(),
-        complete: true,
-        headline: Vec::new(),
-        warnings: interference(fit).into_iter().collect(),
-        sections,
+    let section = section(scenes, fit);
+    let first = |(row, title): &(&QuantityRow, &str)| {
+        Some(section.entry_of(row)?.clone().keyed(format!("{}_{}", FIT.key, row.key)).titled(*title))
     };
-    let entry = |(key, title): (&str, &str)| {
-        let quantity = found.find("fit")?.quantity(key)?.clone();
-        Some(Entry::headline(&format!("fit_{key}"), title, quantity))
-    };
-    found.headline = HEADLINE.into_iter().filter_map(entry).collect();
-    found
+    let headline: Vec<Entry> = HEADLINE.iter().filter_map(first).collect();
+    Findings::new(PROCESS, name, true, headline, interference(fit), vec![section])
 }
 
 /// Why the parts do not go together.
@@ -69,101 +66,49 @@ fn clearance_mm(tooth: &ToothInSpace) -> f64 {
 }
 
 fn section(scenes: [&Scene; 2], fit: &SplineFit) -> Section {
-    let um = |mm: f64, definition: &'static str| Quantity::number(UM_PER_MM * mm, "um", definition);
-    let mm = |mm: f64, definition: &'static str| Quantity::number(mm, "mm", definition);
     let [thickness_mm, width_mm] = fit.effective_mm;
     let [least_mm, most_mm] = fit.positions_mm;
     let tightest = fit.teeth.iter().min_by(|a, b| clearance_mm(a).total_cmp(&clearance_mm(b)));
     let tightest = tightest.copied().unwrap_or(fit.teeth[0]);
-    let place = Place::default().and("tooth", tightest.tooth);
     let mean = |of: fn(&ToothInSpace) -> f64| fit.teeth.iter().map(of).sum::<f64>() / fit.teeth.len() as f64;
+    let [mean_thickness_mm, mean_width_mm] = [mean(|at| at.thickness_mm), mean(|at| at.width_mm)];
     let gear = &scenes[0].gear;
-    Section::new("fit", "Splined shaft in its hub")
-        .with("shaft", Quantity::text(scenes[0].name.clone(), "the part with teeth outside"))
-        .with("hub", Quantity::text(scenes[1].name.clone(), "the part with teeth inside"))
-        .with("teeth", Quantity::count(gear.teeth.into(), "teeth", "teeth of either part"))
-        .with("module", mm(gear.module_mm, "module"))
-        .with("pressure_angle", Quantity::number(gear.pressure_angle_rad.to_degrees(), "deg", "pressure angle"))
-        .shown("pitch_diameter", "pitch diameter", mm(fit.pitch_diameter_mm, "m z, on which widths are measured"))
-        .with(
-            "clearance",
-            um(
-                fit.clearance_mm,
-                "what the hub can turn on the shaft along the pitch circle in this position; below 0 the shaft does \
-                 not go in",
-            ),
-        )
-        .shown(
-            "smallest_clearance",
-            "in the worst position",
-            um(least_mm, "the smallest over all positions of the hub"),
-        )
-        .shown("largest_clearance", "in the best position", um(most_mm, "the largest over all positions of the hub"))
-        .with(
-            "effective_clearance",
-            um(width_mm - thickness_mm, "E_v - S_v, what is left of it in the worst position at least (ISO 4156-1)"),
-        )
-        .with(
-            "effective_tooth_thickness",
-            mm(thickness_mm, "S_v: width of the spaces of the perfect hub that the shaft just fits"),
-        )
-        .with(
-            "effective_space_width",
-            mm(width_mm, "E_v: thickness of the teeth of the perfect shaft that just fits the hub"),
-        )
-        .shown("tooth_thickness", "mean tooth thickness S", mm(mean(|at| at.thickness_mm), "mean of all teeth"))
-        .shown("space_width", "mean space width E", mm(mean(|at| at.width_mm), "mean of all spaces"))
-        .with(
-            "smallest_clearance_of_a_tooth",
-            um(clearance_mm(&tightest), "smallest E - S of a tooth in its space in this position").at(place),
-        )
-        .shown(
-            "shaft_variation",
-            "effective variation of the shaft",
-            um(thickness_mm - mean(|at| at.thickness_mm), "S_v less mean S: pitch, form and waves of the shaft"),
-        )
-        .shown(
-            "hub_variation",
-            "effective variation of the hub",
-            um(mean(|at| at.width_mm) - width_mm, "mean E less E_v: pitch, form and waves of the hub"),
-        )
-        .shown("root_clearance_of_hub", "shaft's tips to hub's roots", mm(fit.root_clearance_mm[0], "radial clearance"))
-        .shown(
-            "root_clearance_of_shaft",
-            "hub's tips to shaft's roots",
-            mm(fit.root_clearance_mm[1], "radial clearance"),
-        )
-        .shown(
-            "form_clearance_of_hub",
-            "shaft's tips to hub's form circle",
-            mm(fit.form_clearance_mm[0], "radial; below 0 a tip is as high as a fillet"),
-        )
-        .shown(
-            "form_clearance_of_shaft",
-            "hub's tips to shaft's form circle",
-            mm(fit.form_clearance_mm[1], "radial; below 0 a tip is as low as a fillet"),
-        )
-        .table(table(fit))
+    FIT.section([
+        SHAFT.of(scenes[0].name.as_str()),
+        HUB.of(scenes[1].name.as_str()),
+        TEETH.of(gear.teeth),
+        MODULE.of(gear.module_mm),
+        PRESSURE_ANGLE.of(gear.pressure_angle_rad.to_degrees()),
+        PITCH_DIAMETER.of(fit.pitch_diameter_mm),
+        CLEARANCE.of(UM_PER_MM * fit.clearance_mm),
+        SMALLEST_CLEARANCE.of(UM_PER_MM * least_mm),
+        LARGEST_CLEARANCE.of(UM_PER_MM * most_mm),
+        EFFECTIVE_CLEARANCE.of(UM_PER_MM * (width_mm - thickness_mm)),
+        EFFECTIVE_THICKNESS.of(thickness_mm),
+        EFFECTIVE_WIDTH.of(width_mm),
+        MEAN_THICKNESS.of(mean_thickness_mm),
+        MEAN_WIDTH.of(mean_width_mm),
+        TIGHTEST.of(UM_PER_MM * clearance_mm(&tightest)).at(Place::default().and("tooth", tightest.tooth)),
+        SHAFT_VARIATION.of(UM_PER_MM * (thickness_mm - mean_thickness_mm)),
+        HUB_VARIATION.of(UM_PER_MM * (mean_width_mm - width_mm)),
+        ROOT_CLEARANCE_OF_HUB.of(fit.root_clearance_mm[0]),
+        ROOT_CLEARANCE_OF_SHAFT.of(fit.root_clearance_mm[1]),
+        FORM_CLEARANCE_OF_HUB.of(fit.form_clearance_mm[0]),
+        FORM_CLEARANCE_OF_SHAFT.of(fit.form_clearance_mm[1]),
+    ])
+    .table(table(fit))
 }
 
 fn table(fit: &SplineFit) -> Table {
-    let columns = vec![
-        TableColumn::new("tooth", "1", "tooth of the shaft"),
-        TableColumn::new("space", "1", "space of the hub: behind the tooth of this number"),
-        TableColumn::new("tooth_thickness", "mm", "S on the pitch circle"),
-        TableColumn::new("space_width", "mm", "E on the pitch circle"),
-        TableColumn::new("clearance", "um", "E - S"),
-        TableColumn::new("gap_right", "um", "gap of the right flank with the hub midway between its stops"),
-        TableColumn::new("gap_left", "um", "gap of the left flank with the hub midway between its stops"),
-    ];
-    let row = |at: &ToothInSpace| -> Vec<Datum> {
-        let [right_mm, left_mm] = at.gaps_mm;
-        let um = [clearance_mm(at), right_mm, left_mm].map(|mm| Datum::from(UM_PER_MM * mm));
-        let counts = [at.tooth, at.space].map(|number| Datum::from(u64::from(number)));
-        [counts.to_vec(), vec![at.thickness_mm.into(), at.width_mm.into()], um.to_vec()].concat()
-    };
-    Table::new("tooth_by_tooth", "Every tooth in its space", columns)
-        .with_rows(fit.teeth.iter().map(row))
+    TOOTH_BY_TOOTH
+        .table(&fit.teeth)
+        .column(&TOOTH_OF_SHAFT, |at| at.tooth)
+        .column(&SPACE, |at| at.space)
+        .column(&THICKNESS, |at| at.thickness_mm)
+        .column(&WIDTH, |at| at.width_mm)
+        .column(&TOOTH_CLEARANCE, |at| UM_PER_MM * clearance_mm(at))
+        .column(&GAP_OF_RIGHT, |at| UM_PER_MM * at.gaps_mm[0])
+        .column(&GAP_OF_LEFT, |at| UM_PER_MM * at.gaps_mm[1])
         .in_file("spline_fit")
 }
 
@@ -198,19 +143,13 @@ pub fn write(
     write_tables(found, folder)?;
     let chart = chart(fit);
     chart.write_svg(&folder.path("pictures/spline_fit.svg")?)?;
-    let numbers = found.find("fit").map(|section| Block::Table(quantities::table(section)));
+    let numbers = found.group(&FIT).map(|section| Block::Table(quantities::table(section)));
     let parts = scenes.iter().zip(["The shaft", "The hub"]);
     let page = Page {
         what: "fit of a spline",
-        title: found.scene.clone(),
         subtitle: "cut flanks, on one axis".to_owned(),
         operations: parts.map(|(scene, role)| format!("{role}: {}. {}", scene.name, gear_words(&scene.gear))).collect(),
-        complete: true,
         done: "all teeth in their spaces",
-        program: format!("gearcut {}", found.program_version),
-        key_numbers: found.headline.iter().map(quantities::key_number).collect(),
-        warnings: found.warnings.iter().map(Notice::with_signs).collect(),
-        viewer: None,
         sections: std::iter::once(PageSection::new(
             "fit",
             "Fit",
@@ -220,6 +159,7 @@ pub fn write(
         ))
         .chain(ending(folder, &format!("cut by {}", record.backend), record)?)
         .collect(),
+        ..page_of(found)
     };
     page.write(&folder.path(REPORT_FILE)?)?;
     folder.write_json(RESULTS_FILE, &found.to_json())

@@ -4,6 +4,7 @@
 
 use super::*;
 use crate::pair_job::options::PairOptions;
+use crate::pair_job::quantities::spline::{CLEARANCE, FIT};
 use crate::pair_job::spline::{SplineFit, fit, is_spline, report};
 use gearcut_core::cut::cpu::Cpu;
 use gearcut_core::error::Result;
@@ -93,7 +94,7 @@ fn nominal_parts_have_the_clearance_of_their_allowances() {
         assert_eq!(tooth.space, if tooth.tooth == 1 { TEETH } else { tooth.tooth - 1 });
     }
     let found = report::findings("fit", [&shaft.scene, &hub.scene], &fit);
-    let told_um = found.find("fit").and_then(|section| section.number("clearance")).expect("a number");
+    let told_um = found.group(&FIT).and_then(|section| section.value(&CLEARANCE)).expect("a number");
     assert!((told_um - UM_PER_MM * fit.clearance_mm).abs() < 1e-9 && found.warnings.is_empty());
     let [effective_mm, space_mm] = fit.effective_mm;
     for clearance_mm in [fit.clearance_mm, fit.positions_mm[0], fit.positions_mm[1], space_mm - effective_mm] {

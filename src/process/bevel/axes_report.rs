@@ -9,7 +9,9 @@ use super::job::BevelJob;
 use super::measure;
 use super::motion::{AXES, RollMotion, limits};
 use super::operation::PreparedBevel;
-use crate::findings::Notice;
+use super::quantities::CRADLE_ANGLE;
+use crate::findings::quantities::cutting::TIME;
+use crate::findings::{Notice, Table};
 use crate::machine::{Motion as _, Order, Peak, peaks};
 use crate::output::line_chart::LineChart;
 use crate::output::progress::duration_text;
@@ -21,7 +23,6 @@ use gearcut_core::error::Result;
 use gearcut_core::math::least_squares::WindowFit;
 use gearcut_core::terms::Side;
 use gearcut_core::units::{TURN_RAD, UM_PER_MM};
-use std::path::Path;
 use std::sync::OnceLock;
 
 /// Rows of the axis table.
@@ -213,15 +214,15 @@ impl AxesOfOperation for BevelAxesReport<'_> {
         self.program.as_ref().map(told).unwrap_or_default()
     }
 
-    fn write_table(&self, path: &Path) -> Result<()> {
+    fn table(&self) -> Table {
         let motion = self.motion();
         let roll_s = self.operation.roll_s();
         let rows = (0..=ROWS).map(|i| {
             let time_s = roll_s * f64::from(i) / f64::from(ROWS);
-            let cradle_deg = motion.cradle_rad(time_s).to_degrees();
-            ([vec![time_s.into(), cradle_deg.into()], vec![], vec![]], motion.at(time_s))
+            (time_s, motion.cradle_rad(time_s).to_degrees(), motion.at(time_s))
         });
-        axes::write_table(path, &AXES, [vec!["time_s", "cradle_angle_deg"], vec![], vec![]], rows)
+        let table = Table::over("axes", "Axes", rows).column(&TIME, |row| row.0).column(&CRADLE_ANGLE, |row| row.1);
+        axes::rates(axes::positions(table, &AXES, |row| &row.2), &AXES, |row| &row.2).into()
     }
 
     fn charts(&self) -> &[NamedChart<LineChart>] {

@@ -18,6 +18,7 @@ pub mod bearing;
 pub mod charts;
 pub mod findings;
 pub mod page;
+pub mod quantities;
 
 use super::BevelJob;
 use crate::interrupt::Interrupt;

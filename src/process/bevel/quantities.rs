@@ -1,5 +1,6 @@
 //! Quantities that only bevel cutting finds.
 
+use super::pair;
 use crate::findings::quantities::cutting::{IDLE, NO_MATERIAL};
 use crate::findings::{QuantityGroup, rows};
 
@@ -25,6 +26,11 @@ pub static QUANTITIES: &[&QuantityGroup] = &[
     &BLADES,
     &BODY,
     &CHIPS,
+    &AXIS_COLUMNS,
+    &pair::quantities::PAIR,
+    &pair::quantities::SIDE,
+    &pair::quantities::PATH,
+    &pair::quantities::TRENDS,
 ];
 
 rows! {
@@ -202,6 +208,13 @@ rows! {
     PASS_ANGLE: "cradle_angle", "deg", "cradle angle while the blade is in the middle of the slot";
     THICKEST_ALONG: "along", "mm",
         "place of the thickest chip along the tooth, from the middle of the face to the heel";
+}
+
+rows! {
+    /// What the tables of the axes add.
+    AXIS_COLUMNS: "axis_columns", "Tables of the axes of bevel cutting", "columns of axes/<operation>.csv";
+
+    CRADLE_ANGLE: "cradle_angle", "deg", "angle of the cradle that the axes stand for";
 }
 
 rows! {

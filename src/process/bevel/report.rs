@@ -25,9 +25,8 @@ use crate::output::text::{from_full_depth, plain, significant};
 use crate::steps;
 use crate::steps::axes;
 use crate::steps::report::facts::table;
-use crate::steps::report::{
-    PageGear, RunWords, files, headline_words, machine_errors, record, texture, value_and_unit,
-};
+use crate::steps::report::quantities::value_and_unit;
+use crate::steps::report::{PageGear, RunWords, files, headline_words, machine_errors, record, texture};
 use crate::steps::view_mesh::{ViewFlank, ViewMesh};
 use gearcut_core::error::Result;
 use gearcut_core::terms::Side;
@@ -232,8 +231,7 @@ fn blades(found: &Findings) -> PageSection {
             caption: "Share of all flanks that each blade has left last".to_owned(),
             columns: ["Blade", "Kind", "Runout [µm]", "Share [%]"].map(str::to_owned).into(),
             rows: table
-                .rows
-                .iter()
+                .rows()
                 .map(|row| {
                     let number =
                         |cell: usize| row[cell].number().map_or_else(String::new, |value| significant(value, 3));

@@ -12,7 +12,8 @@ mod charts;
 mod facts;
 
 use super::gcode;
-use crate::findings::Notice;
+use crate::findings::quantities::cutting::TIME;
+use crate::findings::{Notice, Table};
 use crate::machine::{Peak, peaks};
 use crate::output::bar_chart::BarChart;
 use crate::output::line_chart::LineChart;
@@ -21,12 +22,12 @@ use crate::process::hobbing::HobbingJob;
 use crate::process::hobbing::job::PreparedHobbing;
 use crate::process::hobbing::linkage::dynamics::{self, AXES};
 use crate::process::hobbing::notices::{AsPrinted, FeedMarks};
+use crate::process::hobbing::quantities::POLAR_ANGLE;
 use crate::process::hobbing::scene::model::{HobbingKind, ShiftDirection, ShiftStrategy};
 use crate::steps::axes::{self, AxesOfOperation, Named, NamedChart, PeakWords, STEADY};
 use crate::steps::program_under_test::ProgramUnderTest;
 use gearcut_core::error::Result;
 use gearcut_core::units::UM_PER_MM;
-use std::path::Path;
 use std::sync::OnceLock;
 
 /// Rows of the axis table per cycle along the pitch curve.
@@ -131,18 +132,17 @@ impl AxesOfOperation for HobbingAxesReport<'_> {
         warnings
     }
 
-    /// Angles run on beyond a turn.
-    fn write_table(&self, path: &Path) -> Result<()> {
+    fn table(&self) -> Table {
         let linkage = &self.operation().linkage;
         let cycles = linkage.end_s() / linkage.cycle_s();
         let count = (cycles * ROWS_PER_CYCLE).ceil().clamp(1.0, MOST_ROWS) as u32;
         let rows = (0..=count).map(|i| {
             let time_s = linkage.end_s() * f64::from(i) / f64::from(count);
             let axes = linkage.axes(time_s);
-            let polar_deg = axes.polar_rad.value().to_degrees();
-            ([vec![time_s.into(), polar_deg.into()], vec![], vec![]], dynamics::motion(&axes))
+            (time_s, axes.polar_rad.value().to_degrees(), dynamics::motion(&axes))
         });
-        axes::write_table(path, &AXES, [vec!["time_s", "polar_angle_deg"], vec![], vec![]], rows)
+        let table = Table::over("axes", "Axes", rows).column(&TIME, |row| row.0).column(&POLAR_ANGLE, |row| row.1);
+        axes::rates(axes::positions(table, &AXES, |row| &row.2), &AXES, |row| &row.2).into()
     }
 
     fn charts(&self) -> &[NamedChart<LineChart>] {

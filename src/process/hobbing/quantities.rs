@@ -18,7 +18,7 @@ pub const SECTION_SAYS: &str = "the section of its step has the reason";
 
 /// The groups of this table.
 pub static QUANTITIES: &[&QuantityGroup] =
-    &[&HOBBED_GEAR, &EVALUATED, &OPERATION, &LOAD, &FORCE, &POINTS, &ERRORS, &MARKS, &FLANK];
+    &[&HOBBED_GEAR, &EVALUATED, &OPERATION, &LOAD, &FORCE, &POINTS, &ERRORS, &MARKS, &FLANK, &AXIS_COLUMNS];
 
 rows! {
     /// What the headline of a hobbed gear adds.
@@ -168,6 +168,13 @@ rows! {
     ROLL: "roll", "mm", "roll of the step, from the machine's motion" => or(&[SECTION_SAYS]);
     AXIAL_STEP: "axial", "mm", "the step along the gear's axis, from the machine's motion" => or(&[SECTION_SAYS]);
     STEP: "step", "1", "number of the step: 1 the shortest, 2 the next one";
+}
+
+rows! {
+    /// What the tables of the axes add.
+    AXIS_COLUMNS: "axis_columns", "Tables of a hobbing machine's axes", "columns of axes/<operation>.csv";
+
+    POLAR_ANGLE: "polar_angle", "deg", "polar angle of the pitch point on the gear" => symbol("φ");
 }
 
 rows! {

@@ -14,19 +14,19 @@ mod strokes;
 
 use super::gcode::{AxisProgram, Judgement};
 use super::programs;
-use crate::findings::{Notice, Place, Quantity, Section};
+use crate::findings::{Notice, Place, Section, Table};
 use crate::machine::{Peak, peaks};
 use crate::output::line_chart::LineChart;
 use crate::output::text::Sheet;
 use crate::process::shaping::linkage::dynamics;
 use crate::process::shaping::linkage::relief;
 use crate::process::shaping::linkage::relief::{ReliefFlank, SmallestRelief};
+use crate::process::shaping::quantities::axes::{LARGEST_BETA, RELIEF, SMALLEST_CLEARANCE, SMALLEST_RATIO};
 use crate::process::shaping::returns::motion::RetractionMotion;
 use crate::process::shaping::{PreparedOperation, ShapingJob};
 use crate::steps::axes::{AxesOfOperation, Named, NamedChart, PeakWords};
 use gearcut_core::Result;
 use gearcut_core::units::{TURN_RAD, UM_PER_MM};
-use std::path::Path;
 use std::sync::OnceLock;
 use strokes::StrokeRow;
 
@@ -144,17 +144,13 @@ impl<'a> OperationAxes<'a> {
             ReliefFlank::Right => "right",
         };
         let at = Place::default().and("flank", flank).and("polar_angle_deg", self.relief.phi_rad.to_degrees());
-        let ratio =
-            "smallest relief clearance of a flank divided by that of a circular gear, back-off times sin(alpha)";
         let clearance_um = UM_PER_MM * self.relief.clearance_mm(self.job.machine.back_off_mm);
-        let clearance = "smallest clearance of a flank on the return stroke along its normal, to first order in the \
-             back-off; the survey of return strokes has the distance of the edges themselves";
-        let beta = "largest angle between the line of centres and the normal of the pitch curve";
         let beta_at = Place::default().and("polar_angle_deg", self.largest_beta_phi_rad.to_degrees());
-        Section::new("relief", "Clearance on the return stroke")
-            .with("smallest_ratio", Quantity::number(self.relief.ratio, "1", ratio).at(at.clone()))
-            .with("smallest_clearance", Quantity::number(clearance_um, "um", clearance).at(at))
-            .with("largest_beta", Quantity::number(self.largest_beta_rad.to_degrees(), "deg", beta).at(beta_at))
+        RELIEF.section([
+            SMALLEST_RATIO.of(self.relief.ratio).at(at.clone()),
+            SMALLEST_CLEARANCE.of(clearance_um).at(at),
+            LARGEST_BETA.of(self.largest_beta_rad.to_degrees()).at(beta_at),
+        ])
     }
 }
 
@@ -202,8 +198,8 @@ impl AxesOfOperation for OperationAxes<'_> {
         }
     }
 
-    fn write_table(&self, path: &Path) -> Result<()> {
-        strokes::write_table(path, self.operation(), self.strokes())
+    fn table(&self) -> Table {
+        strokes::table(self.operation(), self.strokes())
     }
 
     fn charts(&self) -> &[NamedChart<LineChart>] {

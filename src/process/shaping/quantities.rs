@@ -1,5 +1,8 @@
 //! Quantities that only shaping finds.
 
+pub mod axes;
+pub mod returns;
+pub mod ring;
 pub mod strokes;
 
 use crate::findings::quantities::cutting::IDLE;
@@ -42,6 +45,13 @@ pub static QUANTITIES: &[&QuantityGroup] = &[
     &STROKES_OF_PROGRAM,
     &strokes::STROKE_CHIPS,
     &strokes::DEFLECTION,
+    &axes::AXIS_COLUMNS,
+    &axes::RELIEF,
+    &axes::RETRACTION,
+    &returns::RETURN_STROKES,
+    &returns::RETURN_PLACES,
+    &ring::RING,
+    &ring::RING_TEETH,
 ];
 
 rows! {

@@ -10,6 +10,7 @@ mod ring;
 mod stock;
 mod strokes;
 
+use crate::findings::quantities::OPERATIONS;
 use crate::findings::quantities::cutting::{LINKAGE, OFFSET};
 use crate::findings::{self, Findings};
 use crate::measure::verdict::GearVerdict;
@@ -60,7 +61,7 @@ pub fn page(
     sections.push(facts::section(job, found));
     sections.push(files::section(folder)?);
     sections.push(record(cut.report.flanks.len(), &cut.work, run));
-    let operations = found.parts("operations").len();
+    let operations = found.parts(OPERATIONS.key).len();
     let gear = PageGear { words: gear_words(&job.scene.gear), mesh: ViewMesh::new(job)? };
     let operation = |of: &_| operation_words(of, operations);
     let mut page = steps::report::page(job, gear, found, &cut.maps, operation, sections);

@@ -13,10 +13,12 @@ mod table;
 mod tests;
 
 pub use peaks::{Named, PeakWords, STEADY, findings, margin};
-pub use table::{Own, write_table};
+pub use table::{positions, rates};
 
 use crate::findings::notices::NoProgram;
-use crate::findings::{Findings, Notice, Severity};
+use crate::findings::quantities::OPERATIONS;
+use crate::findings::table::CSV;
+use crate::findings::{Findings, Notice, Severity, Table};
 use crate::interrupt::Interrupt;
 use crate::machine::{Peak, smallest_margin};
 use crate::output::atomic::write_bytes_atomically;
@@ -24,10 +26,10 @@ use crate::output::bar_chart::BarChart;
 use crate::output::folder::OutputFolder;
 use crate::output::line_chart::LineChart;
 use crate::output::report::{Block, PageSection, Tone};
+use crate::output::table::write_table;
 use crate::output::text::Sheet;
 use crate::steps::report::peak_table;
 use gearcut_core::error::Result;
-use std::path::Path;
 
 /// A chart with the word that ends the name of its file.
 pub type NamedChart<C> = (&'static str, C);
@@ -60,11 +62,8 @@ pub trait AxesOfOperation {
     /// What the user should know beside exceeded limits.
     fn own_warnings(&self) -> Vec<Notice>;
 
-    /// Writes the axis table.
-    ///
-    /// # Errors
-    /// The file cannot be written.
-    fn write_table(&self, path: &Path) -> Result<()>;
+    /// The axis table.
+    fn table(&self) -> Table;
 
     /// Charts of the motion; the first one is shown first.
     fn charts(&self) -> &[NamedChart<LineChart>];
@@ -105,7 +104,7 @@ pub fn warnings<O: AxesOfOperation>(operations: &[O]) -> Vec<Notice> {
 /// Files that cannot be written.
 pub fn write(operation: &impl AxesOfOperation, folder: &OutputFolder) -> Result<()> {
     let name = operation.name();
-    operation.write_table(&folder.path(format!("axes/{name}.csv"))?)?;
+    write_table(&folder.path(format!("axes/{name}.{CSV}"))?, &operation.table())?;
     for (what, chart) in operation.charts() {
         chart.write_svg(&folder.path(format!("axes/{name}_{what}.svg"))?)?;
     }
@@ -156,7 +155,7 @@ pub fn command<O: AxesOfOperation>(
 /// The page's section: peaks and first chart of every operation, the other charts folded under their name.
 pub fn section<O: AxesOfOperation>(operations: &[O], found: &Findings, lead: &str, folded: &str) -> PageSection {
     let mut blocks = Vec::new();
-    for (operation, found) in operations.iter().zip(found.parts("operations")) {
+    for (operation, found) in operations.iter().zip(found.parts(OPERATIONS.key)) {
         blocks.push(Block::Heading(format!("{}: {}", operation.name(), operation.linkage_words())));
         blocks.push(Block::Table(peak_table(found)));
         let mut charts = operation.charts().iter().map(|(_, chart)| Block::Lines(chart.clone()));

@@ -1,44 +1,39 @@
-//! The axis table: positions, speeds and accelerations of all axes, for controllers, spreadsheets and scripts.
+//! The columns of the axes in an axis table: positions, and speeds with accelerations, each in the unit of its axis.
+//!
+//! A process makes the table: its own columns come before, between and after them.
 
-use crate::findings::Datum;
+use crate::findings::quantities::cutting::{ACCELERATION, POSITION, SPEED};
+use crate::findings::{Columns, QuantityRow};
 use crate::machine::{Axis, AxisMotion, Order};
-use crate::output::table;
-use gearcut_core::error::Result;
-use std::path::Path;
 
-/// What a process adds to a row or to the names of the columns: before the positions, after them, at the end.
-pub type Own<T> = [Vec<T>; 3];
-
-/// Writes a table; columns are named after the axes, with their units.
-///
-/// # Errors
-/// A row that says more or less of its own than there are columns for it, and files that cannot be written.
-pub fn write_table<const N: usize>(
-    path: &Path,
+/// With the positions of all axes.
+pub fn positions<T, const N: usize>(
+    table: Columns<T>,
     axes: &[Axis; N],
-    own: Own<&str>,
-    rows: impl IntoIterator<Item = (Own<Datum>, [AxisMotion; N])>,
-) -> Result<()> {
-    let columns = columns(axes, own);
-    let columns: Vec<&str> = columns.iter().map(String::as_str).collect();
-    table::write_table(path, &columns, rows.into_iter().map(|(own, motion)| cells(axes, own, &motion)))
+    motion: impl Fn(&T) -> &[AxisMotion; N],
+) -> Columns<T> {
+    of_order(table, axes, Order::Position, &POSITION, &motion)
 }
 
-/// Names of the columns.
-pub(super) fn columns<const N: usize>(axes: &[Axis; N], own: Own<&str>) -> Vec<String> {
-    let [before, between, after] = own.map(|names| names.into_iter().map(str::to_owned));
-    let of = |order: Order| axes.iter().filter(move |axis| axis.has(order)).map(move |axis| axis.column(order));
-    let rates = of(Order::Speed).chain(of(Order::Acceleration));
-    before.chain(of(Order::Position)).chain(between).chain(rates).chain(after).collect()
+/// With the speeds of all axes, then their accelerations.
+pub fn rates<T, const N: usize>(
+    table: Columns<T>,
+    axes: &[Axis; N],
+    motion: impl Fn(&T) -> &[AxisMotion; N],
+) -> Columns<T> {
+    let table = of_order(table, axes, Order::Speed, &SPEED, &motion);
+    of_order(table, axes, Order::Acceleration, &ACCELERATION, &motion)
 }
 
-/// A row in the units of the columns.
-pub(super) fn cells<const N: usize>(axes: &[Axis; N], own: Own<Datum>, motion: &[AxisMotion; N]) -> Vec<Datum> {
-    let [before, between, after] = own;
-    let of = |order: Order| {
-        let axes = axes.iter().zip(motion).filter(move |(axis, _)| axis.has(order));
-        axes.map(move |(axis, motion)| Datum::Number(axis.kind.shown(motion.of(order))))
-    };
-    let rates = of(Order::Speed).chain(of(Order::Acceleration));
-    before.into_iter().chain(of(Order::Position)).chain(between).chain(rates).chain(after).collect()
+fn of_order<T, const N: usize>(
+    table: Columns<T>,
+    axes: &[Axis; N],
+    order: Order,
+    row: &QuantityRow,
+    motion: &impl Fn(&T) -> &[AxisMotion; N],
+) -> Columns<T> {
+    axes.iter().enumerate().filter(|(_, axis)| axis.has(order)).fold(table, |table, (index, axis)| {
+        let column = row.as_column().keyed(axis.key(order)).in_unit(axis.kind.unit(order));
+        table.column(column, |of| axis.kind.shown(motion(of)[index].of(order)))
+    })
 }

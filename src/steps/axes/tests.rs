@@ -2,7 +2,8 @@
 //! for linear ones must be noticed.
 
 use super::*;
-use crate::findings::Datum;
+use crate::findings::quantities::cutting::{OFFSET, TIME};
+use crate::findings::{Datum, Table, TableColumn};
 use crate::machine::tests::{AXES, Swinging, amplitude, omega_per_s};
 use crate::machine::{Axis, AxisKind, Limits, Motion as _, Order, peaks};
 use std::f64::consts::PI;
@@ -54,9 +55,8 @@ impl AxesOfOperation for Made {
         vec![own()]
     }
 
-    fn write_table(&self, path: &Path) -> Result<()> {
-        let rows = [0.0, 0.7].map(|time_s| ([vec![Datum::from(time_s)], vec![], vec![]], Swinging.at(time_s)));
-        write_table(path, &AXES, [vec!["time_s"], vec![], vec![]], rows)
+    fn table(&self) -> Table {
+        table_of(&AXES, 0.7)
     }
 
     fn charts(&self) -> &[NamedChart<LineChart>] {
@@ -72,13 +72,19 @@ fn made(limits: &[Limits; 10]) -> Made {
     Made { peaks: peaks(&Swinging, limits) }
 }
 
+/// The axis table at a moment.
+fn table_of(axes: &[Axis; 10], time_s: f64) -> Table {
+    let table = Table::over("axes", "Axes", [Swinging.at(time_s)]).column(&TIME, |_| time_s);
+    rates(positions(table, axes, |motion| motion).column(&OFFSET, |_| 0.5), axes, |motion| motion).into()
+}
+
 /// Columns of the axis table at a moment whose numbers are not those of the closed form in the unit that their names
 /// end with.
 fn wrong_columns(axes: &[Axis; 10], time_s: f64) -> Vec<String> {
-    let names = table::columns(axes, [vec!["time_s"], vec![], vec!["note"]]);
-    let own = [vec![Datum::from(time_s)], vec![], vec![Datum::Undefined]];
-    let cells = table::cells(axes, own, &Swinging.at(time_s));
-    assert_eq!((names.len(), cells.len()), (1 + 10 + 10 + 9 + 1, 31));
+    let table = table_of(axes, time_s);
+    let names: Vec<String> = table.columns.iter().map(TableColumn::head).collect();
+    let cells = table.row(0);
+    assert_eq!(names.len(), 1 + 10 + 1 + 10 + 9);
     let closed = [Order::Position, Order::Speed, Order::Acceleration].into_iter().flat_map(|order| {
         let moving = (0..10).filter(move |&axis| axis < 9 || order != Order::Acceleration);
         moving.map(move |axis| {
@@ -92,7 +98,8 @@ fn wrong_columns(axes: &[Axis; 10], time_s: f64) -> Vec<String> {
             unit * amplitude(axis) * value
         })
     });
-    let numbers = names.into_iter().zip(cells).skip(1).zip(closed);
+    let own = |(name, _): &(String, Datum)| ["time_s", "offset_mm"].contains(&name.as_str());
+    let numbers = names.into_iter().zip(cells).filter(|of| !own(of)).zip(closed);
     let wrong = numbers.filter(
         |((_, cell), closed)| !matches!(cell, Datum::Number(value) if (value - closed).abs() <= 1e-12 * closed.abs()),
     );
@@ -107,10 +114,10 @@ fn planted() -> [Axis; 10] {
 #[test]
 fn tables_are_in_the_units_of_their_columns() {
     assert_eq!(wrong_columns(&AXES, 0.7), Vec::<String>::new());
-    let names = table::columns(&AXES, [vec!["time_s"], vec!["offset_mm"], vec!["note"]]);
+    let names: Vec<String> = table_of(&AXES, 0.7).columns.iter().map(TableColumn::head).collect();
     assert_eq!(names[..3], ["time_s", "psi_deg", "x_mm"]);
     assert_eq!(names[11..14], ["offset_mm", "work_speed_deg_per_s", "x_speed_mm_per_s"]);
-    assert_eq!(names[30..], ["tilt_acceleration_deg_per_s2", "note"]);
+    assert_eq!(names[30..], ["tilt_acceleration_deg_per_s2"]);
 }
 
 #[test]

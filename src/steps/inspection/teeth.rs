@@ -93,11 +93,11 @@ pub fn flank_table<'a, Own: FlankSurface>(
         .column(&EVALUATED_FROM, |of| of.evaluated_mm[0])
         .column(&EVALUATED_TO, |of| of.evaluated_mm[1]);
     for (index, name) in earlier.into_iter().enumerate() {
-        let key = |row: &QuantityRow| format!("{name}_{}", row.key);
+        let of = |row: &QuantityRow| row.as_column().keyed(format!("{name}_{}", row.key));
         table = table
-            .keyed(key(&STOCK_SMALLEST), &STOCK_SMALLEST, |of| of.own.stock(index).map(|of| of.ends[0].value_mm))
-            .keyed(key(&STOCK_LARGEST), &STOCK_LARGEST, |of| of.own.stock(index).map(|of| of.ends[1].value_mm))
-            .keyed(key(&STOCK_MEAN), &STOCK_MEAN, |of| of.own.stock(index).map(|of| of.mean_mm));
+            .column(of(&STOCK_SMALLEST), |of| of.own.stock(index).map(|of| of.ends[0].value_mm))
+            .column(of(&STOCK_LARGEST), |of| of.own.stock(index).map(|of| of.ends[1].value_mm))
+            .column(of(&STOCK_MEAN), |of| of.own.stock(index).map(|of| of.mean_mm));
     }
     let um = |value: Option<f64>| value.map(|mm| mm * UM_PER_MM);
     let known = |of: &InspectedFlank<Own>| !of.own.is_below_range();

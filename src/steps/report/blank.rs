@@ -1,6 +1,7 @@
 //! The whole gear from rays through the blank, on the page: volumes, gouges, interference, rubbing.
 
 use super::quantities;
+use crate::findings::quantities::OPERATIONS;
 use crate::findings::quantities::blank::{
     BLANK, BLANK_VOLUME, DEEPEST, GOUGE_FROM, LEFT_VOLUME, PLACES, SECTION_AREA, TARGET_AREA, VOLUME,
 };
@@ -15,7 +16,7 @@ static OF_THE_GEAR: [&QuantityRow; 5] = [&BLANK_VOLUME, &LEFT_VOLUME, &SECTION_A
 pub fn section(found: &Findings) -> Option<PageSection> {
     let blank = found.group(&BLANK)?;
     let shown = blank.entries.iter().filter(|entry| OF_THE_GEAR.iter().any(|row| row.key == entry.key));
-    let removed = blank.find("operations").map_or(&[][..], |operations| &operations.sections);
+    let removed = blank.group(&OPERATIONS).map_or(&[][..], |operations| &operations.sections);
     let volumes =
         shown.map(|entry| row(&entry.heading(), &entry.quantity)).chain(removed.iter().filter_map(|operation| {
             let volume = operation.of(&REMOVED_VOLUME)?;
@@ -34,7 +35,7 @@ pub fn section(found: &Findings) -> Option<PageSection> {
             rows: damage,
         })
     });
-    let found_places = |part: &&Section| part.quantity("deepest").is_some() && part.number("places") > Some(0.0);
+    let found_places = |part: &&Section| part.of(&DEEPEST).is_some() && part.value(&PLACES) > Some(0.0);
     let damaged: Vec<String> =
         blank.sections.iter().filter(found_places).map(|part| part.title.to_lowercase()).collect();
     let (tone, words) = if damaged.is_empty() {

@@ -1,12 +1,12 @@
 //! The errors that the cut followed, on the page.
 
+use crate::findings::quantities::program::MACHINE_ERRORS;
 use crate::findings::{self, Findings, unit};
 use crate::output::report::{Block, PageSection, PageTable, Tone};
-use crate::steps::machine_errors::KEY;
 
 /// The layers that are on, and where to learn what each of them does; none on a machine without errors.
 pub fn section(found: &Findings) -> Option<PageSection> {
-    let section = found.find(KEY)?;
+    let section = found.group(&MACHINE_ERRORS)?;
     let rows = section.entries.iter().map(|entry| {
         let words = entry.quantity.words().unwrap_or_default();
         vec![entry.heading(), unit::sentence_with_signs(words), unit::sentence_with_signs(entry.quantity.definition())]

@@ -4,24 +4,29 @@
 //! of the windows.
 
 use super::digits::digits;
-use crate::findings::{Section, Table, unit};
+use crate::findings::quantities::surfaces::{
+    CORRELATION, CURVE_OF_FIRST, CURVE_OF_SECOND, CURVES, DIFFERENCE_HIGHEST, DIFFERENCE_LOWEST, DIFFERENCE_RMS,
+    MIRROR, OF_DIFFERENCE, OF_FIRST, OF_SECOND, OVERLAP, OVERLAY, PARAMETER, PARAMETER_UNIT, PARAMETERS, RATIO, SECOND,
+    SHIFT_X, SHIFT_Y,
+};
+use crate::findings::{QuantityRow, Section, Table, unit};
 use crate::output::folder::OutputFolder;
 use crate::output::line_chart::{LineChart, LineSeries, Panel};
 use crate::output::report::{Block, PageTable};
-use crate::texture::MEASURED;
+use crate::texture::quantities::FILES;
 use gearcut_core::error::{Error, Result};
 
-/// Facts of the alignment by their keys.
-const FACTS: [&str; 9] = [
-    "second",
-    "mirror",
-    "shift_x",
-    "shift_y",
-    "correlation",
-    "overlap",
-    "difference_rms",
-    "difference_lowest",
-    "difference_highest",
+/// Facts of the alignment.
+static FACTS: [&QuantityRow; 9] = [
+    &SECOND,
+    &MIRROR,
+    &SHIFT_X,
+    &SHIFT_Y,
+    &CORRELATION,
+    &OVERLAP,
+    &DIFFERENCE_RMS,
+    &DIFFERENCE_LOWEST,
+    &DIFFERENCE_HIGHEST,
 ];
 
 /// Blocks of a window whose surface was measured as well; none of others.
@@ -29,7 +34,7 @@ const FACTS: [&str; 9] = [
 /// # Errors
 /// A map cannot be read back.
 pub(super) fn blocks(window: &Section, folder: &OutputFolder) -> Result<Vec<Block>> {
-    let Some(section) = window.find(MEASURED) else { return Ok(Vec::new()) };
+    let Some(section) = window.group(&OVERLAY) else { return Ok(Vec::new()) };
     let mut blocks = vec![Block::Heading(format!("Measured over cut: {}", window.title))];
     if let Some(why) = section.entries.iter().find_map(|entry| entry.quantity.why()) {
         blocks.push(Block::Note(format!("The measured surface is not laid over the window: {why}.")));
@@ -38,9 +43,9 @@ pub(super) fn blocks(window: &Section, folder: &OutputFolder) -> Result<Vec<Bloc
     blocks.push(Block::Table(PageTable {
         caption: "How the measured surface lies on the window".to_owned(),
         columns: ["What", "Value", "Definition"].map(str::to_owned).to_vec(),
-        rows: FACTS.iter().filter_map(|key| fact(section, key)).collect(),
+        rows: FACTS.iter().filter_map(|row| fact(section, row)).collect(),
     }));
-    let stem = window.words("files");
+    let stem = window.text(&FILES);
     for (name, title) in [("first", "Cut"), ("second", "Measured"), ("difference", "Measured less cut, levelled")] {
         let path = folder.path(format!("{stem}_{name}.png"))?;
         match std::fs::read(&path) {
@@ -50,27 +55,27 @@ pub(super) fn blocks(window: &Section, folder: &OutputFolder) -> Result<Vec<Bloc
             Err(reason) => return Err(Error::reading(&path)(reason)),
         }
     }
-    blocks.extend(section.table_of("curves").map(|table| Block::Lines(curves(table))));
-    blocks.extend(section.table_of("parameters").map(|table| Block::Table(parameters(table))));
+    blocks.extend(section.table_of(CURVES.key).map(|table| Block::Lines(curves(table))));
+    blocks.extend(section.table_of(PARAMETERS.key).map(|table| Block::Table(parameters(table))));
     Ok(blocks)
 }
 
-fn fact(section: &Section, key: &str) -> Option<Vec<String>> {
-    let entry = section.entries.iter().find(|entry| entry.key == key)?;
+fn fact(section: &Section, row: &QuantityRow) -> Option<Vec<String>> {
+    let entry = section.entry_of(row)?;
     let quantity = &entry.quantity;
     let value = match quantity.value() {
         Some(value) => unit::with_signs(&digits(value, 4), quantity.unit().unwrap_or("1")),
         None => quantity.words()?.to_owned(),
     };
-    let title = if key == "second" { "Measured".to_owned() } else { entry.heading() };
+    let title = if row.key == SECOND.key { "Measured".to_owned() } else { entry.heading() };
     Some(vec![title, value, quantity.definition().to_owned()])
 }
 
 /// Both material ratio curves.
 fn curves(table: &Table) -> LineChart {
-    let series = [("first", "cut"), ("second", "measured")].map(|(key, name)| LineSeries {
+    let series = [(&CURVE_OF_FIRST, "cut"), (&CURVE_OF_SECOND, "measured")].map(|(row, name)| LineSeries {
         name: name.to_owned(),
-        points: table.numbers("ratio").zip(table.numbers(key)).filter_map(|(p, z)| Some((p?, z?))).collect(),
+        points: table.values(&RATIO).zip(table.values(row)).filter_map(|(p, z)| Some((p?, z?))).collect(),
     });
     LineChart {
         title: "Material ratio curves on the points that both have".to_owned(),
@@ -89,14 +94,11 @@ fn curves(table: &Table) -> LineChart {
 /// Parameters of both.
 fn parameters(table: &Table) -> PageTable {
     let number = |value: Option<f64>| value.map_or_else(|| "–".to_owned(), |value| digits(value, 4));
-    let words = |key: &'static str| {
-        let column = table.column(key);
-        table.rows.iter().map(move |row| column.map(|column| row[column].name()).unwrap_or_default())
-    };
-    let numbers = ["first", "second", "difference"].map(|key| table.numbers(key).map(number).collect::<Vec<_>>());
+    let words = |row| table.words(row).map(Option::unwrap_or_default);
+    let numbers = [&OF_FIRST, &OF_SECOND, &OF_DIFFERENCE].map(|row| table.values(row).map(number).collect::<Vec<_>>());
     let [cut, measured, difference] = numbers;
-    let rows = words("parameter").zip(words("unit")).enumerate().map(|(i, (symbol, of))| {
-        vec![symbol, cut[i].clone(), measured[i].clone(), difference[i].clone(), unit::signs(&of)]
+    let rows = words(&PARAMETER).zip(words(&PARAMETER_UNIT)).enumerate().map(|(i, (symbol, of))| {
+        vec![symbol.to_owned(), cut[i].clone(), measured[i].clone(), difference[i].clone(), unit::signs(of)]
     });
     PageTable {
         caption: "Parameters (ISO 25178-2) on the points that both have, through the window's chain".to_owned(),

@@ -13,17 +13,16 @@ pub mod paper;
 pub mod quantities;
 pub mod texture;
 
+use crate::findings::quantities::OPERATIONS;
 use crate::findings::quantities::cutting::{AXES, LIMIT, MARGIN, PEAK};
 use crate::findings::{self, Findings, Notice, Place, Quantity, QuantityRow, Severity, unit};
 use crate::job::GearJob;
 use crate::output::folder::OutputFolder;
-use crate::output::progress::duration_text;
 use crate::output::report::{Block, KeyNumber, Page, PageSection, PageTable, Tone};
-use crate::output::text::{plain, significant};
+use crate::output::text::significant;
 use crate::steps::Work;
 use crate::steps::gear_maps::GearMaps;
 use crate::steps::view_mesh::ViewMesh;
-use gearcut_core::cut::KERNEL_UM;
 use gearcut_core::error::{Error, Result};
 
 /// What the run says of itself on the page. Times are left out: the same scene gives the same page.
@@ -57,17 +56,29 @@ pub fn page(
     Page {
         what: "cutting report",
         done: "all flanks cut",
-        title: job.scene().name.clone(),
         subtitle: gear.words,
-        operations: found.parts("operations").iter().map(operation).collect(),
-        complete: found.complete,
-        program: format!("gearcut {}", found.program_version),
-        key_numbers: known_first(
-            found.headline.iter().map(|entry| key_number(&entry.heading(), &entry.quantity)).collect(),
-        ),
-        warnings: found.warnings.iter().map(Notice::with_signs).collect(),
+        operations: found.parts(OPERATIONS.key).iter().map(operation).collect(),
+        key_numbers: known_first(found.headline.iter().map(quantities::key_number).collect()),
         viewer: Some(maps::viewer(job, gear.mesh, maps)),
         sections: sections.into_iter().map(|section| warned_open(section, found)).collect(),
+        ..page_of(found)
+    }
+}
+
+/// What every page of findings has: their scene, program, key numbers and notices; the rest is the caller's.
+pub fn page_of(found: &Findings) -> Page {
+    Page {
+        what: "",
+        title: found.scene.clone(),
+        subtitle: String::new(),
+        operations: Vec::new(),
+        complete: found.complete,
+        done: "",
+        program: format!("gearcut {}", found.program_version),
+        key_numbers: found.headline.iter().map(quantities::key_number).collect(),
+        warnings: found.warnings.iter().map(Notice::with_signs).collect(),
+        viewer: None,
+        sections: Vec::new(),
     }
 }
 
@@ -99,40 +110,6 @@ fn read_picture(folder: &OutputFolder, name: &str) -> Result<Option<Vec<u8>>> {
         Ok(png) => Ok(Some(png)),
         Err(reason) if reason.kind() == std::io::ErrorKind::NotFound => Ok(None),
         Err(reason) => Err(Error::reading(&path)(reason)),
-    }
-}
-
-/// Number and unit as they are read best.
-pub fn value_and_unit(quantity: &Quantity) -> (String, String) {
-    let Some(value) = quantity.value() else {
-        return (quantity.words().map_or_else(|| "–".to_owned(), |words| words.replace(" um", " µm")), String::new());
-    };
-    let text = |value: f64, digits| significant(value, digits).replace('-', "−");
-    match quantity.unit().unwrap_or("") {
-        "1" => (format!("{:.1}", 100.0 * value).replace('-', "−"), "%".to_owned()),
-        "um" => (text(if value.abs() < KERNEL_UM { 0.0 } else { value }, 3), "µm".to_owned()),
-        "s" => (duration_text(value), String::new()),
-        "%" => (text(if value < 1e-9 { 0.0 } else { value }, 3), "%".to_owned()),
-        unit @ ("flanks" | "teeth" | "strokes") => (plain(value), unit.to_owned()),
-        unit => (text(value, 4), unit::signs(unit)),
-    }
-}
-
-/// A quantity of the results as a key number.
-fn key_number(name: &str, quantity: &Quantity) -> KeyNumber {
-    let (value, unit) = value_and_unit(quantity);
-    KeyNumber {
-        name: name.to_owned(),
-        value,
-        unit,
-        definition: quantity.definition().to_owned(),
-        note: match (quantity.why(), quantity.place()) {
-            (Some(why), _) => why.to_owned(),
-            // A place on a flank is a button of its own.
-            (None, Some(place)) if place.flank().is_none() => place.words_with_signs(),
-            _ => String::new(),
-        },
-        place: quantity.place().cloned(),
     }
 }
 

@@ -3,13 +3,20 @@
 
 use super::digits::digits;
 use super::measured;
-use crate::findings::{self, Findings, unit};
+use crate::findings::quantities::surfaces::{OVERLAY, RATIO};
+use crate::findings::quantities::teeth::{FLANK, TOOTH};
+use crate::findings::{self, Findings, QuantityRow, unit};
 use crate::output::folder::OutputFolder;
 use crate::output::ratio_chart::{RatioChart, SkConstruction};
 use crate::output::report::texture::{ParameterRow, TextureBlock};
 use crate::output::report::{Block, PageSection, PageTable, Tone};
 use crate::steps::report::read_picture;
 use crate::texture;
+use crate::texture::quantities::{
+    ABBOTT, CENTER_LEAD, CENTER_PROFILE, CHAIN, CURVE_HEIGHT, CUTOFF, FILES, LENGTH_LEAD, LENGTH_PROFILE, LOWER,
+    PARAMETERS, RA, RA_LARGEST, RA_LIMIT, ROUGHNESS, RZ, RZ_LARGEST, RZ_LIMIT, TEXTURE, UPPER, WINDOW_OF_LINES,
+    WINDOW_PERCENT,
+};
 use gearcut_core::error::Result;
 
 /// The section; none if no window was evaluated. Pictures are those that the folder holds.
@@ -17,11 +24,11 @@ use gearcut_core::error::Result;
 /// # Errors
 /// A picture cannot be read back.
 pub fn section(found: &Findings, folder: &OutputFolder) -> Result<Option<PageSection>> {
-    let operations = found.parts("texture");
+    let operations = found.parts(TEXTURE.key);
     let Some((last, earlier)) = operations.split_last() else { return Ok(None) };
     let mut blocks = vec![overview(last, earlier)];
     blocks.extend(profiles(found, last));
-    let path = format!("texture.{}", last.key);
+    let path = format!("{}.{}", TEXTURE.key, last.key);
     let of_several = found.warnings.iter().filter(|warning| warning.section.as_ref() == Some(&path));
     blocks.extend(of_several.map(|warning| Block::Note(warning.with_signs().text)));
     blocks.extend(sheet(last, folder)?);
@@ -54,23 +61,34 @@ pub fn section(found: &Findings, folder: &OutputFolder) -> Result<Option<PageSec
     Ok(Some(section.judged(tone, words)))
 }
 
+/// A parameter of a window by its symbol.
+fn parameter(window: &findings::Section, symbol: &str) -> Option<f64> {
+    let entries = &window.group(&PARAMETERS)?.entries;
+    entries.iter().find(|entry| entry.key == symbol)?.quantity.value()
+}
+
+/// Digits of a number; a dash where there is none.
+fn shown(value: Option<f64>, count: u32) -> String {
+    value.map_or_else(|| "–".to_owned(), |value| digits(value, count))
+}
+
 /// Sa; below all others where there is none.
 fn mean_height_um(window: &findings::Section) -> f64 {
-    window.number("parameters.Sa").unwrap_or(-1.0)
+    parameter(window, "Sa").unwrap_or(-1.0)
 }
 
 /// What the drawing's limits of Ra and Rz say, or how rough the windows are.
 fn verdict(found: &Findings, last: &findings::Section) -> (Tone, String) {
-    let lines = found.parts(texture::ROUGHNESS).iter().filter(|operation| operation.key == last.key);
+    let lines = found.parts(ROUGHNESS.key).iter().filter(|operation| operation.key == last.key);
     let lines = lines.flat_map(|operation| &operation.sections);
-    let judged: Vec<&str> = lines.flat_map(|of| ["Ra_limit", "Rz_limit"].map(|key| of.words(key))).collect();
+    let judged: Vec<&str> = lines.flat_map(|of| [&RA_LIMIT, &RZ_LIMIT].map(|row| of.text(row))).collect();
     if judged.contains(&"exceeded") {
         return (Tone::Wrong, "a limit of Ra or Rz is exceeded".to_owned());
     }
     if judged.contains(&"kept") {
         return (Tone::Fine, "limits of Ra and Rz are kept".to_owned());
     }
-    let heights = || last.sections.iter().filter_map(|window| window.number("parameters.Sa"));
+    let heights = || last.sections.iter().filter_map(|window| parameter(window, "Sa"));
     let count = last.sections.len();
     let windows = if count == 1 { "1 window".to_owned() } else { format!("{count} windows") };
     let words = match (heights().reduce(f64::min), heights().reduce(f64::max)) {
@@ -94,8 +112,8 @@ fn block(
     found: &Findings,
     folder: &OutputFolder,
 ) -> Result<Vec<Block>> {
-    let path = format!("texture.{}.{}", operation.key, window.key);
-    let of_window = |section: &String| *section == path || *section == format!("{path}.{}", texture::MEASURED);
+    let path = format!("{}.{}.{}", TEXTURE.key, operation.key, window.key);
+    let of_window = |section: &String| *section == path || *section == format!("{path}.{}", OVERLAY.key);
     let warnings = found.warnings.iter().filter(|warning| warning.section.as_ref().is_some_and(of_window));
     let warnings = warnings.map(|warning| warning.with_signs().text).collect();
     let mut blocks = vec![Block::Texture(texture_window(window, warnings, folder)?)];
@@ -104,11 +122,11 @@ fn block(
 }
 
 fn texture_window(window: &findings::Section, warnings: Vec<String>, folder: &OutputFolder) -> Result<TextureBlock> {
-    let number = |key: &str| window.number(key).map_or_else(|| "–".to_owned(), |value| digits(value, 4));
+    let number = |row: &QuantityRow| shown(window.value(row), 4);
     // A window that could not be evaluated has no picture, nor has one whose files are left out.
-    let png = read_picture(folder, &format!("{}_relief.png", window.words("files")))?;
-    let parameters = window.find("parameters").map_or(&[][..], |parameters| &parameters.entries);
-    let parameter = |entry: &findings::Entry| {
+    let png = read_picture(folder, &format!("{}_relief.png", window.text(&FILES)))?;
+    let parameters = window.group(&PARAMETERS).map_or(&[][..], |parameters| &parameters.entries);
+    let row = |entry: &findings::Entry| {
         let quantity = &entry.quantity;
         ParameterRow {
             symbol: entry.key.clone(),
@@ -119,41 +137,37 @@ fn texture_window(window: &findings::Section, warnings: Vec<String>, folder: &Ou
             definition: quantity.definition().to_owned(),
         }
     };
-    let um = |symbol: &str| window.number(&format!("parameters.{symbol}"));
-    let abbott = window.find("abbott");
+    let of = |symbol: &str| parameter(window, symbol);
+    let abbott = window.group(&ABBOTT);
     let sk = abbott.and_then(|curve| {
-        let from_percent = curve.number("window_percent")?;
+        let from_percent = curve.value(&WINDOW_PERCENT)?;
         Some(SkConstruction {
-            line_um: [curve.number("upper_um")?, curve.number("lower_um")?],
+            line_um: [curve.value(&UPPER)?, curve.value(&LOWER)?],
             window_percent: [from_percent, from_percent + 40.0],
-            smr1_percent: um("Smrk1")?,
-            smr2_percent: um("Smrk2")?,
-            spk_um: um("Spk")?,
-            svk_um: um("Svk")?,
+            smr1_percent: of("Smrk1")?,
+            smr2_percent: of("Smrk2")?,
+            spk_um: of("Spk")?,
+            svk_um: of("Svk")?,
         })
     });
-    let material_ratio = abbott.and_then(|curve| curve.table_of("curve")).map(|table| RatioChart {
+    let material_ratio = abbott.and_then(|curve| curve.tables.first()).map(|table| RatioChart {
         title: "Material ratio curve and the construction of Sk".to_owned(),
-        curve: table
-            .numbers("ratio")
-            .zip(table.numbers("height"))
-            .filter_map(|(ratio, z)| Some((ratio?, z?)))
-            .collect(),
+        curve: table.points(&RATIO, &CURVE_HEIGHT).into_iter().filter(|(_, height)| !height.is_nan()).collect(),
         sk,
     });
     let material_ratio = material_ratio.filter(|chart| chart.curve.len() > 1);
     Ok(TextureBlock {
         title: format!(
             "Tooth {}, {} flank: {} × {} mm about u {}, v {} mm",
-            window.number("tooth").unwrap_or(f64::NAN),
-            window.words("flank"),
-            number("length_profile"),
-            number("length_lead"),
-            number("center_profile"),
-            number("center_lead")
+            window.value(&TOOTH).unwrap_or(f64::NAN),
+            window.text(&FLANK),
+            number(&LENGTH_PROFILE),
+            number(&LENGTH_LEAD),
+            number(&CENTER_PROFILE),
+            number(&CENTER_LEAD)
         ),
-        chain: window.words("chain").to_owned(),
-        parameters: parameters.iter().map(parameter).collect(),
+        chain: window.text(&CHAIN).to_owned(),
+        parameters: parameters.iter().map(row).collect(),
         warnings,
         png,
         material_ratio,
@@ -173,10 +187,7 @@ fn overview(last: &findings::Section, earlier: &[findings::Section]) -> Block {
         ("Sku", ""),
     ];
     let row = |operation: &findings::Section, window: &findings::Section| {
-        let value = |symbol: &str| {
-            let value = window.number(&format!("parameters.{symbol}"));
-            value.map_or_else(|| "–".to_owned(), |value| digits(value, 3))
-        };
+        let value = |symbol: &str| shown(parameter(window, symbol), 3);
         let name = format!("{}, {}", window.title, operation.key);
         std::iter::once(name).chain(COMPARED.map(|(symbol, _)| value(symbol))).collect()
     };
@@ -192,25 +203,25 @@ fn overview(last: &findings::Section, earlier: &[findings::Section]) -> Block {
 
 /// Ra and Rz of the finished windows along both directions, with their cut-offs, beside Sa.
 fn profiles(found: &Findings, finished: &findings::Section) -> Option<Block> {
-    let operation = found.parts(texture::ROUGHNESS).iter().find(|operation| operation.key == finished.key)?;
+    let operation = found.parts(ROUGHNESS.key).iter().find(|operation| operation.key == finished.key)?;
     let row = |lines: &findings::Section| {
-        let number = |key: &str| lines.number(key).map_or_else(|| "–".to_owned(), |value| digits(value, 3));
-        let window = finished.sections.iter().find(|window| window.key == lines.words("window"));
-        let sa = window.and_then(|window| window.number("parameters.Sa"));
-        let verdict = |key: &str| match lines.words(key) {
+        let number = |row: &QuantityRow| shown(lines.value(row), 3);
+        let window = finished.sections.iter().find(|window| window.key == lines.text(&WINDOW_OF_LINES));
+        let sa = window.and_then(|window| parameter(window, "Sa"));
+        let verdict = |row: &QuantityRow| match lines.text(row) {
             "" => "–".to_owned(),
             words => words.to_owned(),
         };
         vec![
             lines.title.clone(),
-            sa.map_or_else(|| "–".to_owned(), |value| digits(value, 3)),
-            number("Ra"),
-            number("Ra_largest"),
-            verdict("Ra_limit"),
-            number("Rz"),
-            number("Rz_largest"),
-            verdict("Rz_limit"),
-            number("cutoff"),
+            shown(sa, 3),
+            number(&RA),
+            number(&RA_LARGEST),
+            verdict(&RA_LIMIT),
+            number(&RZ),
+            number(&RZ_LARGEST),
+            verdict(&RZ_LIMIT),
+            number(&CUTOFF),
         ]
     };
     let columns = ["Lines", "Sa [µm]", "Ra [µm]", "at most", "limit", "Rz [µm]", "at most", "limit", "Cut-off [mm]"]

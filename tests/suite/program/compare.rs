@@ -40,8 +40,9 @@ fn results(level: f64, smallest_mm: f64) -> Value {
     let mut spread = number(level, "%");
     spread["level"] = json!("summary");
     let rows: Vec<Value> = (1..=TEETH).map(|tooth| json!([tooth, unevenness(tooth, level)])).collect();
-    let column = |key: &str, unit: &str| json!({ "key": key, "unit": unit, "definition": "made by hand" });
-    let mut bars = column("unevenness_mean_denominator", "%");
+    let column =
+        |key: &str, unit: &str, of: &str| json!({ "key": key, "unit": unit, "definition": "made by hand", "type": of });
+    let mut bars = column("unevenness_mean_denominator", "%", "number");
     bars["chart"] = json!("bars");
     let mut witness = none();
     witness["level"] = json!("headline");
@@ -52,7 +53,7 @@ fn results(level: f64, smallest_mm: f64) -> Value {
             "$title": "Rough",
             "strokes": number(4200.0, "strokes"),
             "allowance": {
-                "title": "Allowance", "columns": [column("tooth", "1"), bars], "rows": rows, "period_rows": PERIOD,
+                "title": "Allowance", "columns": [column("tooth", "1", "count"), bars], "rows": rows, "period_rows": PERIOD,
             },
             "unevenness": { "$title": "Unevenness", "mean_denominator": { "$title": "Mean", "max": spread } },
         } } }),
@@ -178,9 +179,9 @@ fn limits_are_the_scale_where_there_are_some() {
             quantity["title"] = json!(title);
             quantity
         };
-        let column = |key: &str| json!({ "key": key, "unit": null, "definition": "made by hand" });
+        let column = |key: &str| json!({ "key": key, "unit": null, "definition": "made by hand", "type": "word" });
         let mut limit = column("limit");
-        (limit["unit"], limit["why"]) = (json!("um"), json!("made by hand"));
+        (limit["unit"], limit["why"], limit["type"]) = (json!("um"), json!("made by hand"), json!("number"));
         let figures = json!({
             "title": "Figures", "columns": [column("figure"), limit], "rows": [["f_p", limit_um]],
         });
@@ -225,9 +226,11 @@ fn limits_are_the_scale_where_there_are_some() {
 fn figures_of_the_inspection_are_compared() {
     let folder = tempfile::tempdir().expect("a folder for the test");
     let of = |left_um: f64, right_um: f64, runout_um: f64| {
-        let column = |key: &str| json!({ "key": key, "unit": null, "definition": "made by hand" });
-        let number =
-            |key: &str| json!({ "key": key, "unit": "um", "definition": "made by hand", "why": "made by hand" });
+        let column = |key: &str| json!({ "key": key, "unit": null, "definition": "made by hand", "type": "word" });
+        let number = |key: &str| {
+            let none = "made by hand";
+            json!({ "key": key, "unit": "um", "definition": "made by hand", "why": none, "type": "number" })
+        };
         let figures = json!({
             "title": "Figures", "columns": [column("figure"), column("name"), number("left"), number("right")],
             "rows": [["f_H_beta", "helix slope deviation", left_um, right_um], ["F_r", "runout", runout_um, null]],
@@ -380,10 +383,12 @@ fn hobbed(volumes: [f64; 3], idle_s: f64) -> Value {
         quantity["level"] = json!("summary");
         quantity
     };
-    let mut columns = vec![json!({ "key": "tooth", "unit": null, "definition": "hob tooth" })];
+    let mut columns = vec![json!({ "key": "tooth", "unit": null, "definition": "hob tooth", "type": "word" })];
     columns.extend(
         [("volume", "mm3"), ("thickness", "mm"), ("travel", "mm")]
-            .map(|(key, unit)| json!({ "key": key, "unit": unit, "definition": "made by hand", "chart": "bars" })),
+            .map(|(key, unit)| {
+                json!({ "key": key, "unit": unit, "definition": "made by hand", "type": "number", "chart": "bars" })
+            }),
     );
     let headline = |mut quantity: Value| {
         quantity["level"] = json!("headline");

@@ -19,7 +19,7 @@ fn check_answers_what_is_asked_of_a_ring() {
     let job = shipped("internal_pair_ring");
     let section = ring::of_job(&job, None).expect("a ring");
     let table = section.table_of("teeth").expect("a table");
-    assert_eq!(table.rows.len(), 34, "the curve repeats after 34 teeth");
+    assert_eq!(table.len(), 34, "the curve repeats after 34 teeth");
     for (key, column) in [
         ("rolling_teeth", "rolling_share"),
         ("clearing_teeth", "corners_in"),

@@ -3,6 +3,7 @@
 use crate::fixtures::paper::*;
 use gearcut::cut::cpu::Cpu;
 use gearcut::findings::Severity;
+use gearcut::output::table::write_table;
 use gearcut::process::load;
 use gearcut::process::shaping::ShapingJob;
 use gearcut::process::shaping::axes_report::OperationAxes;
@@ -155,7 +156,7 @@ fn a_program_of_another_length_is_cut_and_judged() {
         // The axis table has the program's axes, and the scene's beside them.
         let folder = tempfile::tempdir().expect("a folder");
         let table = folder.path().join("cut.csv");
-        motion[0].write_table(&table).expect("written");
+        write_table(&table, &motion[0].table()).expect("written");
         let table = std::fs::read_to_string(table).expect("text");
         let mut lines = table.lines();
         let names: Vec<&str> = lines.next().expect("names").split(',').collect();

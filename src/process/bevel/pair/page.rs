@@ -1,8 +1,9 @@
 //! The page of a bevel pair: `report.html`.
 
 use super::findings::words;
+use super::quantities::{PAIR, TRENDS};
 use super::{RolledBevels, bearing};
-use crate::findings::{Datum, Findings, Notice, Table, unit};
+use crate::findings::{Datum, Findings, Table, unit};
 use crate::output::folder::OutputFolder;
 use crate::output::line_chart::LineChart;
 use crate::output::report::{Block, Page, PageSection, PageTable};
@@ -10,7 +11,7 @@ use crate::output::text::{plain, significant};
 use crate::process::bevel::BevelJob;
 use crate::process::bevel::check::gear_words;
 use crate::steps;
-use crate::steps::report::quantities;
+use crate::steps::report::{page_of, quantities};
 use gearcut_core::error::Result;
 use gearcut_core::units::UM_PER_MM;
 
@@ -46,7 +47,7 @@ pub fn page(
     )];
     for (side, id) in rolled.sides.iter().zip(["concave", "convex"]) {
         let name = words(side);
-        let trends = found.find(name).and_then(|section| section.table_of("trends"));
+        let trends = found.find(name).and_then(|section| section.table_of(TRENDS.key));
         sections.push(section(
             id,
             &format!("Contact on {name} flanks of the gear"),
@@ -62,26 +63,21 @@ pub fn page(
         "pair",
         "Pair and mounting",
         "Gleason's letters and the names of ISO 23509.".to_owned(),
-        vec![quantities_of("pair")],
+        vec![quantities_of(PAIR.key)],
     ));
     sections.extend(end);
     let roles = jobs.into_iter().zip(["gear", "pinion"]);
     Page {
         what: "tooth contact report",
-        title: found.scene.clone(),
         subtitle: format!(
             "shaft angle {}°, offset {} mm",
             plain(rolled.nominal.shaft_angle_rad.to_degrees()),
             plain(rolled.nominal.offset_mm)
         ),
         operations: roles.map(|(job, role)| format!("{role}: {}. {}", job.scene.name, gear_words(job))).collect(),
-        complete: true,
         done: "both sides rolled over a pitch",
-        program: format!("gearcut {}", found.program_version),
-        key_numbers: found.headline.iter().map(quantities::key_number).collect(),
-        warnings: found.warnings.iter().map(Notice::with_signs).collect(),
-        viewer: None,
         sections,
+        ..page_of(found)
     }
 }
 
@@ -94,6 +90,6 @@ fn rows(table: &Table) -> PageTable {
     PageTable {
         caption: table.title.clone(),
         columns: table.columns.iter().map(|column| unit::sentence_with_signs(&column.head())).collect(),
-        rows: table.rows.iter().map(|row| row.iter().map(cell).collect()).collect(),
+        rows: table.rows().map(|row| row.iter().map(cell).collect()).collect(),
     }
 }

@@ -71,12 +71,12 @@ static COLUMNS: [(&str, &QuantityRow); 11] = [
 fn steps(flanks: &[Section]) -> Table {
     let steps = flanks.iter().flat_map(|flank| (1_u32..).zip(&flank.sections).map(move |of| (flank, of)));
     let table = Table::over("steps", "Steps of all flanks", steps)
-        .column(&TOOTH, |(flank, _)| flank.of(&TOOTH).map(Quantity::datum).cloned())
+        .column(&TOOTH, |(flank, _)| flank.of(&TOOTH).and_then(Quantity::whole))
         .column(&FLANK, |(flank, _)| flank.text(&FLANK))
         .column(&STEP, |&(_, (number, _))| number);
     let table = COLUMNS.iter().fold(table, |table, &(source, row)| {
-        let key = format!("{source}_{}", row.key);
-        table.keyed(key, row, move |(_, (_, step))| step.find(source).and_then(|of| of.value(row)))
+        let column = row.as_column().keyed(format!("{source}_{}", row.key));
+        table.column(column, move |(_, (_, step))| step.find(source).and_then(|of| of.value(row)))
     });
     table.rows_in_file("marks")
 }

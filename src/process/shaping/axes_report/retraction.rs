@@ -5,20 +5,21 @@
 
 use super::OperationAxes;
 use super::strokes::StrokeRow;
-use crate::findings::{Notice, Place, Quantity, Section};
+use crate::findings::{Notice, Place, QuantityRow, Section};
 use crate::machine::Order;
 use crate::output::line_chart::Panel;
 use crate::output::text::{Sheet, significant};
 use crate::process::shaping::PreparedOperation;
 use crate::process::shaping::linkage::dynamics::AXES;
 use crate::process::shaping::notices::{ReturnNoDirection, ReturnNoTime, ReturnSlow};
+use crate::process::shaping::quantities::axes::{
+    ADDED_TIME, BACK_OFF, LARGEST_TILT, NO_LIMITS, NO_TIME, RETRACTION, RETRACTION_ACCELERATION, RETRACTION_SPEED,
+    SLOWDOWN, SMALLEST_TILT, STROKES_IN_TIME, TILT, TIME_OUTSIDE, TRAVEL, TURNED_STROKES,
+};
+use crate::process::shaping::quantities::returns::DIRECTION;
 use crate::process::shaping::returns::motion::RetractionMotion;
 use crate::steps::axes::charts::panel;
 use crate::steps::axes::{AxesOfOperation as _, STEADY};
-
-/// Why there is no cost.
-const NO_LIMITS: &str = "machine.limits says nothing of the axes' speeds and accelerations";
-const NO_TIME: &str = "the ram does not leave the face at both ends: machine.approach_mm or machine.overrun_mm is zero";
 
 /// Travel of every axis over the strokes.
 pub(super) fn panels(rows: &[StrokeRow]) -> Vec<Panel> {
@@ -37,53 +38,41 @@ pub(super) fn panels(rows: &[StrokeRow]) -> Vec<Panel> {
 /// What the retraction asks of the axes.
 pub(super) fn findings(operation: &PreparedOperation, motion: &RetractionMotion) -> Section {
     let (plan, schedule) = (&operation.retraction, &operation.schedule);
-    let mut section = Section::new("retraction", "Retraction by the axes")
-        .with("direction", Quantity::text(plan.asked().words(), "how the cutter is drawn back for the return stroke"))
-        .with("back_off", Quantity::number(plan.back_off_mm(), "mm", "how far the cutter's axis is drawn back"))
-        .with(
-            "turned_strokes",
-            Quantity::count(
-                motion.turned_strokes as u64,
-                "strokes",
-                "strokes after which the cutter is turned as well",
-            ),
-        );
+    let mut entries = vec![
+        DIRECTION.of(plan.asked().words()),
+        BACK_OFF.of(plan.back_off_mm()),
+        TURNED_STROKES.of(motion.turned_strokes),
+    ];
     if let Some([low, high]) = plan.tilts_rad() {
-        let tilt = "angle from the normal of the pitch curve to the retraction, in the direction of growing phi";
-        section = section
-            .with("tilt", Quantity::number(0.5 * (low + high).to_degrees(), "deg", tilt))
-            .with("smallest_tilt", Quantity::number(low.to_degrees(), "deg", "smallest such angle that clears"))
-            .with("largest_tilt", Quantity::number(high.to_degrees(), "deg", "largest such angle that clears"));
+        entries.extend([
+            TILT.of(0.5 * (low + high).to_degrees()),
+            SMALLEST_TILT.of(low.to_degrees()),
+            LARGEST_TILT.of(high.to_degrees()),
+        ]);
     }
     for (axis, added) in AXES.iter().zip(&motion.axes) {
-        let at = Place::default().and("stroke", added.stroke as u64);
-        let of = |order: Order, value: f64, what: &str| {
-            let definition = format!("{what} of the {} for the retraction, from rest to rest", axis.name);
+        let of = |row: &QuantityRow, order: Order, value: f64| {
             let value = value.is_finite().then(|| axis.kind.shown(value));
-            Quantity::number_or(value, axis.kind.unit(order), definition, NO_TIME).at(at.clone())
+            let entry = row.of_or(value, NO_TIME).at(Place::default().and("stroke", added.stroke as u64));
+            let key = format!("{}_{}", axis.stem, row.key);
+            entry.titled(key.replace('_', " ")).keyed(key).in_unit(axis.kind.unit(order))
         };
-        section = section
-            .with(&format!("{}_travel", axis.stem), of(Order::Position, added.travel, "largest travel"))
-            .with(&format!("{}_speed", axis.stem), of(Order::Speed, added.speed, "largest speed"))
-            .with(
-                &format!("{}_acceleration", axis.stem),
-                of(Order::Acceleration, added.acceleration, "largest acceleration"),
-            );
+        entries.extend([
+            of(&TRAVEL, Order::Position, added.travel),
+            of(&RETRACTION_SPEED, Order::Speed, added.speed),
+            of(&RETRACTION_ACCELERATION, Order::Acceleration, added.acceleration),
+        ]);
     }
-    let definition = "factor by which double strokes have to last longer so that the axes keep their limits";
-    let lost = "time that this adds to the operation";
     let why = if motion.time_s > 0.0 { NO_LIMITS } else { NO_TIME };
     let slowdown = motion.slowdown().filter(|factor| factor.is_finite());
     let total_s = schedule.time_s(schedule.count() as f64);
-    let per_minute = slowdown.map(|factor| schedule.double_strokes_per_minute() / factor);
-    section
-        .with(
-            "time_outside_face",
-            Quantity::number(motion.time_s, "s", "time of the ram outside the face, shorter end"),
-        )
-        .with("slowdown", Quantity::number_or(slowdown, "1", definition, why))
-        .with("strokes_per_minute", Quantity::number_or(per_minute, "1/min", "double strokes that leave the time", why))
-        .with("added_time", Quantity::number_or(slowdown.map(|factor| (factor - 1.0) * total_s), "s", lost, why))
+    entries.extend([
+        TIME_OUTSIDE.of(motion.time_s),
+        SLOWDOWN.of_or(slowdown, why),
+        STROKES_IN_TIME.of_or(slowdown.map(|factor| schedule.double_strokes_per_minute() / factor), why),
+        ADDED_TIME.of_or(slowdown.map(|factor| (factor - 1.0) * total_s), why),
+    ]);
+    RETRACTION.section(entries)
 }
 
 /// Lines for the terminal.

@@ -1,18 +1,20 @@
 //! All strokes of an operation, and what they add to the axis table: one row per stroke; where the axes draw the cutter
 //! back, with their positions on the way back.
 
-use crate::findings::Datum;
-use crate::machine::{AxisMotion, Motion as _};
+use crate::findings::quantities::blank::STROKE;
+use crate::findings::quantities::cutting::TIME;
+use crate::findings::{QuantityRow, Table};
+use crate::machine::{Axis, AxisMotion, Motion as _, Order};
 use crate::process::shaping::linkage::StrokeState;
 use crate::process::shaping::linkage::dynamics::AXES;
 use crate::process::shaping::linkage::relief::{self, ReliefRatio};
 use crate::process::shaping::linkage::retraction::RetractionLaw;
-use crate::process::shaping::returns::RetractionPlan;
+use crate::process::shaping::quantities::axes::{
+    LEFT_RELIEF, NORMAL_TO_CENTRES, OFFSET_AT, PHI, RETRACTION_LAW, RETURN_POSITION, RIGHT_RELIEF, SCENE_POSITION,
+};
 use crate::process::shaping::returns::motion::axes_of;
 use crate::process::shaping::{PreparedOperation, ShapingJob};
 use crate::steps::axes;
-use gearcut_core::Result;
-use std::path::Path;
 
 /// One stroke: the machine's motion and the clearance of its return.
 #[derive(Debug)]
@@ -55,63 +57,47 @@ pub(super) fn rows(job: &ShapingJob, operation: &PreparedOperation) -> Vec<Strok
     (0..operation.count()).map(row).collect()
 }
 
-/// Writes the table; `stroke` counts from 0, as pass ids do, and angles run on beyond a turn. Under a program the axes
-/// are the program's, and the scene's own positions stand beside them.
-pub(super) fn write_table(path: &Path, operation: &PreparedOperation, rows: &[StrokeRow]) -> Result<()> {
+/// The table; `stroke` counts from 0, as pass ids do, and angles run on beyond a turn. Under a program the axes are the
+/// program's, the scene's own positions are beside them, and what follows from the schedule is the scene's as well.
+pub(super) fn table(operation: &PreparedOperation, rows: &[StrokeRow]) -> Table {
     let (plan, under_test) = (&operation.retraction, operation.program.is_some());
-    let relief = ["left_relief_share_of_circular", "right_relief_share_of_circular", "normal_to_line_of_centres_deg"];
-    let returning = if plan.is_in_axes() { &COLUMNS[..] } else { &[] };
-    let scene = if under_test { &SCENE_COLUMNS[..] } else { &[] };
-    // What follows from the schedule and not from the axes is the scene's as well.
-    let of_scene = |names: &[&str]| -> Vec<String> {
-        let of = if under_test { "scene_" } else { "" };
-        names.iter().map(|name| format!("{of}{name}")).collect()
+    let of_scene = |row: &QuantityRow| {
+        let column = row.as_column();
+        if under_test { column.keyed(format!("scene_{}", row.key)) } else { column }
     };
-    let following = [of_scene(&[&relief[..], returning].concat()), scene.iter().map(|&name| name.to_owned()).collect()];
-    let own: [Vec<String>; 3] =
-        [["stroke", "time_s"].map(str::to_owned).to_vec(), of_scene(&["offset_mm", "phi_deg"]), following.concat()];
-    let row = |row: &StrokeRow| {
-        let stroke = Datum::from(row.stroke as u64);
-        let own = [
-            vec![stroke, row.time_s.into()],
-            vec![row.offset_mm.into(), row.phi_rad.to_degrees().into()],
-            [
-                vec![row.relief.left.into(), row.relief.right.into(), row.relief.beta_rad.to_degrees().into()],
-                cells(plan, row),
-                if under_test { scene_cells(row) } else { Vec::new() },
-            ]
-            .concat(),
-        ];
-        (own, row.motion)
+    let of_axis = |row: &QuantityRow, axis: &Axis| {
+        let key = format!("{}_{}", row.key, axis.key(Order::Position));
+        row.as_column().keyed(key).in_unit(axis.kind.unit(Order::Position))
     };
-    let own = own.each_ref().map(|names| names.iter().map(String::as_str).collect());
-    axes::write_table(path, &AXES, own, rows.iter().map(row))
+    let table = Table::over("axes", "Axes", rows).column(&STROKE, |row| row.stroke).column(&TIME, |row| row.time_s);
+    let table = axes::positions(table, &AXES, |row| &row.motion)
+        .column(of_scene(&OFFSET_AT), |row| row.offset_mm)
+        .column(of_scene(&PHI), |row| row.phi_rad.to_degrees());
+    let mut table = axes::rates(table, &AXES, |row| &row.motion)
+        .column(of_scene(&LEFT_RELIEF), |row| row.relief.left)
+        .column(of_scene(&RIGHT_RELIEF), |row| row.relief.right)
+        .column(of_scene(&NORMAL_TO_CENTRES), |row| row.relief.beta_rad.to_degrees());
+    if plan.is_in_axes() {
+        table = table.column(of_scene(&RETRACTION_LAW), |row| law_word(plan.law(row.phi_rad)));
+        for (index, axis) in AXES.iter().enumerate() {
+            let column = of_axis(&RETURN_POSITION, axis);
+            let column = if under_test { column.clone().keyed(format!("scene_{}", column.key)) } else { column };
+            table = table.column(column, |row| row.returning.map(|axes| axis.kind.shown(axes[index])));
+        }
+    }
+    if under_test {
+        for (index, axis) in AXES.iter().enumerate() {
+            let column = of_axis(&SCENE_POSITION, axis);
+            table = table.column(column, |row| row.scene.map(|axes| axis.kind.shown(axes[index])));
+        }
+    }
+    table.into()
 }
 
 /// Where the axes stand on the way back after a stroke, rad, rad, mm.
 fn return_axes(operation: &PreparedOperation, state: &StrokeState) -> [f64; 3] {
     let back = operation.retraction.retracted(operation.schedule.linkage(), &state.pose, state.phi_rad);
     axes_of(state, &back)
-}
-
-/// Names of the columns of the way back.
-const COLUMNS: [&str; 4] = ["retraction", "return_psi_c_deg", "return_psi_b_deg", "return_center_distance_mm"];
-
-/// Names of the columns of the scene's own positions under a program.
-const SCENE_COLUMNS: [&str; 3] = ["scene_psi_c_deg", "scene_psi_b_deg", "scene_center_distance_mm"];
-
-/// Cells of the scene's own positions.
-fn scene_cells(row: &StrokeRow) -> Vec<Datum> {
-    let shown =
-        |index: usize| row.scene.map_or(Datum::Undefined, |scene| Datum::Number(AXES[index].kind.shown(scene[index])));
-    (0..AXES.len()).map(shown).collect()
-}
-
-/// Cells of the way back.
-fn cells(plan: &RetractionPlan, row: &StrokeRow) -> Vec<Datum> {
-    let Some(axes) = row.returning else { return Vec::new() };
-    let shown = AXES.iter().zip(axes).map(|(axis, position)| Datum::Number(axis.kind.shown(position)));
-    std::iter::once(law_word(plan.law(row.phi_rad)).into()).chain(shown).collect()
 }
 
 /// The key's word for a law.

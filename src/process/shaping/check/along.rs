@@ -3,7 +3,7 @@
 //! In: a table and what of it is shown. Out: rows at even distances and those with the largest bars, so that no
 //! extreme falls between two rows.
 
-use crate::findings::{Datum, Table};
+use crate::findings::{Datum, QuantityRow, Table};
 use crate::output::text::Sheet;
 
 /// Rows at even distances, at most.
@@ -15,8 +15,8 @@ const MOST_BESIDE_A_WIDE_BAR: usize = 5;
 
 /// A column that is shown.
 pub struct Shown {
-    /// Its key in the table.
-    pub key: &'static str,
+    /// What it is in the table.
+    pub row: &'static QuantityRow,
     /// What it is called.
     pub heading: &'static str,
     /// Digits behind the point.
@@ -26,26 +26,26 @@ pub struct Shown {
 }
 
 /// A column of values alone.
-pub fn values(key: &'static str, heading: &'static str, decimals: usize) -> Shown {
-    Shown { key, heading, decimals, full: None }
+pub fn values(row: &'static QuantityRow, heading: &'static str, decimals: usize) -> Shown {
+    Shown { row, heading, decimals, full: None }
 }
 
 /// A column with bars, full at a value.
-pub fn bars(key: &'static str, heading: &'static str, decimals: usize, full: f64) -> Shown {
-    Shown { full: Some(full), ..values(key, heading, decimals) }
+pub fn bars(row: &'static QuantityRow, heading: &'static str, decimals: usize, full: f64) -> Shown {
+    Shown { full: Some(full), ..values(row, heading, decimals) }
 }
 
 /// Largest value of some columns: what fills their bars.
-pub fn largest(table: &Table, keys: &[&str]) -> f64 {
-    keys.iter().flat_map(|key| table.numbers(key)).flatten().fold(0.0, f64::max)
+pub fn largest(table: &Table, rows: &[&QuantityRow]) -> f64 {
+    rows.iter().flat_map(|row| table.values(row)).flatten().fold(0.0, f64::max)
 }
 
 /// Adds the chart.
 pub fn print(sheet: &mut Sheet, table: &Table, shown: &[Shown]) {
-    let step = table.rows.len().div_ceil(ROWS).max(1);
-    let mut rows: Vec<usize> = (0..table.rows.len()).step_by(step).collect();
+    let step = table.len().div_ceil(ROWS).max(1);
+    let mut rows: Vec<usize> = (0..table.len()).step_by(step).collect();
     for of in shown.iter().filter(|of| of.full.is_some()) {
-        let numbers = table.numbers(of.key).enumerate().filter_map(|(row, number)| Some((row, number?)));
+        let numbers = table.values(of.row).enumerate().filter_map(|(row, number)| Some((row, number?)));
         rows.extend(numbers.reduce(|a, b| if b.1 > a.1 { b } else { a }).map(|(row, _)| row));
     }
     rows.sort_unstable();
@@ -63,11 +63,12 @@ pub fn print(sheet: &mut Sheet, table: &Table, shown: &[Shown]) {
 
 /// Value, and bar if it has one, so many characters wide.
 fn cells(table: &Table, row: usize, of: &Shown, width: usize) -> Vec<String> {
-    let Some(column) = table.column(of.key) else { return Vec::new() };
+    let Some(column) = table.column(of.row.key) else { return Vec::new() };
     let unit = table.columns[column].unit.as_deref().filter(|&unit| unit != "1").unwrap_or_default();
-    let number = table.rows[row][column].number();
-    let value = match &table.rows[row][column] {
-        Datum::Word(word) => word.clone(),
+    let cell = table.cells[column].datum(row);
+    let number = cell.number();
+    let value = match cell {
+        Datum::Word(word) => word,
         _ => number.map_or("-".to_owned(), |number| format!("{number:.*} {unit}", of.decimals).trim_end().to_owned()),
     };
     let bar = of.full.map(|full| {

@@ -7,6 +7,9 @@ use crate::output::text::Sheet;
 use crate::process::shaping::ShapingJob;
 use crate::process::shaping::axes_report::OperationAxes;
 use crate::process::shaping::findings::{answers, program, returns};
+use crate::process::shaping::quantities::returns::{
+    ANGLE_AT, CLEARANCE_AT, CUTTER, DEPTH_AT, DIRECTION, PHI, RETURN_PLACES,
+};
 use gearcut_core::error::Refusal;
 
 /// Adds the lines; none where the cutter is not drawn back.
@@ -19,7 +22,7 @@ pub fn print(sheet: &mut Sheet, job: &ShapingJob, motion: &[OperationAxes]) -> R
         let Some(section) = returns::section(job, index, other.as_deref())? else { return Ok(()) };
         let name = &operation.spec.name;
         sheet.details(|sheet| {
-            sheet.heading(&format!("{} of {name}: {}", section.title, section.words("direction")));
+            sheet.heading(&format!("{} of {name}: {}", section.title, section.text(&DIRECTION)));
             if let Some(why) = &other {
                 return summary::line(sheet, "not known", why);
             }
@@ -31,13 +34,13 @@ pub fn print(sheet: &mut Sheet, job: &ShapingJob, motion: &[OperationAxes]) -> R
 }
 
 fn along(sheet: &mut Sheet, section: &Section) {
-    let Some(table) = section.table_of("places") else { return };
+    let Some(table) = section.table_of(RETURN_PLACES.key) else { return };
     let columns = [
-        values("phi", "polar angle", 2),
-        values("retraction_angle", "retraction angle", 2),
-        values("cutter", "cutter", 0),
-        bars("clearance", "clearance", 1, largest(table, &["clearance"])),
-        bars("depth_in_stock", "in stock", 1, largest(table, &["depth_in_stock"])),
+        values(&PHI, "polar angle", 2),
+        values(&ANGLE_AT, "retraction angle", 2),
+        values(&CUTTER, "cutter", 0),
+        bars(&CLEARANCE_AT, "clearance", 1, largest(table, &[&CLEARANCE_AT])),
+        bars(&DEPTH_AT, "in stock", 1, largest(table, &[&DEPTH_AT])),
     ];
     along::print(sheet, table, &columns);
 }

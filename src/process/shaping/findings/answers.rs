@@ -1,33 +1,39 @@
 //! A question that is answered before cutting: the number with its place, and beside it what to change.
 //!
-//! In: a quantity and a sentence. Out: the quantity under its key and the sentence under `<key>_advice`; on the
+//! In: an entry and a sentence. Out: the entry, and the sentence under `<key>_advice`; on the
 //! terminal and on the page both stand in one line.
 
-use crate::findings::{Entry, Place, Quantity, Section, unit};
+use crate::findings::{Entry, Place, QuantityRow, Section, unit};
 use crate::output::report::PageTable;
 use crate::output::summary;
 use crate::output::text::Sheet;
-use crate::steps::report::value_and_unit;
+use crate::process::shaping::quantities::returns::ADVICE;
+use crate::steps::report::quantities::value_and_unit;
 
 /// What the key of a sentence ends with.
-const ADVICE: &str = "_advice";
+const SUFFIX: &str = "_advice";
 
 /// What the sentence of an answer begins with that is as it should be.
 const NOTHING: &str = "nothing";
 
-/// The section with an answer.
-pub fn answered(section: Section, key: &str, title: &str, quantity: Quantity, advice: impl Into<String>) -> Section {
-    let mut section = section.with(&format!("{key}{ADVICE}"), Quantity::text(advice, "what to change"));
-    let answer = Entry { title: title.to_owned(), ..Entry::new(key, quantity) };
-    section.entries.insert(section.entries.len() - 1, answer);
-    section
+/// An answer, and what to change.
+pub fn answered(answer: Entry, advice: impl Into<String>) -> [Entry; 2] {
+    let key = format!("{}{SUFFIX}", answer.key);
+    let advice = ADVICE.of(advice.into()).titled(key.replace('_', " ")).keyed(key);
+    [answer, advice]
+}
+
+/// What to change, beside the answer of this row.
+pub fn advice<'a>(section: &'a Section, row: &QuantityRow) -> &'a str {
+    answers(section).find(|(entry, _)| entry.key == row.key).map_or("", |(_, advice)| advice)
 }
 
 /// Entries of a section that are answers, with their sentences.
 fn answers(section: &Section) -> impl Iterator<Item = (&Entry, &str)> {
     section.entries.iter().filter_map(|entry| {
-        let advice = section.quantity(&format!("{}{ADVICE}", entry.key))?.words()?;
-        Some((entry, advice))
+        let key = format!("{}{SUFFIX}", entry.key);
+        let advice = section.entries.iter().find(|other| other.key == key)?;
+        Some((entry, advice.quantity.words()?))
     })
 }
 

@@ -5,33 +5,23 @@
 //! In: [`RingFacts`], known before cutting. Out: a section, with a row for every tooth of a period in
 //! `tables/ring.csv`.
 
-use super::answers::answered;
-use crate::findings::{Datum, Notice, Place, Quantity, Section, Table, TableColumn};
+use super::answers::{advice, answered};
+use crate::findings::quantities::teeth::TOOTH;
+use crate::findings::{Entry, Notice, Place, QuantityRow, Section, Table};
 use crate::measure::damage::LEAST_DEPTH_MM;
 use crate::output::text::significant;
 use crate::process::shaping::ShapingJob;
 use crate::process::shaping::notices::{TipCorners, Trimmed};
+use crate::process::shaping::quantities::ring::{
+    CLEARING_TEETH, CORNER_CLEARANCE, CORNERS_IN, CORNERS_OUT, HIGHEST_START, INVOLUTE_HEIGHT, INVOLUTE_LEFT,
+    INVOLUTE_RIGHT, MODULE_LIMIT, NO_CUTTER, NO_OUTLINE, NO_RELIEF, PHI, PRINTED_LEFT, PRINTED_MODULE,
+    PRINTED_MODULE_LIMIT, PRINTED_RIGHT, PRINTED_UNDERCUT, RADIAL_TEETH, RADIUS, REACHED, RING, RING_TEETH,
+    ROLLING_MODULE, ROLLING_SHARE, ROLLING_TEETH, ROLLING_TEETH_AT, SMALLEST_RADIUS, START_LEFT, START_RIGHT,
+    TIP_RELIEF, TIP_RELIEF_LEFT, TIP_RELIEF_RIGHT, TRIMMING, UNDERCUT,
+};
 use crate::process::shaping::ring::{CornerPath, RingFacts, RingTooth, ToothPlace, rolling_module_mm, rolling_teeth};
 use gearcut_core::gear::GearKind;
 use gearcut_core::units::UM_PER_MM;
-
-/// Key of the section.
-pub const KEY: &str = "ring";
-/// Why there is no radius, and no largest cutter.
-const NOT_CURVED: &str = "the pitch curve is not curved towards the axis there";
-/// Why there is no condition of undercut.
-const STRAIGHT: &str = "the pitch curve is straight there";
-/// Why there is no depth of the tips.
-const NO_RELIEF: &str = "the cutter's base does not shape the tip, or leaves it out of its reach";
-/// Why nothing is known of the corners.
-const NO_OUTLINE: &str = "the target's outline is not known";
-
-/// What the largest cutters are.
-const ROLLING: &str = "most cutter teeth whose pitch circle rolls everywhere";
-const CLEARING: &str = "most cutter teeth whose tip corners come clear of the tips beside their space";
-const RADIAL: &str = "most cutter teeth that go in along the line of centres without trimming the tips";
-/// Why there is none.
-const NO_CUTTER: &str = "tips or rolling leave no such cutter, or tips lie inside the base circle";
 
 /// The section; none of an external gear. Where a program cuts another ring, `other` says why nothing of it holds.
 pub fn of_job(job: &ShapingJob, other: Option<&str>) -> Option<Section> {
@@ -48,66 +38,45 @@ fn section(job: &ShapingJob, facts: &RingFacts) -> Section {
     let (z0, module_mm) = (job.cutter.teeth, job.scene.gear.module_mm);
     let (radius_mm, sharpest_rad) = facts.sharpest;
     // On a circle no place is sharper than others.
-    let sharpest = |quantity: Quantity| {
+    let sharpest = |entry: Entry| {
         let place = Place::default().and("polar_angle_deg", sharpest_rad.to_degrees());
-        if facts.teeth.len() > 1 { quantity.at(place) } else { quantity }
+        entry.at(Some(place).filter(|_| facts.teeth.len() > 1))
     };
-    let section = Section::new(KEY, "What the cutter can do in the ring");
-    let section = answered(
-        section,
-        "rolling_teeth",
-        "largest cutter that rolls",
-        sharpest(Quantity::count(facts.rolling_teeth.into(), "teeth", ROLLING)),
-        format!("this one has {z0}; for more, take a curve with a larger smallest radius of curvature"),
-    );
-    let count = |teeth: Option<u32>, definition: &'static str| match teeth {
-        Some(teeth) => Quantity::count(teeth.into(), "teeth", definition),
-        None => Quantity::undefined("teeth", definition, NO_CUTTER),
-    };
-    let section = answered(
-        section,
-        "clearing_teeth",
-        "largest cutter that clears",
-        sharpest(count(facts.clearing_teeth, CLEARING)),
-        "of a round ring of that radius, for sharp corners; a lower addendum of cutter or ring allows more",
-    );
-    let section = answered(
-        section,
-        "radial_teeth",
-        "largest for radial infeed",
-        sharpest(count(facts.radial_teeth, RADIAL)),
-        "the same ring and corners, at depth on every radius; larger cutters trim the tips while they are fed in",
-    );
-    let section = answered(
-        section,
-        "smallest_radius_of_curvature",
-        "smallest radius of curvature",
-        sharpest(Quantity::number(radius_mm, "mm", "smallest radius of curvature of the pitch curve")),
-        "a rounder curve, or more teeth of the same module, make it larger",
-    );
-    let section = undercut(section, facts);
-    let section = tips(section, job, facts);
-    let section = corners(section, facts);
-    let section = trimming(section, job, facts);
     let modules = [rolling_module_mm(radius_mm, z0), facts.printed.module_limit_mm(radius_mm)];
-    let definition =
-        "module at which the pitch circle of a cutter of so many teeth no longer rolls on this pitch curve";
-    answered(
-        section,
-        "module_limit",
-        "limit of the module",
-        sharpest(Quantity::number(modules[0], "mm", definition)),
+    let cutters = [
+        answered(
+            sharpest(ROLLING_TEETH.of(facts.rolling_teeth)),
+            format!("this one has {z0}; for more, take a curve with a larger smallest radius of curvature"),
+        ),
+        answered(
+            sharpest(CLEARING_TEETH.of_or(facts.clearing_teeth, NO_CUTTER)),
+            "of a round ring of that radius, for sharp corners; a lower addendum of cutter or ring allows more",
+        ),
+        answered(
+            sharpest(RADIAL_TEETH.of_or(facts.radial_teeth, NO_CUTTER)),
+            "the same ring and corners, at depth on every radius; larger cutters trim the tips while they are fed in",
+        ),
+        answered(
+            sharpest(SMALLEST_RADIUS.of(radius_mm)),
+            "a rounder curve, or more teeth of the same module, make it larger",
+        ),
+    ];
+    let limit = answered(
+        sharpest(MODULE_LIMIT.of(modules[0])),
         format!(
             "this one is {} mm; fewer cutter teeth allow more on this curve (the printed condition of undercut: {} mm)",
             significant(module_mm, 3),
             significant(modules[1], 4)
         ),
-    )
-    .with(
-        "printed_module_limit",
-        sharpest(Quantity::number(modules[1], "mm", "module up to which the printed condition of undercut holds")),
-    )
-    .table(table(facts, z0, module_mm))
+    );
+    RING.section(cutters.into_iter().flatten())
+        .entries(undercut(facts))
+        .entries(tips(job, facts))
+        .entries(corners(facts))
+        .entries(trimming(job, facts))
+        .entries(limit)
+        .entries([sharpest(PRINTED_MODULE_LIMIT.of(modules[1]))])
+        .table(table(facts, z0, module_mm))
 }
 
 fn on_tooth(place: ToothPlace) -> Place {
@@ -115,7 +84,7 @@ fn on_tooth(place: ToothPlace) -> Place {
 }
 
 /// Flanks that begin too late, and the condition as it is printed.
-fn undercut(section: Section, facts: &RingFacts) -> Section {
+fn undercut(facts: &RingFacts) -> impl Iterator<Item = Entry> {
     let start = facts.highest_start;
     let [left_mm2, right_mm2] = facts.printed.sides_mm2(facts.sharpest.0);
     let told = if facts.undercut_flanks > 0 {
@@ -127,32 +96,18 @@ fn undercut(section: Section, facts: &RingFacts) -> Section {
     let sign = if left_mm2 <= right_mm2 { "<=" } else { ">" };
     let advice =
         format!("{told}; the printed condition, of an external gear, reads {left_mm2:.0} {sign} {right_mm2:.0} mm^2");
-    let section = answered(
-        section,
-        "undercut_flanks",
-        "undercut",
-        Quantity::count(facts.undercut_flanks.into(), "flanks", "flanks whose beginning the cutter's tip cuts away")
-            .at(on_tooth(start)),
-        advice,
-    );
-    let start_of = "height over the pitch curve of the highest start of a generated flank, negative towards the root";
-    let side =
-        "side of the printed condition of undercut, that of an external gear of the smallest radius of curvature";
-    section
-        .with("highest_start", Quantity::number(start.mm, "mm", start_of).at(on_tooth(start)))
-        .with("printed_undercut_left", Quantity::number(left_mm2, "mm^2", format!("left {side}")))
-        .with("printed_undercut_right", Quantity::number(right_mm2, "mm^2", format!("right {side}")))
+    answered(UNDERCUT.of(facts.undercut_flanks).at(on_tooth(start)), advice).into_iter().chain([
+        HIGHEST_START.of(start.mm).at(on_tooth(start)),
+        PRINTED_LEFT.of(left_mm2),
+        PRINTED_RIGHT.of(right_mm2),
+    ])
 }
 
 /// What the involute does not reach.
-fn tips(section: Section, job: &ShapingJob, facts: &RingFacts) -> Section {
+fn tips(job: &ShapingJob, facts: &RingFacts) -> impl Iterator<Item = Entry> {
     let gear = &job.scene.gear;
-    let placed = |mm: Option<ToothPlace>, scale: f64, unit: &'static str, definition: &'static str, why| {
-        let quantity = Quantity::number_or(mm.map(|place| scale * place.mm), unit, definition, why);
-        match mm {
-            Some(place) => quantity.at(on_tooth(place)),
-            None => quantity,
-        }
+    let placed = |row: &QuantityRow, found: Option<ToothPlace>, scale: f64, why: &'static str| {
+        row.of_or(found.map(|place| scale * place.mm), why).at(found.map(on_tooth))
     };
     let more_teeth = facts.generating_teeth.map_or("no cutter that rolls generates whole tips".to_owned(), |teeth| {
         format!("about {teeth} cutter teeth generate whole tips at the sharpest place")
@@ -164,29 +119,21 @@ fn tips(section: Section, job: &ShapingJob, facts: &RingFacts) -> Section {
             format!("{more_teeth}; gear.addendum_coefficient = {lower} ends the teeth below")
         }
     };
-    let reach = "lowest end of a flank that the cutter's involute generates, height over the pitch curve";
-    let relief = "largest depth of a tip behind the conjugate flank, which the cutter's base has shaped";
-    let section = answered(
-        section,
-        "involute_height",
-        "involute of the cutter",
-        placed(facts.shortest_involute, 1.0, "mm", reach, "the involute reaches the tip on all flanks"),
+    let involute = answered(
+        placed(&INVOLUTE_HEIGHT, facts.shortest_involute, 1.0, REACHED),
         format!("the addendum is {} mm; {advice}", significant(job.blank.addendum_mm, 3)),
     );
     let told = match facts.relief {
         Some(_) => format!("{more_teeth}; keep the mating tips off that part, or take it as tip relief"),
         None => "nothing".to_owned(),
     };
-    answered(section, "tip_relief", "tips set back", placed(facts.relief, UM_PER_MM, "um", relief, NO_RELIEF), told)
+    involute.into_iter().chain(answered(placed(&TIP_RELIEF, facts.relief, UM_PER_MM, NO_RELIEF), told))
 }
 
 /// Tip corners on their way in and out.
-fn corners(section: Section, facts: &RingFacts) -> Section {
-    let definition = "smallest distance of a tip corner of the cutter from the teeth beside its space, on its way in \
-                      or out; minus the depth where it cuts into them";
+fn corners(facts: &RingFacts) -> [Entry; 2] {
     let Some(tightest) = facts.tightest_corner else {
-        let unknown = Quantity::undefined("mm", definition, NO_OUTLINE);
-        return answered(section, "tip_corner_clearance", "tip corners", unknown, "see the whole blank of a run");
+        return answered(CORNER_CLEARANCE.none(NO_OUTLINE), "see the whole blank of a run");
     };
     let CornerPath { clearance_mm, phi_rad } = tightest.path;
     let place = Place::default()
@@ -198,20 +145,17 @@ fn corners(section: Section, facts: &RingFacts) -> Section {
     } else {
         "nothing: they come clear of the teeth beside their space; more cutter teeth bring them nearer"
     };
-    let clearance = Quantity::number(clearance_mm, "mm", definition).at(place);
-    answered(section, "tip_corner_clearance", "tip corners", clearance, advice)
+    answered(CORNER_CLEARANCE.of(clearance_mm).at(place), advice)
 }
 
 /// What the strokes of the infeed take off the tips.
-fn trimming(section: Section, job: &ShapingJob, facts: &RingFacts) -> Section {
-    let definition = "largest depth of a tip corner of the cutter in the ring's teeth during the strokes of an infeed";
+fn trimming(job: &ShapingJob, facts: &RingFacts) -> [Entry; 2] {
     let Some(deepest) = facts.trimming else {
-        let unknown = Quantity::undefined("um", definition, NO_OUTLINE);
-        return answered(section, "trimming", "trimmed on the way in", unknown, "see the whole blank of a run");
+        return answered(TRIMMING.none(NO_OUTLINE), "see the whole blank of a run");
     };
-    let depth = Quantity::number(UM_PER_MM * deepest.depth_mm, "um", definition);
+    let depth = TRIMMING.of(UM_PER_MM * deepest.depth_mm);
     if deepest.depth_mm < LEAST_DEPTH_MM {
-        return answered(section, "trimming", "trimmed on the way in", depth, "nothing: the corners come clear");
+        return answered(depth, "nothing: the corners come clear");
     }
     let fewer =
         facts.radial_teeth.map_or("fewer cutter teeth".to_owned(), |teeth| format!("{teeth} cutter teeth or less"));
@@ -222,23 +166,23 @@ fn trimming(section: Section, job: &ShapingJob, facts: &RingFacts) -> Section {
     let advice = format!(
         "use {fewer}, a lower addendum of cutter or ring, or a spiral over a larger operation.infeed.spiral.angle_deg"
     );
-    answered(section, "trimming", "trimmed on the way in", depth.at(place), advice)
+    answered(depth.at(place), advice)
 }
 
 /// What must be known before cutting: a fault where it is deeper than a gouge.
 pub fn warnings(section: &Section, gouge_mm: f64) -> Vec<Notice> {
-    let place_and_way_out = |key: &str| {
-        let place = section.quantity(key)?.place().map(Place::words)?;
-        Some((place, section.words(&format!("{key}_advice"))))
+    let place_and_way_out = |row: &QuantityRow| {
+        let place = section.of(row)?.place().map(Place::words)?;
+        Some((place, advice(section, row)))
     };
-    let corner = section.number("tip_corner_clearance").filter(|&mm| mm < 0.0).and_then(|clearance_mm| {
-        let (place, way_out) = place_and_way_out("tip_corner_clearance")?;
+    let corner = section.value(&CORNER_CLEARANCE).filter(|&mm| mm < 0.0).and_then(|clearance_mm| {
+        let (place, way_out) = place_and_way_out(&CORNER_CLEARANCE)?;
         let corners = TipCorners { depth_mm: format!("{:.3}", -clearance_mm), place, way_out };
         Some(corners.notice().fault_where(-clearance_mm > gouge_mm))
     });
-    let trimmed = section.number("trimming").map(|um| um / UM_PER_MM).filter(|&mm| mm >= LEAST_DEPTH_MM);
+    let trimmed = section.value(&TRIMMING).map(|um| um / UM_PER_MM).filter(|&mm| mm >= LEAST_DEPTH_MM);
     let trimmed = trimmed.and_then(|depth_mm| {
-        let (place, way_out) = place_and_way_out("trimming")?;
+        let (place, way_out) = place_and_way_out(&TRIMMING)?;
         let trimmed = Trimmed { depth_um: significant(UM_PER_MM * depth_mm, 3), place, way_out };
         Some(trimmed.notice().fault_where(depth_mm > gouge_mm))
     });
@@ -246,60 +190,32 @@ pub fn warnings(section: &Section, gouge_mm: f64) -> Vec<Notice> {
 }
 
 fn table(facts: &RingFacts, cutter_teeth: u32, module_mm: f64) -> Table {
-    let new = |key, unit, definition| TableColumn::new(key, unit, definition);
-    let mm = |key, definition| new(key, "mm", definition);
-    let um = |key, definition| new(key, "um", definition).or(NO_RELIEF);
-    let columns = vec![
-        new("tooth", "1", "number of the tooth, from 1"),
-        new("phi", "deg", "polar angle of its middle on the pitch curve"),
-        mm("radius_of_curvature", "radius of curvature of the pitch curve").or(NOT_CURVED),
-        new("rolling_teeth", "1", "most cutter teeth whose pitch circle rolls there").or(NOT_CURVED),
-        new("rolling_share", "%", "pitch radius of the cutter over the radius of curvature, and module over its limit")
-            .or(NOT_CURVED),
-        mm("start_left", "height over the pitch curve at which the generated left flank begins"),
-        mm("start_right", "height over the pitch curve at which the generated right flank begins"),
-        new(
-            "printed_undercut",
-            "%",
-            "left side of the printed condition of undercut over its right side: it holds to 100",
-        )
-        .or(STRAIGHT),
-        mm("involute_left", "height over the pitch curve at which the generated left flank ends"),
-        mm("involute_right", "height over the pitch curve at which the generated right flank ends"),
-        um("tip_relief_left", "depth of the left tip behind the conjugate flank"),
-        um("tip_relief_right", "depth of the right tip behind the conjugate flank"),
-        mm(
-            "corners_in",
-            "smallest distance of the tip corners from the teeth on their way into the space after the tooth",
-        )
-        .or(NO_OUTLINE),
-        mm("corners_out", "the same on their way out of it").or(NO_OUTLINE),
-        mm("rolling_module", "module at which the cutter no longer rolls there").or(NOT_CURVED),
-        mm("printed_module", "module up to which the printed condition of undercut holds there").or(STRAIGHT),
-    ];
-    let row = |of: &RingTooth| {
-        let radius_mm = of.radius_mm();
-        // Where the curve is hollow towards the ring, the condition is that of the gear it is printed for.
-        let any_radius_mm = (of.curvature_per_mm != 0.0).then(|| 1.0 / of.curvature_per_mm.abs());
-        let module_limit_mm = radius_mm.map(|radius_mm| rolling_module_mm(radius_mm, cutter_teeth));
-        let share = module_limit_mm.map(|limit_mm| 100.0 * module_mm / limit_mm);
-        let printed = any_radius_mm.map(|radius_mm| {
-            let [left_mm2, right_mm2] = facts.printed.sides_mm2(radius_mm);
-            100.0 * left_mm2 / right_mm2
-        });
-        let mut row = vec![Datum::from(of.tooth), of.phi_rad.to_degrees().into(), radius_mm.into()];
-        row.push(radius_mm.map_or(Datum::Undefined, |radius_mm| rolling_teeth(radius_mm, module_mm).into()));
-        row.push(share.into());
-        row.extend(of.start_mm.map(Datum::from));
-        row.push(printed.into());
-        row.extend(of.involute_mm.map(Datum::from));
-        row.extend(of.relief_mm.map(|mm| Datum::from(mm.map(|mm| UM_PER_MM * mm))));
-        row.extend([0, 1].map(|path| Datum::from(of.corners.map(|paths| paths[path].clearance_mm))));
-        row.push(module_limit_mm.into());
-        row.push(any_radius_mm.map(|radius_mm| facts.printed.module_limit_mm(radius_mm)).into());
-        row
+    let limit_mm = |of: &RingTooth| of.radius_mm().map(|radius_mm| rolling_module_mm(radius_mm, cutter_teeth));
+    // Where the curve is hollow towards the ring, the condition is that of the gear it is printed for.
+    let any_radius_mm = |of: &RingTooth| (of.curvature_per_mm != 0.0).then(|| 1.0 / of.curvature_per_mm.abs());
+    let printed = |of: &RingTooth| {
+        let [left_mm2, right_mm2] = facts.printed.sides_mm2(any_radius_mm(of)?);
+        Some(100.0 * left_mm2 / right_mm2)
     };
-    Table::new("teeth", "What the cutter can do, tooth by tooth over one period of the pitch curve", columns)
-        .with_rows(facts.teeth.iter().map(row))
+    let relief_um = |of: &RingTooth, side: usize| of.relief_mm[side].map(|mm| UM_PER_MM * mm);
+    let corner_mm = |of: &RingTooth, path: usize| of.corners.map(|paths| paths[path].clearance_mm);
+    RING_TEETH
+        .table(&facts.teeth)
+        .column(&TOOTH, |of| of.tooth)
+        .column(&PHI, |of| of.phi_rad.to_degrees())
+        .column(&RADIUS, |of| of.radius_mm())
+        .column(&ROLLING_TEETH_AT, |of| of.radius_mm().map(|radius_mm| rolling_teeth(radius_mm, module_mm)))
+        .column(&ROLLING_SHARE, |of| limit_mm(of).map(|limit_mm| 100.0 * module_mm / limit_mm))
+        .column(&START_LEFT, |of| of.start_mm[0])
+        .column(&START_RIGHT, |of| of.start_mm[1])
+        .column(&PRINTED_UNDERCUT, |of| printed(of))
+        .column(&INVOLUTE_LEFT, |of| of.involute_mm[0])
+        .column(&INVOLUTE_RIGHT, |of| of.involute_mm[1])
+        .column(&TIP_RELIEF_LEFT, |of| relief_um(of, 0))
+        .column(&TIP_RELIEF_RIGHT, |of| relief_um(of, 1))
+        .column(&CORNERS_IN, |of| corner_mm(of, 0))
+        .column(&CORNERS_OUT, |of| corner_mm(of, 1))
+        .column(&ROLLING_MODULE, |of| limit_mm(of))
+        .column(&PRINTED_MODULE, |of| any_radius_mm(of).map(|radius_mm| facts.printed.module_limit_mm(radius_mm)))
         .in_file("ring")
 }

@@ -53,7 +53,7 @@ pub fn strokes(job: &ShapingJob, ledger: &ChipLedger, operation: usize) -> Table
         .column(&CUTTER_TORQUE_OF_STROKE, |(_, s)| s.cutter_torque_nmm / 1e3)
         .column(&RATE, |(_, s)| s.area_mm2 * width_mm * per_minute / 1e3);
     if !prepared.deflections.is_empty() {
-        for (index, row) in DEFLECTION.rows.iter().enumerate() {
+        for (index, &row) in DEFLECTION.rows.iter().enumerate() {
             table = table.column(row, |&(stroke, _)| deflection::of_stroke(job, operation, stroke)[index]);
         }
     }

@@ -30,8 +30,8 @@ pub fn teeth(teeth: &[Section]) -> Table {
     let sides =
         [Side::Left, Side::Right].into_iter().flat_map(|side| [(side, &FLANK_PITCH), (side, &CUMULATIVE_PITCH)]);
     let table = sides.fold(table, |table, (side, row)| {
-        let key = format!("{}_{}", side.name(), row.key);
-        table.keyed(key, row, |(_, tooth)| tooth.find(side.name()).and_then(|flank| flank.value(row)))
+        let column = row.as_column().keyed(format!("{}_{}", side.name(), row.key));
+        table.column(column, |(_, tooth)| tooth.find(side.name()).and_then(|flank| flank.value(row)))
     });
     table.rows_in_file("teeth")
 }

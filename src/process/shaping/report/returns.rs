@@ -1,20 +1,24 @@
 //! The return strokes on the page: what was known of them before cutting.
 
-use crate::findings::{Findings, Quantity, Section};
+use crate::findings::quantities::OPERATIONS;
+use crate::findings::{Findings, Quantity, QuantityRow, Section};
 use crate::output::line_chart::{LineChart, Panel};
 use crate::output::report::{Block, PageSection, Tone};
 use crate::process::shaping::ShapingJob;
 use crate::process::shaping::findings::answers;
+use crate::process::shaping::quantities::returns::{
+    ANGLE_AT, CLEARANCE_AT, DEPTH_AT, DIRECTION, PHI, RETRACTION_ANGLE, RETURN_PLACES, RETURN_STROKES,
+};
 use crate::steps::axes::charts::panel;
 
 /// The section; none where the cutter is not drawn back.
 pub fn section(job: &ShapingJob, found: &Findings) -> Option<PageSection> {
-    let operations = found.parts("operations");
+    let operations = found.parts(OPERATIONS.key);
     let returns: Vec<(&str, &Section)> =
-        operations.iter().filter_map(|of| Some((of.key.as_str(), of.find("return_strokes")?))).collect();
-    let direction = returns.first()?.1.words("direction").to_owned();
+        operations.iter().filter_map(|of| Some((of.key.as_str(), of.group(&RETURN_STROKES)?))).collect();
+    let direction = returns.first()?.1.text(&DIRECTION).to_owned();
     let blocks = returns.iter().flat_map(|&(name, section)| {
-        let first = match section.quantity("retraction_angle").and_then(Quantity::why) {
+        let first = match section.of(&RETRACTION_ANGLE).and_then(Quantity::why) {
             Some(why) => Block::Note(format!("Return strokes of {name}: what is told of them is {why}.")),
             None => Block::Table(answers::table(section, &format!("Return strokes of {name}"))),
         };
@@ -24,7 +28,7 @@ pub fn section(job: &ShapingJob, found: &Findings) -> Option<PageSection> {
         returns.iter().flat_map(|(_, section)| answers::that_ask_for_a_change(section)).collect();
     asked.sort_unstable();
     asked.dedup();
-    let known = returns.iter().all(|(_, section)| section.number("retraction_angle").is_some());
+    let known = returns.iter().all(|(_, section)| section.value(&RETRACTION_ANGLE).is_some());
     let (tone, words) = match (known, asked.is_empty()) {
         (false, _) => (Tone::Aside, "nothing is told of them".to_owned()),
         (true, true) => (Tone::Fine, "nothing to change".to_owned()),
@@ -44,11 +48,8 @@ pub fn section(job: &ShapingJob, found: &Findings) -> Option<PageSection> {
 
 /// Over one period of the pitch curve.
 fn chart(job: &ShapingJob, name: &str, section: &Section) -> Option<LineChart> {
-    let table = section.table_of("places").filter(|table| !table.rows.is_empty())?;
-    let curve = |key: &str| {
-        let value = |value: Option<f64>| value.unwrap_or(f64::NAN);
-        table.numbers("phi").map(value).zip(table.numbers(key).map(value)).collect::<Vec<_>>()
-    };
+    let table = section.table_of(RETURN_PLACES.key).filter(|table| !table.is_empty())?;
+    let curve = |row: &QuantityRow| table.points(&PHI, row);
     let pressure_deg = job.scene.gear.pressure_angle_rad.to_degrees();
     Some(LineChart {
         title: format!("{name} of {}: return strokes over one period of the pitch curve", job.scene.name),
@@ -57,15 +58,15 @@ fn chart(job: &ShapingJob, name: &str, section: &Section) -> Option<LineChart> {
         panels: vec![
             panel(
                 ["retraction angle", "°"],
-                vec![("normal to line of centres, positive where the radius grows", curve("retraction_angle"))],
+                vec![("normal to line of centres, positive where the radius grows", curve(&ANGLE_AT))],
                 [("pressure angle", pressure_deg), ("pressure angle", -pressure_deg)],
             ),
             no_finer_than_um(panel(
                 ["clearance from the teeth", "µm"],
-                vec![("nearest edge", curve("clearance"))],
+                vec![("nearest edge", curve(&CLEARANCE_AT))],
                 [("rubs below", 0.0)],
             )),
-            no_finer_than_um(panel(["depth in stock", "µm"], vec![("deepest edge", curve("depth_in_stock"))], [])),
+            no_finer_than_um(panel(["depth in stock", "µm"], vec![("deepest edge", curve(&DEPTH_AT))], [])),
         ],
     })
 }

@@ -1,16 +1,20 @@
 //! The ring on the page: what the cutter can do in it, along the pitch curve.
 
-use crate::findings::{Findings, Table};
+use crate::findings::{Findings, QuantityRow, Table};
 use crate::output::line_chart::{LineChart, Panel};
 use crate::output::report::{Block, PageSection};
 use crate::process::shaping::ShapingJob;
 use crate::process::shaping::findings::answers;
+use crate::process::shaping::quantities::ring::{
+    CORNERS_IN, CORNERS_OUT, INVOLUTE_LEFT, INVOLUTE_RIGHT, PHI, PRINTED_MODULE, RADIUS, RING, RING_TEETH,
+    ROLLING_MODULE, START_LEFT, START_RIGHT, TIP_RELIEF_LEFT, TIP_RELIEF_RIGHT,
+};
 use crate::steps::axes::charts::panel;
 
 /// The section; none for an external gear.
 pub fn section(job: &ShapingJob, found: &Findings) -> Option<PageSection> {
-    let ring = found.find("ring")?;
-    let table = ring.table_of("teeth")?;
+    let ring = found.group(&RING)?;
+    let table = ring.table_of(RING_TEETH.key)?;
     let mut blocks = Vec::new();
     let withheld = ring.entries.first().and_then(|entry| entry.quantity.why());
     if withheld.is_none() {
@@ -18,7 +22,7 @@ pub fn section(job: &ShapingJob, found: &Findings) -> Option<PageSection> {
     }
     if let Some(why) = withheld {
         blocks.push(Block::Note(format!("What is told of the cutter in the ring is {why}.")));
-    } else if table.rows.len() > 1 {
+    } else if table.len() > 1 {
         blocks.push(Block::Lines(LineChart {
             title: format!("{}: the cutter in the ring, over one period of the pitch curve", job.scene.name),
             x_name: "polar angle φ".to_owned(),
@@ -29,7 +33,7 @@ pub fn section(job: &ShapingJob, found: &Findings) -> Option<PageSection> {
         blocks.push(Block::Note("The pitch curve is a circle: all this is the same on every tooth.".to_owned()));
     }
     Some(PageSection::new(
-        "ring",
+        RING.key,
         "The cutter in the ring",
         "What was known before cutting: where the cutter rolls and how large the module may be, how far its \
                involute reaches on the flanks and how far its base sets the tips back, and how near its tip corners \
@@ -39,34 +43,30 @@ pub fn section(job: &ShapingJob, found: &Findings) -> Option<PageSection> {
 }
 
 fn panels(job: &ShapingJob, table: &Table) -> Vec<Panel> {
-    let curve = |key: &str| {
-        let value = |value: Option<f64>| value.unwrap_or(f64::NAN);
-        table.numbers("phi").map(value).zip(table.numbers(key).map(value)).collect::<Vec<_>>()
-    };
-    let two = |names: [&'static str; 2], keys: [&str; 2]| {
-        names.into_iter().zip(keys.map(curve)).collect::<Vec<(&str, Vec<(f64, f64)>)>>()
-    };
-    let flanks = |stem: &str| {
-        let [left, right] = ["left", "right"].map(|side| format!("{stem}_{side}"));
-        two(["left flanks", "right flanks"], [&left, &right])
-    };
+    let curve = |row: &QuantityRow| table.points(&PHI, row);
+    let two = |names: [&'static str; 2], rows: [&QuantityRow; 2]| names.into_iter().zip(rows.map(curve)).collect();
+    let flanks = |rows| two(["left flanks", "right flanks"], rows);
     vec![
         panel(
             ["radius of curvature", "mm"],
-            vec![("pitch curve", curve("radius_of_curvature"))],
+            vec![("pitch curve", curve(&RADIUS))],
             [("pitch radius of the cutter", job.cutter.pitch_radius_mm)],
         ),
         panel(
             ["limit of the module", "mm"],
-            two(["the cutter rolls", "printed condition of undercut"], ["rolling_module", "printed_module"]),
+            two(["the cutter rolls", "printed condition of undercut"], [&ROLLING_MODULE, &PRINTED_MODULE]),
             [("module", job.scene.gear.module_mm)],
         ),
-        panel(["flanks begin at height", "mm"], flanks("start"), []),
-        panel(["flanks end at height", "mm"], flanks("involute"), [("tip", job.blank.addendum_mm)]),
-        panel(["tips set back", "µm"], flanks("tip_relief"), []),
+        panel(["flanks begin at height", "mm"], flanks([&START_LEFT, &START_RIGHT]), []),
+        panel(
+            ["flanks end at height", "mm"],
+            flanks([&INVOLUTE_LEFT, &INVOLUTE_RIGHT]),
+            [("tip", job.blank.addendum_mm)],
+        ),
+        panel(["tips set back", "µm"], flanks([&TIP_RELIEF_LEFT, &TIP_RELIEF_RIGHT]), []),
         panel(
             ["room of tip corners", "mm"],
-            two(["on the way in", "on the way out"], ["corners_in", "corners_out"]),
+            two(["on the way in", "on the way out"], [&CORNERS_IN, &CORNERS_OUT]),
             [("cuts below", 0.0)],
         ),
     ]

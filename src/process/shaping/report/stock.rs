@@ -1,5 +1,6 @@
 //! What earlier operations leave for the last one: normal stock, the allowances AB and CD, their unevenness.
 
+use crate::findings::quantities::OPERATIONS;
 use crate::findings::quantities::flanks::{STOCK_LARGEST, STOCK_MEAN, STOCK_SMALLEST};
 use crate::findings::{self, Findings, QuantityRow};
 use crate::output::bar_chart::{BarChart, BarSeries};
@@ -8,13 +9,13 @@ use crate::output::range_chart::{RangeChart, RangeSeries};
 use crate::output::report::{Block, PageSection, PageTable};
 use crate::output::text::significant;
 use crate::process::shaping::ShapingJob;
-use crate::process::shaping::quantities::{AB, CD, SPREAD_MAX, SPREAD_MEAN, UNEVENNESS};
+use crate::process::shaping::quantities::{AB, ALLOWANCE, CD, SPREAD_MAX, SPREAD_MEAN, UNEVENNESS};
 
 /// The section; none if the scene has a single operation.
 pub fn section(job: &ShapingJob, found: &Findings) -> Option<PageSection> {
     let finishing = &job.finishing().spec.name;
     let earlier: Vec<&findings::Section> =
-        found.parts("operations").iter().filter(|operation| !stock_of_teeth(operation).is_empty()).collect();
+        found.parts(OPERATIONS.key).iter().filter(|operation| !stock_of_teeth(operation).is_empty()).collect();
     let mut blocks = Vec::new();
     for operation in &earlier {
         if earlier.len() > 1 {
@@ -41,7 +42,7 @@ fn stock_of_teeth(operation: &findings::Section) -> &[findings::Section] {
 
 /// A column of the table of allowances.
 fn allowance(operation: &findings::Section, column: &QuantityRow) -> Vec<Option<f64>> {
-    operation.table_of("allowance").map_or_else(Vec::new, |table| table.values(column).collect())
+    operation.table_of(ALLOWANCE.key).map_or_else(Vec::new, |table| table.values(column).collect())
 }
 
 fn operation_blocks(operation: &findings::Section, finishing: &str) -> Vec<Block> {
@@ -65,7 +66,7 @@ fn operation_blocks(operation: &findings::Section, finishing: &str) -> Vec<Block
             .collect(),
     };
     let name = &operation.key;
-    let period = operation.table_of("allowance").and_then(|table| table.period_rows).unwrap_or(0);
+    let period = operation.table_of(ALLOWANCE.key).and_then(|table| table.period_rows).unwrap_or(0);
     vec![
         Block::Ranges(RangeChart {
             title: format!("Normal stock that {name} leaves for {finishing}, flank by flank"),

@@ -6,17 +6,28 @@
 //! pitch arcs of the pitch curve. What is not measured has no row.
 
 use super::{Inspection, SIDES, TracedFlank, traced};
-use crate::findings::Datum;
+use crate::findings::Table;
+use crate::findings::quantities::inspection::{CHART, CHART_DEVIATION, CHART_U, CHART_V};
+use crate::findings::quantities::teeth::{FLANK, TOOTH};
 use crate::measure::deviation::{Trace, TraceDeviation};
 use crate::output::table::write_table;
 use gearcut_core::error::Result;
+use gearcut_core::terms::Side;
 use gearcut_core::units::UM_PER_MM;
 use std::path::Path;
 
-/// Columns of the table.
-const COLUMNS: [&str; 6] = ["chart", "tooth", "flank", "u_mm", "v_mm", "deviation_um"];
 /// Places beyond the ends of an evaluated part by no more than this are in it, mm.
 const SAME_MM: f64 = 1e-9;
+
+/// A row.
+struct Place {
+    chart: &'static str,
+    tooth: u32,
+    side: Side,
+    /// Where a normal deviation is; none of pitch.
+    at_mm: Option<[f64; 2]>,
+    deviation_mm: f64,
+}
 
 /// Writes the table.
 ///
@@ -36,12 +47,22 @@ pub(super) fn write(inspection: &Inspection, path: &Path) -> Result<()> {
     }
     for (pitch, (side, _)) in inspection.gear.pitch.iter().zip(SIDES) {
         let cumulative = pitch.iter().flat_map(|pitch| &pitch.cumulative_mm);
-        rows.extend((1_u32..).zip(cumulative).map(|(tooth, mm)| {
-            let um = (mm * UM_PER_MM).into();
-            vec!["pitch".into(), tooth.into(), side.name().into(), Datum::Undefined, Datum::Undefined, um]
+        rows.extend((1_u32..).zip(cumulative).map(|(tooth, &deviation_mm)| Place {
+            chart: "pitch",
+            tooth,
+            side,
+            at_mm: None,
+            deviation_mm,
         }));
     }
-    write_table(path, &COLUMNS, rows)
+    let table = Table::over("charts", "Charts of the inspection", rows)
+        .column(&CHART, |row| row.chart)
+        .column(&TOOTH, |row| row.tooth)
+        .column(&FLANK, |row| row.side.name())
+        .column(&CHART_U, |row| row.at_mm.map(|[u_mm, _]| u_mm))
+        .column(&CHART_V, |row| row.at_mm.map(|[_, v_mm]| v_mm))
+        .column(&CHART_DEVIATION, |row| row.deviation_mm * UM_PER_MM);
+    write_table(path, &table.into())
 }
 
 /// Rows of the evaluated part of a trace.
@@ -50,14 +71,16 @@ fn line(
     flank: &TracedFlank,
     (trace, deviation): (&Trace, Option<TraceDeviation>),
     place_mm: impl Fn(usize) -> [f64; 2],
-) -> Vec<Vec<Datum>> {
+) -> Vec<Place> {
     let Some([from_mm, to_mm]) = deviation.map(|of| of.between_mm) else { return Vec::new() };
     let inside = |place: f64| place >= from_mm - SAME_MM && place <= to_mm + SAME_MM;
     let places = (0..trace.places_mm.len()).filter(|&i| inside(trace.places_mm[i]));
-    let row = |i: usize| {
-        let [u_mm, v_mm] = place_mm(i);
-        let um = (trace.heights_mm[i] * UM_PER_MM).into();
-        vec![chart.into(), flank.tooth.into(), flank.side.name().into(), u_mm.into(), v_mm.into(), um]
+    let row = |i: usize| Place {
+        chart,
+        tooth: flank.tooth,
+        side: flank.side,
+        at_mm: Some(place_mm(i)),
+        deviation_mm: trace.heights_mm[i],
     };
     places.map(row).collect()
 }
