@@ -2,6 +2,7 @@
 
 use crate::failure;
 use crate::waiting::waited;
+use gearcut::findings::Entry;
 use gearcut::interrupt::Interrupt;
 use gearcut::measure::topography::{Arguments, Chain, Evaluation, Form, Surface};
 use gearcut::output::surface_files::read_surface;
@@ -58,7 +59,7 @@ fn evaluated(py: Python<'_>, surface: &Surface, chain: ChainFields) -> PyResult<
         return Err(signal);
     }
     let (evaluation, words) = done.map_err(|problem: String| PyValueError::new_err(problem))?;
-    let quantities = gearcut::texture::quantities(&evaluation.parameters);
-    let quantities: Map<String, Value> = quantities.into_iter().map(|(symbol, of)| (symbol, json!(of))).collect();
+    let entries = evaluation.parameters.iter().map(Entry::from);
+    let quantities: Map<String, Value> = entries.map(|entry| (entry.key, json!(entry.quantity))).collect();
     Ok((Value::Object(quantities).to_string(), words))
 }
