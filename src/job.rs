@@ -167,11 +167,41 @@ pub trait CylindricalGear: GearJob {
         rows_z_mm: &[f64],
     ) -> Result<Vec<Vec<DVec2>>>;
 
+    /// The target round one tooth in the section `z_mm`, points about `spacing_mm` apart.
+    ///
+    /// # Errors
+    /// A flank whose target is not known in closed form.
+    fn target_section(&self, tooth: u32, z_mm: f64, spacing_mm: f64) -> Result<ToothSection>;
+
+    /// Edge of the tool, its chords within `chord_mm`.
+    fn tool_section(&self, chord_mm: f64) -> ToolSection;
+
     /// Surface of the tip land of a tooth after all operations; `None` on a pointed tooth.
     ///
     /// # Errors
     /// The tool generates no flank there; the backend's.
     fn tip_surface(&self, backend: &dyn Backend, tooth: u32) -> Result<Option<SurfaceGrid>>;
+}
+
+/// A tooth and the root behind it in a transverse section, counter-clockwise; gear frame, mm. Ends of flanks, fillets
+/// and tip land are points of it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ToothSection {
+    /// Right flank from its form point, tip land, left flank.
+    pub tooth_mm: Vec<DVec2>,
+    /// From there to the right flank of the next tooth.
+    pub root_mm: Vec<DVec2>,
+}
+
+/// Outline of a tool.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ToolSection {
+    /// Points, mm.
+    pub points_mm: Vec<DVec2>,
+    /// Whether the last is joined to the first.
+    pub is_closed: bool,
+    /// What is drawn, and in which frame.
+    pub words: String,
 }
 
 /// Where a tooth stands, gear frame.

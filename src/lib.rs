@@ -97,6 +97,7 @@
 //! - [`pair_job`]: two scenes rolled on each other, and what is written about it
 //! - [`run`]: the order of a whole run
 //! - [`influence`]: what errors of the machine do to a gear, and which errors a measured gear shows
+//! - [`export`]: sections, points and programs for other people's programs
 //! - [`scatter`]: how gears of one scene scatter, layer by layer of errors
 //! - [`library`]: the few items that other programs need
 //! - [`compare`]: results side by side
@@ -111,6 +112,8 @@ pub mod bench;
 pub mod colormap;
 #[doc(hidden)]
 pub mod compare;
+#[doc(hidden)]
+pub mod export;
 pub mod findings;
 #[doc(hidden)]
 pub mod gcode;

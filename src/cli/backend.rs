@@ -1,6 +1,6 @@
 //! The backend that the command line asks for.
 
-use super::args::{BackendChoice, GpuFailureChoice, RunArguments};
+use super::args::{BackendChoice, ComputeArguments, GpuFailureChoice};
 use super::drivers;
 use gearcut::backend::{BackendWish, Choice, OnFailure, choose};
 use gearcut::interrupt::Interrupt;
@@ -37,7 +37,7 @@ pub fn chosen(wish: Option<BackendChoice>, on_failure: GpuFailureChoice) -> Resu
 ///
 /// # Errors
 /// As for [`chosen`]; a GPU on trial that fails, or a scene that cannot be cut.
-pub fn of_few_places(arguments: &RunArguments, json: bool, scene: &Scene) -> Result<(Choice, Progress), Error> {
+pub fn of_few_places(arguments: &ComputeArguments, json: bool, scene: &Scene) -> Result<(Choice, Progress), Error> {
     let wish = arguments.backend.unwrap_or(BackendChoice::Cpu);
     let mut choice = chosen(Some(wish), GpuFailureChoice::Redo)?;
     if choice.on_trial {

@@ -19,7 +19,7 @@ pub fn run(arguments: &BudgetArguments) -> Result<(), Failure> {
     let out = arguments.out.clone().unwrap_or_else(|| PathBuf::from("out").join(format!("{name}_budget")));
     let flanks = arguments.flanks.iter().map(|text| flank(text)).collect::<Result<_, _>>()?;
     let options = BudgetOptions { parameters: arguments.parameters.clone(), flanks, numbers: arguments.numbers };
-    let (choice, progress) = backend::of_few_places(&arguments.run, false, &loaded.scene)?;
+    let (choice, progress) = backend::of_few_places(&arguments.run.compute, false, &loaded.scene)?;
     let filled = folder::fill_partly(&out, "budget", |folder, interrupt, known| {
         let found = budget::budget(&loaded, &options, &choice, &progress, interrupt, known)?;
         let tree = budget::findings(&loaded.scene, &found);

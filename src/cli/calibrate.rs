@@ -22,7 +22,7 @@ pub fn run(arguments: &CalibrateArguments) -> Result<(), Failure> {
     let measured = read(&loaded, arguments).map_err(|error| Failure::of_scene(&loaded, error))?;
     let name = &loaded.scene.name;
     let out = arguments.out.clone().unwrap_or_else(|| PathBuf::from("out").join(format!("{name}_calibration")));
-    let (choice, progress) = backend::of_few_places(&arguments.run, false, &loaded.scene)?;
+    let (choice, progress) = backend::of_few_places(&arguments.run.compute, false, &loaded.scene)?;
     let filled = folder::fill_partly(&out, "calibrate", |folder, interrupt, known| {
         let found = Calibration::new(&loaded, &parameters, &measured, &choice, &progress, interrupt, known)?;
         let tree = calibrate::findings(&loaded.scene, &measured, &found);

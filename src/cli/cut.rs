@@ -32,9 +32,9 @@ pub fn run(arguments: &CutArguments) -> Result<(), Failure> {
         let whole = whole.unwrap_or_else(|| PathBuf::from("out").join(&scene.scene.name));
         beside(whole, arguments.draft, parts)
     });
-    let progress = Progress::new(ProgressMode::choose(arguments.run.quiet, arguments.json));
+    let progress = Progress::new(ProgressMode::choose(arguments.run.compute.quiet, arguments.json));
     let interrupt = Interrupt::listen().map_err(listening(&out))?;
-    let choice = backend::chosen(arguments.run.backend, arguments.on_gpu_failure)?;
+    let choice = backend::chosen(arguments.run.compute.backend, arguments.on_gpu_failure)?;
     progress.note(&backend::note(&choice));
     if arguments.draft {
         progress.note(draft::DRAFT_WORDS);
@@ -54,7 +54,7 @@ pub fn run(arguments: &CutArguments) -> Result<(), Failure> {
         let text = serde_json::to_string_pretty(&done.findings.to_json())
             .map_err(|reason| Error::Output { path: done.folder.path.clone(), reason: reason.to_string() })?;
         print::to_stdout(&format!("{text}\n"))?;
-    } else if !arguments.run.quiet {
+    } else if !arguments.run.compute.quiet {
         print::sheet(if arguments.verbose { &done.summary.whole } else { &done.summary.brief })?;
     }
     let folder = done.folder.cleared()?;

@@ -23,7 +23,7 @@ pub fn run(arguments: &DiagnoseArguments) -> Result<(), Failure> {
     let points = measured::read(&arguments.measured)?;
     let name = &loaded.scene.name;
     let out = arguments.out.clone().unwrap_or_else(|| PathBuf::from("out").join(format!("{name}_diagnosis")));
-    let (choice, progress) = backend::of_few_places(&arguments.run, false, &loaded.scene)?;
+    let (choice, progress) = backend::of_few_places(&arguments.run.compute, false, &loaded.scene)?;
     let names = &arguments.parameters;
     let filled = folder::fill_partly(&out, "diagnose", |folder, interrupt, known| {
         let cuts = MeasuredCuts::new(&loaded, &points, choice.backend.as_ref(), known)?;

@@ -14,6 +14,7 @@ mod cut;
 mod devices;
 mod diagnose;
 mod drivers;
+mod export;
 mod failure;
 mod folder;
 mod mate;
@@ -51,6 +52,7 @@ pub fn run(arguments: CommandLine) -> ExitCode {
         }
         Command::New(arguments) => new::run(&arguments),
         Command::Mate(arguments) => mate::run(&arguments),
+        Command::Export(arguments) => export::run(&arguments),
         Command::Pair(arguments) => pair::run(&arguments),
         Command::Contact(arguments) => contact::run(&arguments),
         Command::Scatter(arguments) => scatter::run(&arguments),

@@ -27,7 +27,7 @@ pub fn run(arguments: &PairArguments) -> Result<(), Failure> {
     let name = format!("{}_with_{}", a.scene.name, b.scene.name);
     let out = arguments.out.clone().unwrap_or_else(|| PathBuf::from("out").join(&name));
     let words = std::env::args().skip(1).collect::<Vec<_>>();
-    let (choice, progress) = backend::of_few_places(&arguments.run, arguments.json, scenes[0])?;
+    let (choice, progress) = backend::of_few_places(&arguments.run.compute, arguments.json, scenes[0])?;
     let (path, found) = folder::fill(&out, "pair", |folder, interrupt| {
         let watch = Watch::new(&progress, interrupt);
         let [scene_a, scene_b] = [&a, &b].map(LoadedScene::resolved_toml);

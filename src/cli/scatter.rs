@@ -42,7 +42,7 @@ pub fn run(arguments: &ScatterArguments) -> Result<(), Failure> {
     let flank = FlankWish { tooth: arguments.tooth, side };
     let out = arguments.out.clone().unwrap_or_else(|| PathBuf::from("out").join(format!("{}_scatter", scene.name)));
     let interrupt = Interrupt::listen().map_err(listening(&out))?;
-    let (choice, progress) = backend::of_few_places(&arguments.run, false, scene)?;
+    let (choice, progress) = backend::of_few_places(&arguments.run.compute, false, scene)?;
     let cutter = choice.backend.as_ref();
     let folder = ScatterFolder::open(&out, record(&loaded, flank, tolerances, &cutter.name_in_files()))?;
     let watch = (&progress, &interrupt);

@@ -1,4 +1,4 @@
-//! Straight lines between knots, as few of them as a tolerance allows.
+//! Straight lines between knots, or arcs, as few of them as a tolerance allows.
 
 /// Ends of the longest lines that fit, one after the other, from place 0 to place `last`; where not even a line to the
 /// next place fits, it is taken.

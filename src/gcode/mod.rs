@@ -19,5 +19,5 @@ pub use file::read_file;
 pub use lines::longest_lines;
 pub(crate) use post::ascii;
 pub use script::{AxisColumn, Ram, Script, StraightLine};
-pub use statement::{Grammar, Move, Statement, statements};
+pub use statement::{Grammar, Move, ProgramArc, Statement, statements};
 pub use timed::{TimedKnot, TimedProgram, read_timed};

@@ -20,6 +20,8 @@ pub struct Grammar<'a, const N: usize> {
     pub names: &'a str,
     /// Whether a ram runs beside the axes: S, M3, M5, and dwells in which it goes on.
     pub ram: bool,
+    /// Whether the first two axes, X and Y, run along arcs: G17, G2, G3, with I and J.
+    pub arcs: bool,
 }
 
 /// How axes move.
@@ -27,8 +29,17 @@ pub struct Grammar<'a, const N: usize> {
 pub enum Move {
     /// `G0`.
     Rapid,
-    /// `G1`.
+    /// At the feed: `G1`, or `G2` and `G3` along an arc.
     Straight,
+}
+
+/// How an arc turns, and round what.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ProgramArc {
+    /// 1 counter-clockwise (`G3`), -1 clockwise (`G2`).
+    pub turn: f64,
+    /// From its start to its centre along the first two axes, mm: I and J.
+    pub centre_mm: [f64; 2],
 }
 
 /// What one block commands.
@@ -36,6 +47,8 @@ pub enum Move {
 pub struct Statement<const N: usize> {
     /// Where the axes go, mm or deg, and how; `None` where the block has no word of an axis.
     pub travel: Option<(Move, [Option<f64>; N])>,
+    /// The arc along which the first two axes go; `None`: a straight line.
+    pub arc: Option<ProgramArc>,
     /// `G93` is in force.
     pub inverse_time: bool,
     /// F of this block; in `G94` that of an earlier one holds.
@@ -54,10 +67,12 @@ pub struct Statement<const N: usize> {
 #[derive(Debug, Default)]
 struct Modes {
     motion: Option<Move>,
+    /// Turn of arcs, while G2 or G3 is in force.
+    turn: Option<f64>,
     inverse_time: bool,
     feed: Option<f64>,
-    mm: bool,
-    absolute: bool,
+    /// Which of `G17`, `G21` and `G90` have been given.
+    given: Vec<u32>,
 }
 
 /// A word of this group rules out another one in the same block.
@@ -67,8 +82,10 @@ enum ModalGroup {
     Dwell,
     Units,
     Positions,
+    Plane,
     Feed,
     Ram,
+    Stop,
     End,
 }
 
@@ -95,21 +112,25 @@ impl Modes {
         let mut target = [None; N];
         let (mut feed, mut pause, mut speed, mut ram) = (None, None, None, None);
         let (mut dwells, mut ends) = (false, false);
+        let mut centre = [None; 2];
         let mut letters = Vec::new();
         let mut groups: Vec<(ModalGroup, &Word)> = Vec::new();
         for (index, word) in words.iter().enumerate() {
             let refuse = |why: &str| Err(format!("word `{}`: {why}", word.text));
-            if let Some(group) = word.group(grammar.ram)? {
+            if let Some(group) = word.group(grammar)? {
                 if let Some((_, before)) = groups.iter().find(|(of, _)| *of == group) {
                     return refuse(&format!("`{}` stands in the same block, and one rules out the other", before.text));
                 }
                 groups.push((group, word));
                 match (word.letter, word.number as u32) {
-                    ('G', 0) => self.motion = Some(Move::Rapid),
-                    ('G', 1) => self.motion = Some(Move::Straight),
+                    ('G', 0) => (self.motion, self.turn) = (Some(Move::Rapid), None),
+                    ('G', 1) => (self.motion, self.turn) = (Some(Move::Straight), None),
+                    ('G', code @ (2 | 3)) => {
+                        (self.motion, self.turn) = (Some(Move::Straight), Some(f64::from(code) * 2.0 - 5.0));
+                    }
                     ('G', 4) => dwells = true,
-                    ('G', 21) => self.mm = true,
-                    ('G', 90) => self.absolute = true,
+                    ('G', code @ (17 | 21 | 90)) => self.given.push(code),
+                    ('M', 0) => {}
                     // A feed means another thing from here on.
                     ('G', code) => (self.inverse_time, self.feed) = (code == 93, None),
                     (_, 3) => ram = Some(true),
@@ -135,6 +156,8 @@ impl Modes {
                 'P' if grammar.ram && word.number == 0.0 => pause = Some((0.0, word.text)),
                 'P' if grammar.ram && word.number > 0.0 => pause = Some((word.rate()?, word.text)),
                 'P' if grammar.ram => return refuse("a dwell lasts zero seconds or more"),
+                'I' if grammar.arcs => centre[0] = Some(word.position(AxisKind::Linear)?),
+                'J' if grammar.arcs => centre[1] = Some(word.position(AxisKind::Linear)?),
                 letter => match grammar.axes.iter().position(|axis| axis.0 == letter) {
                     Some(axis) => target[axis] = Some(word.position(grammar.axes[axis].1)?),
                     None => return refuse(&format!("this letter is not read; axes are {}", grammar.names)),
@@ -149,18 +172,33 @@ impl Modes {
             (_, pause) => pause.map(|(seconds, _)| seconds),
         };
         let travel = if moves { Some((self.motion()?, target)) } else { None };
+        let arc = self.arc(moves, centre)?;
         if !self.inverse_time {
             self.feed = feed.or(self.feed);
         }
         let feed = if self.inverse_time { feed } else { self.feed };
-        Ok(Statement { travel, inverse_time: self.inverse_time, feed, dwell_s, speed, ram, ends })
+        Ok(Statement { travel, arc, inverse_time: self.inverse_time, feed, dwell_s, speed, ram, ends })
+    }
+
+    /// The arc of a block that moves axes, where one is in force; it says both words of its centre, and no other block
+    /// says any.
+    fn arc(&self, moves: bool, centre: [Option<f64>; 2]) -> Result<Option<ProgramArc>, String> {
+        match (self.turn.filter(|_| moves), centre) {
+            (Some(_), _) if !self.given.contains(&17) => {
+                Err("an arc before `G17`: a control takes the plane that was modal before".to_owned())
+            }
+            (Some(turn), [Some(i), Some(j)]) => Ok(Some(ProgramArc { turn, centre_mm: [i, j] })),
+            (Some(_), _) => Err("an arc needs I and J, from its start to its centre".to_owned()),
+            (None, [None, None]) => Ok(None),
+            (None, _) => Err("I and J belong to an arc (G2, G3)".to_owned()),
+        }
     }
 
     /// How axes move, where all modes that it takes are in force.
     fn motion(&self) -> Result<Move, String> {
-        for (given, code, means) in [(self.mm, "G21", "mm"), (self.absolute, "G90", "absolute positions")] {
-            if !given {
-                return Err(format!("axes move before `{code}` ({means}): a control takes what was modal before"));
+        for (code, means) in [(21, "mm"), (90, "absolute positions")] {
+            if !self.given.contains(&code) {
+                return Err(format!("axes move before `G{code}` ({means}): a control takes what was modal before"));
             }
         }
         self.motion.ok_or_else(|| "axes move, but neither G0 nor G1 has been given".to_owned())
@@ -174,15 +212,19 @@ impl Word<'_> {
     }
 
     /// Modal group of a G or M; none of other letters.
-    fn group(&self, ram: bool) -> Result<Option<ModalGroup>, String> {
+    fn group<const N: usize>(&self, grammar: &Grammar<N>) -> Result<Option<ModalGroup>, String> {
+        let (ram, arcs) = (grammar.ram, grammar.arcs);
         let code = if self.is_code() { self.number as u32 } else { u32::MAX };
         let refusal = match (self.letter, code) {
             ('G', 0 | 1) => return Ok(Some(ModalGroup::Motion)),
+            ('G', 2 | 3) if arcs => return Ok(Some(ModalGroup::Motion)),
             ('G', 4) if ram => return Ok(Some(ModalGroup::Dwell)),
+            ('G', 17) if arcs => return Ok(Some(ModalGroup::Plane)),
             ('G', 21) => return Ok(Some(ModalGroup::Units)),
             ('G', 90) => return Ok(Some(ModalGroup::Positions)),
             ('G', 93 | 94) => return Ok(Some(ModalGroup::Feed)),
             ('M', 3 | 5) if ram => return Ok(Some(ModalGroup::Ram)),
+            ('M', 0) if arcs => return Ok(Some(ModalGroup::Stop)),
             ('M', 2 | 30) => return Ok(Some(ModalGroup::End)),
             ('G', 20) => "inches are not read; write the program in mm (G21)",
             ('G', 91) => "relative positions are not read; write absolute ones (G90)",

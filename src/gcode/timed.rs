@@ -88,7 +88,7 @@ pub fn read_timed<const N: usize>(
     standing: [Option<f64>; N],
 ) -> Result<Vec<TimedKnot<N>>, String> {
     let names = axes.map(|axis| axis.letter.to_string()).join(", ");
-    let grammar = Grammar { axes: axes.map(|axis| (axis.letter, axis.kind)), names: &names, ram: false };
+    let grammar = Grammar { axes: axes.map(|axis| (axis.letter, axis.kind)), names: &names, ram: false, arcs: false };
     let mut reader = Reader { axes, position: standing, knots: Vec::new() };
     let (lines, ended) = statements(text, &grammar, |statement| reader.take(statement))?;
     ended?;

@@ -13,7 +13,7 @@ use rayon::prelude::*;
 
 use super::generated::{FlankEnds, flank_ends};
 use super::watch::WatchedUnits;
-use crate::job::GearJob;
+use crate::job::{CylindricalGear, GearJob};
 use crate::pair::flank_chain::GearFlanks;
 use crate::process;
 use crate::scene::Scene;
@@ -80,24 +80,10 @@ fn cut_gear(
         return Err(Refusal::new("gear", "a pair of gears without a pitch curve cannot be rolled", way_out).into());
     };
     let teeth = gear.scene().gear.teeth;
-    let module_mm = gear.scene().gear.module_mm;
     let root = |space: u32| -> Result<Vec<Vec<DVec2>>> {
         let space = if space == 0 { teeth } else { space };
-        let root = cylinder.cut_root(backend, space, ROOT_SPACING_MODULES * module_mm, rows_z_mm)?;
-        for (row, points) in root.iter().enumerate() {
-            whole(points, module_mm).map_err(|step_mm| {
-                Refusal::new(
-                    "operation",
-                    format!(
-                        "the root after tooth {space} of {} has a step of {step_mm:.3} mm {:.3} mm from the middle of \
-                        the face: it is not cut there",
-                        gear.scene().name,
-                        rows_z_mm[row]
-                    ),
-                    "roll other sections with --sections, or nominal flanks with --flanks nominal",
-                )
-            })?;
-        }
+        let way_out = "roll other sections with --sections, or nominal flanks with --flanks nominal";
+        let root = cut_root(cylinder, backend, space, rows_z_mm, way_out)?;
         stage.count()?;
         Ok(root)
     };
@@ -124,6 +110,32 @@ fn cut_gear(
     Ok(GearInSections { sections, ends: flank_ends(cylinder)?, view: ViewMesh::new(cylinder)? })
 }
 
+/// The root after tooth `space`, section by section, from the left flank to the next right one.
+///
+/// # Errors
+/// A root that is not cut through, with `way_out`; the backend's.
+pub fn cut_root(
+    gear: &dyn CylindricalGear,
+    backend: &dyn Backend,
+    space: u32,
+    rows_z_mm: &[f64],
+    way_out: &str,
+) -> Result<Vec<Vec<DVec2>>> {
+    let module_mm = gear.scene().gear.module_mm;
+    let root = gear.cut_root(backend, space, ROOT_SPACING_MODULES * module_mm, rows_z_mm)?;
+    for (points, z_mm) in root.iter().zip(rows_z_mm) {
+        whole(points, module_mm).map_err(|step_mm| {
+            let problem = format!(
+                "the root after tooth {space} of {} has a step of {step_mm:.3} mm {z_mm:.3} mm from the middle of the \
+                face: it is not cut there",
+                gear.scene().name
+            );
+            Refusal::new("operation", problem, way_out)
+        })?;
+    }
+    Ok(root)
+}
+
 /// Whether the points of a root follow each other; else the first step between them that is too far, mm.
 fn whole(points_mm: &[DVec2], module_mm: f64) -> std::result::Result<(), f64> {
     let mut steps_mm = points_mm.windows(2).map(|pair| pair[0].distance(pair[1]));
@@ -131,7 +143,10 @@ fn whole(points_mm: &[DVec2], module_mm: f64) -> std::result::Result<(), f64> {
 }
 
 /// Points and arcs of a flank from its form point to its tip, section by section.
-pub(super) fn cut_flank(
+///
+/// # Errors
+/// A flank that no pass has reached; the backend's.
+pub fn cut_flank(
     gear: &dyn GearJob,
     backend: &dyn Backend,
     tooth: u32,
@@ -169,7 +184,10 @@ pub(super) fn cut_flank(
 }
 
 /// A flank behind its half of the root, which runs from the left flank of one tooth to the right one of the next.
-pub(super) fn joined(root: &[DVec2], side: Side, flank: &ToothOutline) -> ToothOutline {
+///
+/// # Panics
+/// A flank of fewer than two points.
+pub fn joined(root: &[DVec2], side: Side, flank: &ToothOutline) -> ToothOutline {
     let (before, behind) = root.split_at(root.len() / 2);
     let half: Vec<DVec2> = match side {
         Side::Left => before.iter().rev().copied().collect(),

@@ -12,7 +12,8 @@ use super::model::{
 use super::process::SceneProcess;
 use super::values::{Values, View};
 use crate::material::CuttingForce;
-use gearcut_core::gear::{Driver, GearKind, PitchCurveShape, TableScaling};
+use gearcut_core::gear::{Driver, FormulaMeaning, GearKind, PitchCurveShape, TableScaling};
+use gearcut_core::math::formula::Formula;
 use gearcut_core::terms::{Hand, Side};
 use gearcut_texture::Form;
 
@@ -170,6 +171,17 @@ fn pitch_curve(values: &Values, choice: &str, kind: GearKind) -> Option<PitchCur
             cosine: curve.numbers("cosine")?.to_vec(),
             sine: curve.numbers("sine")?.to_vec(),
             mean_radius_mm: curve.number("mean_radius_mm"),
+        },
+        "radius_formula" => PitchCurveShape::Formula {
+            formula: Formula::parse(curve.text("radius")?).ok()?,
+            meaning: FormulaMeaning::Radius,
+            size_mm: curve.number("scale_mm"),
+        },
+        "ratio_formula" => PitchCurveShape::Formula {
+            formula: Formula::parse(curve.text("ratio")?).ok()?,
+            // A driver is an external gear, whatever its mate.
+            meaning: FormulaMeaning::Ratio(if holder == "gear" { kind } else { GearKind::External }),
+            size_mm: curve.number("center_distance_mm"),
         },
         "table" => PitchCurveShape::Table {
             points_rad_mm: curve.points("points_deg_mm")?.iter().map(|&[deg, mm]| [deg.to_radians(), mm]).collect(),

@@ -8,6 +8,7 @@ use super::keys::{Key, Kind, PRINTED, Range};
 use super::sources::{At, Sources};
 use super::tree::{Node, TomlValue};
 use super::values::Checked;
+use gearcut_core::math::formula::{Formula, FormulaFault};
 
 /// What is wrong with a value, and where exactly.
 #[derive(Debug)]
@@ -53,6 +54,11 @@ pub(super) fn check(path: &str, key: &Key, node: &Node, sources: &Sources) -> Re
             let fits = (1..=most).contains(&text.chars().count()) && text.chars().all(printed);
             if fits { Ok(Checked::Text(text.to_owned())) } else { Err(one.refused(node)) }
         }
+        Kind::Formula => {
+            let text = one.text(node)?;
+            Formula::parse(text).map_err(|fault| one.no_formula(node, text, &fault))?;
+            Ok(Checked::Text(text.to_owned()))
+        }
         Kind::Numbers { range, most } => one.numbers(node, range, most).map(Checked::Numbers),
         Kind::Pair(range) => {
             let pair = one.numbers(node, range, 2)?;
@@ -92,13 +98,28 @@ impl One<'_> {
                 format!(" {}", self.key.brackets())
             }
             Kind::Whole { min, max } => format!(", {min} to {max}"),
-            Kind::Boolean | Kind::Name | Kind::Path | Kind::Text { .. } => String::new(),
+            Kind::Boolean | Kind::Name | Kind::Path | Kind::Formula | Kind::Text { .. } => String::new(),
         };
         Self::fault(node, format!("`{path}` takes {wanted}{brackets}, not {kind}: {written}"))
     }
 
     fn refused(&self, node: &Node) -> Fault {
         Self::fault(node, format!("`{}` = {} is not allowed: {}", self.path, self.written(node), self.key.allowed()))
+    }
+
+    /// The fault of a formula, at its place in the text between the quotes.
+    fn no_formula(&self, node: &Node, text: &str, fault: &FormulaFault) -> Fault {
+        let character = text[..fault.at.start].chars().count() + 1;
+        let message = format!("`{}`, character {character}: {}", self.path, fault.message);
+        let at = match &node.at {
+            // Text with escapes is not what stands in the file: the whole of it is blamed.
+            At::Scene(span) => match self.sources.text.get(span.clone()).and_then(|written| written.find(text)) {
+                Some(quote) => At::Scene(span.start + quote + fault.at.start..span.start + quote + fault.at.end),
+                None => node.at.clone(),
+            },
+            other => other.clone(),
+        };
+        Fault { at, message }
     }
 
     fn bad_name(&self, node: &Node) -> Fault {

@@ -63,6 +63,8 @@ pub enum Kind {
         /// Longest text, letters.
         most: usize,
     },
+    /// Formula of the polar angle phi, in rad.
+    Formula,
     /// List of numbers, each in the range, at most `most` of them.
     Numbers {
         /// Range of each number.
@@ -268,6 +270,7 @@ impl Key {
             Kind::Name => "letters, digits, _ and -, in quotes".to_owned(),
             Kind::Path => "path in quotes".to_owned(),
             Kind::Text { most } => format!("1 to {most} letters, Latin or Greek, in quotes on one line"),
+            Kind::Formula => "formula of phi (rad) in quotes".to_owned(),
             Kind::Numbers { range, most } => format!("list of at most {most} numbers, each {range}"),
             Kind::Pair(range) => format!("[first, last], each {range}"),
             Kind::Points { angle, radius, fewest, .. } => {

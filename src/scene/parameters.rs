@@ -7,7 +7,7 @@ use gearcut_core::parameter as of;
 /// Section of pitch curves.
 const CURVE: &str = "gear.pitch_curve.";
 
-const KEYS: [(&str, &str); 34] = [
+const KEYS: [(&str, &str); 38] = [
     (of::MODULE, "gear.module_mm"),
     (of::ADDENDUM, "gear.addendum_coefficient"),
     (of::FACE_WIDTH, "gear.face_width_mm"),
@@ -26,6 +26,10 @@ const KEYS: [(&str, &str); 34] = [
     (of::PASCAL_SIZE, "gear.pitch_curve.pascal.mean_radius_mm"),
     (of::FOURIER, "gear.pitch_curve.fourier"),
     (of::FOURIER_SIZE, "gear.pitch_curve.fourier.mean_radius_mm"),
+    (of::RADIUS_FORMULA, "gear.pitch_curve.radius_formula.radius"),
+    (of::RADIUS_FORMULA_SIZE, "gear.pitch_curve.radius_formula.scale_mm"),
+    (of::RATIO_FORMULA, "gear.pitch_curve.ratio_formula.ratio"),
+    (of::RATIO_FORMULA_SIZE, "gear.pitch_curve.ratio_formula.center_distance_mm"),
     (of::TABLE, "gear.pitch_curve.table"),
     (of::TABLE_POINTS, "gear.pitch_curve.table.points_deg_mm"),
     (of::TABLE_SCALING, "gear.pitch_curve.table.scale_to_close"),

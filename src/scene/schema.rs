@@ -88,7 +88,7 @@ fn property(key: &Key) -> Value {
         Kind::Boolean => json!({ "type": "boolean" }),
         Kind::Word(words) => json!({ "type": "string", "enum": words }),
         Kind::Name => json!({ "type": "string", "pattern": "^[A-Za-z0-9_][A-Za-z0-9_-]{0,63}$" }),
-        Kind::Path => json!({ "type": "string", "minLength": 1 }),
+        Kind::Path | Kind::Formula => json!({ "type": "string", "minLength": 1 }),
         Kind::Text { most } => json!({ "type": "string", "minLength": 1, "maxLength": most }),
         Kind::Numbers { range, most } => json!({ "type": "array", "items": number(range), "maxItems": most }),
         Kind::Pair(range) => json!({ "type": "array", "items": number(range), "minItems": 2, "maxItems": 2 }),

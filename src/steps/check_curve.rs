@@ -4,7 +4,7 @@ use crate::findings::Notice;
 use crate::findings::notices::{CurveClosure, CurveScaled};
 use crate::output::text::{Sheet, plain, significant};
 use crate::scene::model::Gear;
-use gearcut_core::gear::{GearKind, PitchCurve, PitchCurveShape, TableScaling};
+use gearcut_core::gear::{FormulaMeaning, GearKind, PitchCurve, PitchCurveShape, TableScaling};
 use gearcut_core::units::UM_PER_MM;
 
 /// A closure error above this (in modules) is worth a warning: single pitch deviations of good gears are of this size.
@@ -103,6 +103,10 @@ fn size_words(shape: &PitchCurveShape) -> (&'static str, bool) {
         PitchCurveShape::Pascal { mean_radius_mm, .. } | PitchCurveShape::Fourier { mean_radius_mm, .. } => {
             ("mean radius", mean_radius_mm.is_some())
         }
+        PitchCurveShape::Formula { meaning: FormulaMeaning::Radius, size_mm, .. } => {
+            ("scale of the formula", size_mm.is_some())
+        }
+        PitchCurveShape::Formula { size_mm, .. } => ("centre distance of the pair", size_mm.is_some()),
         PitchCurveShape::Table { scaling, .. } => ("mean radius", *scaling == TableScaling::AsGiven),
         PitchCurveShape::Mate { .. } => ("centre distance of the pair", false),
     }

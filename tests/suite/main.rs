@@ -6,6 +6,7 @@
 
 mod broken_files;
 mod dependencies;
+mod export;
 mod fixtures;
 
 mod bevel;

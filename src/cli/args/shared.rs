@@ -14,9 +14,9 @@ pub struct SceneArguments {
     pub settings: Vec<String>,
 }
 
-/// How gears are cut, and how the command ends.
+/// How gears are cut.
 #[derive(Debug, Args)]
-pub struct RunArguments {
+pub struct ComputeArguments {
     /// What computes: auto takes a real GPU that answers within ten seconds; cut tries it on tiles of the scene first
     /// and takes it only if it is faster [default: auto for cut; cpu for few places at a time, where it is fastest].
     #[arg(long, value_enum)]
@@ -24,6 +24,14 @@ pub struct RunArguments {
     /// Show no progress and no summary of a cut.
     #[arg(long)]
     pub quiet: bool,
+}
+
+/// How gears are cut, and how the command ends.
+#[derive(Debug, Args)]
+pub struct RunArguments {
+    /// Backend and progress.
+    #[command(flatten)]
+    pub compute: ComputeArguments,
     /// What makes the verdict bad.
     #[command(flatten)]
     pub verdict: VerdictArguments,

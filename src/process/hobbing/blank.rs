@@ -2,6 +2,7 @@
 //! section at any height.
 
 use super::{HobCutter, HobbingJob};
+use crate::job::ToothSection;
 use crate::measure::target_outline::TargetOutline;
 use crate::process::hobbing::rack_generation::FormPoint;
 use crate::steps::whole_blank;
@@ -52,24 +53,34 @@ impl HobbingJob {
     pub fn target_outline(&self, z_mm: f64, spacing_mm: f64) -> TargetOutline {
         let teeth = i64::from(self.scene.gear.teeth);
         // Right flanks of a space belong to the root of one tooth and to the flank of the next.
-        let right_forms: Vec<FormPoint> = (0..=teeth)
-            .into_par_iter()
-            .map(|space| self.target.form_point(&self.blank, space, Side::Right, z_mm))
-            .collect();
-        let teeth: Vec<Vec<DVec2>> = (1..=teeth)
+        let right_forms: Vec<FormPoint> =
+            (0..=teeth).into_par_iter().map(|space| self.right_form(space, z_mm)).collect();
+        let teeth: Vec<ToothSection> = (1..=teeth)
             .into_par_iter()
             .map(|tooth| {
                 let right_forms = [tooth - 1, tooth].map(|space| &right_forms[space as usize]);
                 self.tooth_outline(tooth, right_forms, z_mm, spacing_mm)
             })
             .collect();
-        TargetOutline::new(teeth.concat(), self.blank.back)
+        let points_mm = teeth.into_iter().flat_map(|of| [of.tooth_mm, of.root_mm]).flatten().collect();
+        TargetOutline::new(points_mm, self.blank.back)
+    }
+
+    /// The target round a tooth at `z_mm`, points about `spacing_mm` apart.
+    pub fn tooth_section(&self, tooth: u32, z_mm: f64, spacing_mm: f64) -> ToothSection {
+        let tooth = i64::from(tooth);
+        let [before, behind] = [tooth - 1, tooth].map(|space| self.right_form(space, z_mm));
+        self.tooth_outline(tooth, [&before, &behind], z_mm, spacing_mm)
+    }
+
+    fn right_form(&self, space: i64, z_mm: f64) -> FormPoint {
+        self.target.form_point(&self.blank, space, Side::Right, z_mm)
     }
 
     /// Right flank, tip land, left flank and the root behind a tooth, counter-clockwise. Flanks begin where the fillet
     /// meets them, undercut or not; `right_forms` are those of the right flanks in the spaces before and behind the
     /// tooth.
-    fn tooth_outline(&self, tooth: i64, right_forms: [&FormPoint; 2], z_mm: f64, spacing_mm: f64) -> Vec<DVec2> {
+    fn tooth_outline(&self, tooth: i64, right_forms: [&FormPoint; 2], z_mm: f64, spacing_mm: f64) -> ToothSection {
         let target = &self.target;
         let steps = |length_mm: f64| (length_mm.abs() / spacing_mm).ceil().max(1.0) as usize;
         let between =
@@ -104,18 +115,17 @@ impl HobbingJob {
         let count = steps(land_mm);
         points.extend(between(from, to, count).skip(1).take(count - 1).map(|phi| self.blank.outline_mm(phi)));
         points.extend(left.into_iter().rev());
-        let low = corner(tooth, Side::Left, &left_form);
-        points.extend(low.into_iter().rev().skip(1));
+        let mut root_mm = corner(tooth, Side::Left, &left_form);
+        root_mm.reverse();
         // The bottom: the rack's tip line rolls along under the pitch curve.
         let ends = [Side::Left, Side::Right].map(|side| target.corner_bottom_arc_mm(tooth, side, z_mm));
         let count = steps(ends[1] - ends[0]);
-        points.extend(between(ends[0], ends[1], count).skip(1).take(count - 1).map(|arc| {
+        root_mm.extend(between(ends[0], ends[1], count).skip(1).take(count - 1).map(|arc| {
             let frame = self.curve.frame(self.curve.phi_at_arc(arc));
             frame.point_mm - target.rack.tip_height_mm * frame.normal
         }));
-        let high = corner(tooth, Side::Right, right_forms[1]);
-        points.extend(&high[..high.len() - 1]);
-        points
+        root_mm.extend(corner(tooth, Side::Right, right_forms[1]));
+        ToothSection { tooth_mm: points, root_mm }
     }
 }
 

@@ -7,8 +7,8 @@
 //! linkage as printed destroys flanks and tips alike: the run makes no closed body of it.
 
 use crate::job::{
-    CylindricalGear, GearJob, RAY_DEPTH_MODULES, ROOT_SPACING_MM, TIP_SPACING_MM, ToothFrame, rows_z_mm,
-    teeth_of_extreme_radius,
+    CylindricalGear, GearJob, RAY_DEPTH_MODULES, ROOT_SPACING_MM, TIP_SPACING_MM, ToolSection, ToothFrame,
+    ToothSection, rows_z_mm, teeth_of_extreme_radius,
 };
 use crate::measure::round_gear::{RoundGear, ToothEnds, is_round};
 use crate::process::hobbing::cutter::HobCutter;
@@ -26,6 +26,7 @@ use gearcut_core::error::Result;
 use gearcut_core::gear::PitchCurve;
 use gearcut_core::gear::blank::Blank;
 use gearcut_core::terms::Side;
+use gearcut_core::tool::CuttingTool;
 use glam::DVec2;
 use std::f64::consts::PI;
 
@@ -169,6 +170,22 @@ impl CylindricalGear for HobCutter<'_> {
         let rays = self.root_rays(space, spacing_mm, rows_z_mm)?;
         let (layers, _) = self.cut_field(backend, &rays.field)?;
         Ok(points_of_sections(&rays, &layers))
+    }
+
+    fn target_section(&self, tooth: u32, z_mm: f64, spacing_mm: f64) -> Result<ToothSection> {
+        Ok(self.job.tooth_section(tooth, z_mm, spacing_mm))
+    }
+
+    fn tool_section(&self, chord_mm: f64) -> ToolSection {
+        let hob = &self.job.hob;
+        let in_section = |p: DVec2| DVec2::new(-p.y, p.x - hob.pitch_radius_mm);
+        let words = "edge of one hob tooth in its rake face, x along the hob's axis, y away from it, origin on the \
+            pitch cylinder in the middle of the tooth";
+        ToolSection {
+            points_mm: hob.edge_of(0).points_mm(chord_mm).into_iter().map(in_section).collect(),
+            is_closed: false,
+            words: words.to_owned(),
+        }
     }
 
     fn tip_surface(&self, backend: &dyn Backend, tooth: u32) -> Result<Option<SurfaceGrid>> {

@@ -1,6 +1,7 @@
 //! The whole stock of a shaping job: its return strokes, and the target's section, with which the gear is compared.
 
 use super::ShapingJob;
+use crate::job::ToothSection;
 use crate::measure::target_outline::TargetOutline;
 use crate::process::shaping::linkage::CutterPose;
 use crate::process::shaping::target::{FlankEnd, TargetFlank};
@@ -66,15 +67,19 @@ impl ShapingJob {
     /// # Errors
     /// A tooth without a flank, or one whose tip the cutter's base shapes: its outline is not known in closed form.
     pub fn target_outline(&self, spacing_mm: f64) -> Result<TargetOutline, Refusal> {
-        let teeth: Vec<Vec<DVec2>> = (1..=self.scene.gear.teeth)
+        let teeth: Vec<ToothSection> = (1..=self.scene.gear.teeth)
             .into_par_iter()
-            .map(|tooth| self.tooth_outline(tooth, spacing_mm))
+            .map(|tooth| self.tooth_section(tooth, spacing_mm))
             .collect::<Result<_, _>>()?;
-        Ok(TargetOutline::new(teeth.concat(), self.blank.back))
+        let points_mm = teeth.into_iter().flat_map(|of| [of.tooth_mm, of.root_mm]).flatten().collect();
+        Ok(TargetOutline::new(points_mm, self.blank.back))
     }
 
-    /// Right flank, tip land, left flank and the root behind a tooth, counter-clockwise.
-    fn tooth_outline(&self, tooth: u32, spacing_mm: f64) -> Result<Vec<DVec2>, Refusal> {
+    /// The target round a tooth, points about `spacing_mm` apart.
+    ///
+    /// # Errors
+    /// A tip that the cutter's base shapes: its outline is not known in closed form.
+    pub fn tooth_section(&self, tooth: u32, spacing_mm: f64) -> Result<ToothSection, Refusal> {
         let [right, left] = [Side::Right, Side::Left].map(|side| self.target_flank(tooth, side));
         let reliefs = [right, left].map(|flank| TipRelief::new(flank, &self.blank));
         for (flank, relief) in [right, left].into_iter().zip(&reliefs) {
@@ -115,7 +120,7 @@ impl ShapingJob {
         }
         points.extend(left_tip.into_iter().rev());
         points.extend(along(left).into_iter().rev());
-        points.extend(self.target_root(tooth, spacing_mm).iter().map(|p| p.point_mm));
-        Ok(points)
+        let (fillet, ends) = self.target_fillet(tooth);
+        Ok(ToothSection { tooth_mm: points, root_mm: fillet.chain_mm(ends, spacing_mm) })
     }
 }

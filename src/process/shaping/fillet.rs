@@ -79,6 +79,18 @@ impl<'a> Fillet<'a> {
         Some((phi, point, normal))
     }
 
+    /// Points about `spacing_mm` apart between two places, both and all ends of pieces between them included.
+    pub fn chain_mm(&self, [from, to]: [f64; 2], spacing_mm: f64) -> Vec<DVec2> {
+        let joints = (0..=self.pieces.len()).map(|joint| joint as f64).filter(|&joint| joint > from && joint < to);
+        let ends: Vec<f64> = [from].into_iter().chain(joints).chain([to]).collect();
+        let end_mm = |place: f64| self.at(place).map(|(_, point_mm, _)| point_mm);
+        let piece = |pair: &[f64]| {
+            let inside = self.points([pair[0], pair[1]], spacing_mm).into_iter().map(|point| point.point_mm);
+            end_mm(pair[0]).into_iter().chain(inside).collect::<Vec<_>>()
+        };
+        ends.windows(2).flat_map(piece).chain(end_mm(to)).collect()
+    }
+
     /// Points about `spacing_mm` apart between two places, half a spacing off the ends of every piece.
     pub fn points(&self, [from, to]: [f64; 2], spacing_mm: f64) -> Vec<ProfilePoint> {
         let mut points: Vec<ProfilePoint> = Vec::new();

@@ -374,12 +374,19 @@ impl ShapingJob {
     /// Target root of the space after tooth `space`, as points about `spacing_mm` apart: from its left flank to its
     /// right one. Under a flank that is undercut it begins where both cross.
     pub fn target_root(&self, space: u32, spacing_mm: f64) -> Vec<ProfilePoint> {
+        let (fillet, ends) = self.target_fillet(space);
+        fillet.points(ends, spacing_mm)
+    }
+
+    /// The fillet of a space, and the places on it at which the flanks begin.
+    pub fn target_fillet(&self, space: u32) -> (Fillet<'_>, [f64; 2]) {
         let teeth = self.scene.gear.teeth;
         let fillet = Fillet::new(self.target_generation(), i64::from(space));
         let before = if space == 0 { teeth } else { space };
         let [left, right] = [(before, Side::Left), (space % teeth + 1, Side::Right)]
             .map(|(tooth, side)| self.target_flank(tooth, side).undercut.map(|undercut| undercut.fillet_at));
-        fillet.points([left.unwrap_or(0.0), right.unwrap_or(fillet.end())], spacing_mm)
+        let ends = [left.unwrap_or(0.0), right.unwrap_or(fillet.end())];
+        (fillet, ends)
     }
 
     /// Dexel field on the root of a space (space j lies after tooth j).

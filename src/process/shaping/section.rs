@@ -19,7 +19,6 @@ use gearcut_core::frame::Rigid2;
 use gearcut_core::gear::blank_outline::BlankOutline;
 use gearcut_core::passes::StrokeSet;
 use gearcut_core::passes::planar::strokes::{StrokeLaw, cubic_through};
-use gearcut_core::tool::edge::SegmentShape;
 use gearcut_core::tool::{CuttingTool, PlanarTool};
 use glam::DVec2;
 use std::f64::consts::TAU;
@@ -121,16 +120,19 @@ impl<'a> CutSection<'a> {
     }
 }
 
+/// The cutter's edges, one tooth after the other round its axis, chords within about `chord_mm`; cutter frame, mm.
+pub fn cutter_outline(job: &ShapingJob, chord_mm: f64) -> Vec<DVec2> {
+    // A segment begins where the one before it ends, and so does a tooth, but for pitch errors.
+    let mut tooth = job.cutter.edge().points_mm(chord_mm);
+    tooth.pop();
+    tooth.dedup();
+    let blades = 0..job.cutter.blade_count();
+    blades.flat_map(|blade| tooth.iter().map(move |&p| job.cutter.tool_from_blade(blade).point(p))).collect()
+}
+
 /// The whole cutter as a body between two heights, placed in the plane.
 pub fn cutter_solid(job: &ShapingJob, [low_mm, high_mm]: [f64; 2], place: &Rigid2) -> Mesh {
-    let tooth = tooth_edge(job);
-    // Teeth one after the other round the axis.
-    let mut points_mm: Vec<DVec2> = (0..job.cutter.blade_count())
-        .flat_map(|blade| {
-            let tool_from_blade = job.cutter.tool_from_blade(blade);
-            tooth.iter().map(move |&p| tool_from_blade.point(p))
-        })
-        .collect();
+    let mut points_mm = cutter_outline(job, CHORD_MM);
     let lengths = [points_mm.len(), BORE_CORNERS];
     let bore_mm = 0.35 * job.cutter.pitch_radius_mm;
     let corner = |i: usize| bore_mm * DVec2::from_angle(TAU * i as f64 / BORE_CORNERS as f64);
@@ -139,26 +141,6 @@ pub fn cutter_solid(job: &ShapingJob, [low_mm, high_mm]: [f64; 2], place: &Rigid
         *point = place.point(*point);
     }
     prism(&points_mm, &sides_of_contours(&lengths), [low_mm, high_mm])
-}
-
-/// The edge of one tooth from its right root to its left one; blade frame.
-fn tooth_edge(job: &ShapingJob) -> Vec<DVec2> {
-    let mut contour = Vec::new();
-    for segment in &job.cutter.edge().segments {
-        let [from, to] = segment.y_range_mm;
-        let x = |y: f64| match &segment.shape {
-            SegmentShape::Table(table) => table.x_and_slope(y)[0],
-            SegmentShape::Arc { radius_mm } => (radius_mm * radius_mm - y * y).max(0.0).sqrt() - radius_mm,
-        };
-        // A chord of 1/n of the segment bulges by 1/n^2 of what the whole segment bulges over its own chord.
-        let bulge_mm = (1..8).map(|i| (x(from + (to - from) * f64::from(i) / 8.0) - x(from)).abs()).fold(0.0, f64::max);
-        let count = (bulge_mm / CHORD_MM).sqrt().ceil().max(1.0);
-        contour.extend((0..count as u32).map(|i| {
-            let y = from + (to - from) * f64::from(i) / count;
-            segment.blade_from_segment.point(DVec2::new(x(y), y))
-        }));
-    }
-    contour
 }
 
 /// Walls and two ends over the sides of contours (outer ones counter-clockwise, holes clockwise).

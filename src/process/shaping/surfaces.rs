@@ -4,11 +4,12 @@
 //! normals of the pitch curve.
 
 use crate::findings::Notice;
-use crate::job::{CylindricalGear, GearJob, ToothFrame, teeth_of_extreme_radius};
+use crate::job::{CylindricalGear, GearJob, ToolSection, ToothFrame, ToothSection, teeth_of_extreme_radius};
 use crate::measure::round_gear::{RoundGear, ToothEnds, is_round};
 use crate::measure::thickness::Thickness;
 use crate::process::shaping::job::ShapingJob;
 use crate::process::shaping::measure::flank_report;
+use crate::process::shaping::section::cutter_outline;
 use crate::process::shaping::stroke_noise;
 use crate::scene::Scene;
 use crate::surface::SurfaceGrid;
@@ -140,6 +141,18 @@ impl CylindricalGear for ShapingJob {
         field.rows_z_mm = rows_z_mm.to_vec();
         let cut = self.cut(backend, field)?;
         Ok(points_of_sections(&cut.field, &cut.layers))
+    }
+
+    fn target_section(&self, tooth: u32, _z_mm: f64, spacing_mm: f64) -> Result<ToothSection> {
+        Ok(self.tooth_section(tooth, spacing_mm)?)
+    }
+
+    fn tool_section(&self, chord_mm: f64) -> ToolSection {
+        let words = format!(
+            "shaper cutter of {} teeth, profile projected along the stroke, origin on its axis",
+            self.cutter.teeth
+        );
+        ToolSection { points_mm: cutter_outline(self, chord_mm), is_closed: true, words }
     }
 
     fn tip_surface(&self, backend: &dyn Backend, tooth: u32) -> Result<Option<SurfaceGrid>> {

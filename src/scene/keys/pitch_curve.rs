@@ -145,6 +145,68 @@ const fn fourier(path: &'static str) -> KeySection {
     }
 }
 
+/// The radius by a formula, under the given path.
+const fn radius_formula(path: &'static str) -> KeySection {
+    const KEYS: &[Key] = &[
+        Key {
+            name: "radius",
+            kind: Kind::Formula,
+            unit: "",
+            default: Default::Required,
+            example: "\"1 + 0.1*cos(2*phi)\"",
+            teach: "The radius over its scale, by the polar angle phi in rad: numbers, pi, + - * / ^ and brackets; \
+                sin, cos, tan, sqrt, exp.",
+        },
+        Key {
+            name: "scale_mm",
+            kind: Kind::Number(Range::above(0.0, 20000.0)),
+            unit: "mm",
+            default: Default::LeftOut("solved so that the curve closes on its teeth"),
+            example: "45.0",
+            teach: "What the formula is multiplied by; 1 where it gives mm. Leave it out, and the size is solved so \
+                that the perimeter is pi x module x teeth.",
+        },
+    ];
+    KeySection {
+        path,
+        role: Role::Variant,
+        keys: KEYS,
+        groups: &[],
+        teach: "Any smooth curve by a formula of its radius.",
+    }
+}
+
+/// The ratio by a formula, under the given path.
+const fn ratio_formula(path: &'static str) -> KeySection {
+    const KEYS: &[Key] = &[
+        Key {
+            name: "ratio",
+            kind: Kind::Formula,
+            unit: "",
+            default: Default::Required,
+            example: "\"1 + 0.1*sin(2*phi)\"",
+            teach: "i, the angular speed of this gear over that of its mate, by the polar angle phi of this gear in \
+                rad; of a ring below 1. Numbers, pi, + - * / ^ and brackets; sin, cos, tan, sqrt, exp.",
+        },
+        Key {
+            name: "center_distance_mm",
+            kind: Kind::Number(Range::above(0.0, 20000.0)),
+            unit: "mm",
+            default: Default::LeftOut("solved so that the curve closes on its teeth"),
+            example: "120.0",
+            teach: "C of the pair. Leave it out, and the size is solved so that the perimeter is pi x module x \
+                teeth.",
+        },
+    ];
+    KeySection {
+        path,
+        role: Role::Variant,
+        keys: KEYS,
+        groups: &[],
+        teach: "Any smooth ratio by a formula: r = C / (1 + i) of an external gear, r = C / (1 - i) of a ring.",
+    }
+}
+
 /// A spline through points, under the given path.
 const fn table(path: &'static str) -> KeySection {
     const KEYS: &[Key] = &[
@@ -205,6 +267,8 @@ pub(super) static SECTIONS: &[KeySection] = &[
     sinusoidal_ratio("gear.pitch_curve.sinusoidal_ratio"),
     pascal("gear.pitch_curve.pascal"),
     fourier("gear.pitch_curve.fourier"),
+    radius_formula("gear.pitch_curve.radius_formula"),
+    ratio_formula("gear.pitch_curve.ratio_formula"),
     table("gear.pitch_curve.table"),
     KeySection {
         path: "gear.pitch_curve.mate",
@@ -244,5 +308,7 @@ pub(super) static SECTIONS: &[KeySection] = &[
     sinusoidal_ratio("gear.pitch_curve.mate.driver.sinusoidal_ratio"),
     pascal("gear.pitch_curve.mate.driver.pascal"),
     fourier("gear.pitch_curve.mate.driver.fourier"),
+    radius_formula("gear.pitch_curve.mate.driver.radius_formula"),
+    ratio_formula("gear.pitch_curve.mate.driver.ratio_formula"),
     table("gear.pitch_curve.mate.driver.table"),
 ];

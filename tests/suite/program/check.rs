@@ -1,6 +1,6 @@
 //! `gearcut check`: facts, warnings, every committed scene, in a second.
 
-use crate::fixtures::command::{gearcut, gearcut_briefly};
+use crate::fixtures::command::{gearcut, gearcut_briefly, gearcut_in};
 use gearcut::passes::SweepPlan;
 use gearcut::process::hobbing::{HobCutter, HobbingJob};
 use gearcut::process::{PROCESSES, load};
@@ -192,4 +192,32 @@ fn a_shaping_scene_has_no_helix() {
         gearcut(&["check", scene, "--set", setting])
             .failed(1, &["this scene is for shaping, where the ram strokes along the gear's axis", way_out]);
     }
+}
+
+/// The angle at which a ratio passes zero, sin(phi) = -1 / 1.2, at the formula's place in the file; and the same gear
+/// by its formula as by the built-in curve.
+#[test]
+fn a_pitch_curve_by_a_formula_is_checked_like_any_other() {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    let scene = |curve: &str| {
+        let text = format!(
+            "[gear]\nmodule_mm = 3.0\nteeth = 42\nface_width_mm = 20.0\n[gear.pitch_curve.{curve}\n\
+            [tool.shaper_cutter]\nteeth = 20\n"
+        );
+        std::fs::write(folder.path().join("scene.toml"), text).expect("a scene");
+        gearcut_in(folder.path(), &["check", "scene.toml"])
+    };
+    scene("ratio_formula]\nratio = \"1 + 1.2*sin(phi)\"").failed(
+        1,
+        &["scene.toml:6:9", "`1 + 1.2*sin(phi)` passes zero at 236.443 deg", "^^^", "way out: keep the ratio"],
+    );
+    let built_in = scene("sinusoidal_ratio]\norder = 2\nmean_ratio = 1.2\nratio_amplitude = 0.1").done();
+    let formula = scene("ratio_formula]\nratio = \"1.2 + 0.1*sin(2*phi)\"").done();
+    let curve = |text: &str| -> Vec<String> {
+        let lines = text.lines().skip_while(|line| *line != "Pitch curve").take_while(|line| !line.is_empty());
+        lines.filter(|line| !line.contains("driver of")).map(str::to_owned).collect()
+    };
+    assert!(curve(&formula.out).len() > 4);
+    assert_eq!(curve(&built_in.out), curve(&formula.out));
+    assert!(formula.out.contains("driver of the ratio 1.2 + 0.1*sin(2*phi)"), "{}", formula.out);
 }

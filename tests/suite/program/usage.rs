@@ -2,7 +2,7 @@
 
 use crate::fixtures::command::{gearcut, gearcut_in};
 
-const COMMANDS: [&str; 13] = [
+const COMMANDS: [&str; 14] = [
     "cut",
     "check",
     "axes",
@@ -12,6 +12,7 @@ const COMMANDS: [&str; 13] = [
     "schema",
     "new",
     "mate",
+    "export",
     "pair",
     "budget",
     "diagnose",

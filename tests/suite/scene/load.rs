@@ -179,6 +179,8 @@ fn every_variant_loads_and_reads_back_from_its_resolved_text() {
         "sinusoidal_ratio]\norder = 2\nmean_ratio = 1.1\nratio_amplitude = 0.1\ncenter_distance_mm = 77.7",
         "pascal]\norder = 2\neccentricity = 0.07\nmean_radius_mm = 36.1",
         "fourier]\nsine = [0.1]",
+        "radius_formula]\nradius = \"1 + 0.1*cos(phi)^2\"",
+        "ratio_formula]\nratio = '1.1 + 0.1*sin(2*phi)'\ncenter_distance_mm = 77.7",
         "table]\nfile = \"table_of_points.csv\"\nscale_to_close = false",
         "table]\npoints_deg_mm = [[0, 36], [90.5, 36.25], [180.1, 36], [270.7, 36.1]]",
     ];

@@ -158,3 +158,30 @@ fn the_command_writes_a_scene_that_can_be_checked_and_replaces_none() {
     process::prepare(&process::parse(&text, path, Path::new("/"), &[]).expect("a scene").scene).expect("it can be cut");
     gearcut(&arguments).failed(1, &["the file exists"]);
 }
+
+/// Unequal lobes: a driver of two lobes on 24 teeth, given by a formula, runs with a mate of three lobes on 36:
+/// r_1 + r_2 = C at equal arcs.
+#[test]
+fn two_lobes_run_with_three() {
+    let text = "[gear]\nmodule_mm = 3.0\nteeth = 24\nface_width_mm = 20.0\n[gear.pitch_curve.radius_formula]\n\
+        radius = \"1/(2.5 + 0.1*sin(2*phi))\"\n[tool.shaper_cutter]\nteeth = 20\n";
+    let driver = process::parse(text, "driver.toml", Path::new("/"), &[]).expect("a driver");
+    let (scene, center_distance_mm) = mate(&driver, 36, GearKind::External);
+    closes(&scene, &driver.scene);
+    let curve = |scene: &Scene| {
+        PitchCurve::new(&scene.gear.pitch_curve, scene.gear.module_mm, scene.gear.teeth).expect("a curve")
+    };
+    let (own, its) = (curve(&driver.scene), curve(&scene));
+    assert!(its.repeats_after(std::f64::consts::TAU / 3.0) && !its.repeats_after(std::f64::consts::PI));
+    // Equal arcs from where both meet: the middle of the driver's first tooth, and the mate's space at 0, turning back.
+    let pitch_mm = 3.0 * std::f64::consts::PI;
+    for i in 0..40 {
+        let arc_mm = 2.9 * f64::from(i);
+        let [r_1, r_2] = [(&own, 0.5 * pitch_mm + arc_mm), (&its, -arc_mm)]
+            .map(|(curve, arc_mm)| curve.radius(curve.phi_at_arc(arc_mm)).value());
+        assert!((r_1 + r_2 - center_distance_mm).abs() < 1e-6, "{r_1} + {r_2} not {center_distance_mm}");
+    }
+    // A driver whose lobes do not stand in the ratio of the teeth has no such mate.
+    let refusal = driver.mate(Mate { teeth: 30, kind: GearKind::External }).expect_err("two lobes and a half");
+    assert!(refusal.problem.contains("looks different"), "{}", refusal.problem);
+}

@@ -12,6 +12,6 @@ pub mod rolling;
 
 pub use back::Back;
 pub use kind::GearKind;
-pub use pitch_curve::shape::{Driver, LARGEST_UNASKED_SCALING, PitchCurveShape, TableScaling};
+pub use pitch_curve::shape::{Driver, FormulaMeaning, LARGEST_UNASKED_SCALING, PitchCurveShape, TableScaling};
 pub use pitch_curve::{CurvatureExtremum, CurveFacts, PitchCurve, PitchFrame};
 pub use rolling::Rolling;

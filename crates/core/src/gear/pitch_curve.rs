@@ -14,6 +14,7 @@
 #[cfg(test)]
 pub(crate) mod examples;
 mod facts;
+mod formula_law;
 pub mod mate;
 mod radius_law;
 pub mod shape;

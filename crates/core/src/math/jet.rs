@@ -1,6 +1,6 @@
 //! Truncated Taylor series: a number that carries its derivatives.
 //!
-//! In: a formula written once with `+ - * /`, `sqrt`, `sin_cos`, `atan2`. Out: its value and the derivatives of the
+//! In: a formula written once with `+ - * /`, `sqrt`, `exp`, `sin_cos`, `atan2`. Out: its value and the derivatives of
 //! same formula, exact to rounding. The law is the ring of power series cut off after N terms: products convolve, and
 //! every elementary function follows from its differential equation by a recurrence over the coefficients (Griewank and
 //! Walther, *Evaluating Derivatives*, 2008, table 13.2).
@@ -119,6 +119,18 @@ impl<const N: usize> Jet<N> {
             s[k] = (self.0[k] - sum) / (2.0 * s[0]);
         }
         Self(s)
+    }
+
+    /// Exponential function.
+    #[must_use]
+    pub fn exp(&self) -> Self {
+        let mut e = [0.0; N];
+        e[0] = self.0[0].exp();
+        for k in 1..N {
+            let sum: f64 = (1..=k).map(|j| j as f64 * self.0[j] * e[k - j]).sum();
+            e[k] = sum / k as f64;
+        }
+        Self(e)
     }
 
     /// Sine and cosine.

@@ -1,9 +1,10 @@
-//! Mathematics that knows no gears: Taylor series, roots and extrema (see [`convergence`]), integrals, splines, rays
-//! against closed curves.
+//! Mathematics that knows no gears: Taylor series, formulas, roots and extrema (see [`convergence`]), integrals,
+//! splines, rays against closed curves.
 
 pub mod column_basis;
 pub mod convergence;
 pub mod extremum;
+pub mod formula;
 pub mod jet;
 pub mod least_squares;
 pub mod newton;

@@ -394,6 +394,28 @@ impl Edge {
         Self { segments, center_mm, reach_mm }
     }
 
+    /// Points along the edge from its right end to its left one, chords within about `chord_mm` of it, the ends of all
+    /// segments among them; blade frame, mm.
+    pub fn points_mm(&self, chord_mm: f64) -> Vec<DVec2> {
+        let mut points = Vec::new();
+        for segment in &self.segments {
+            let [from, to] = segment.y_range_mm;
+            let x = |y: f64| match &segment.shape {
+                SegmentShape::Table(table) => table.x_and_slope(y)[0],
+                SegmentShape::Arc { radius_mm } => (radius_mm * radius_mm - y * y).max(0.0).sqrt() - radius_mm,
+            };
+            // A chord of 1/n of the segment bulges by 1/n^2 of what the whole segment bulges over its own chord.
+            let bulge_mm =
+                (1..8).map(|i| (x(from + (to - from) * f64::from(i) / 8.0) - x(from)).abs()).fold(0.0, f64::max);
+            let count = (bulge_mm / chord_mm).sqrt().ceil().max(1.0) as u32;
+            points.extend((0..=count).map(|i| {
+                let y = from + (to - from) * f64::from(i) / f64::from(count);
+                segment.blade_from_segment.point(DVec2::new(x(y), y))
+            }));
+        }
+        points
+    }
+
     /// The same edge in axes in which its own x axis has the direction `x_axis`.
     #[must_use]
     pub fn turned(&self, x_axis: DVec2) -> Self {

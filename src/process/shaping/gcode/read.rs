@@ -36,6 +36,7 @@ const GRAMMAR: Grammar<3> = Grammar {
     axes: [('X', AxisKind::Linear), ('C', AxisKind::Rotary), ('B', AxisKind::Rotary)],
     names: "X (centre distance), C (work) and B (cutter)",
     ram: true,
+    arcs: false,
 };
 
 /// Axis positions of a program in the dialect of [`super`].

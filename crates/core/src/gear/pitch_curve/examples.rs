@@ -1,6 +1,7 @@
 //! Pitch curves to test with: one of every kind, and any that is accepted. Tests of the linkages include this file too.
 
-use crate::gear::{Driver, GearKind, PitchCurve, PitchCurveShape, TableScaling};
+use crate::gear::{Driver, FormulaMeaning, GearKind, PitchCurve, PitchCurveShape, TableScaling};
+use crate::math::formula::Formula;
 use proptest::prelude::*;
 use std::f64::consts::TAU;
 
@@ -15,6 +16,7 @@ pub(crate) fn examples() -> Vec<PitchCurve> {
         PitchCurveShape::SinusoidalRatio { order: 2, mean_ratio: 1.2, ratio_amplitude: 0.3, center_distance_mm: None },
         PitchCurveShape::Pascal { order: 2, eccentricity: 0.2, mean_radius_mm: None },
         PitchCurveShape::Fourier { cosine: vec![0.05, 0.1], sine: vec![-0.04, 0.0, 0.02], mean_radius_mm: None },
+        by_formula(FormulaMeaning::Ratio(GearKind::External), "1.2 + 0.3*sin(2*phi) + 0.05*cos(5*phi)"),
         PitchCurveShape::Table { points_rad_mm: points, scaling: TableScaling::Any },
         mate_of(GearKind::External, 42),
         mate_of(GearKind::Internal, 14),
@@ -22,6 +24,11 @@ pub(crate) fn examples() -> Vec<PitchCurve> {
     .iter()
     .map(|shape| PitchCurve::new(shape, 3.0, 42).unwrap())
     .collect()
+}
+
+/// A curve by a formula, its size solved.
+pub(crate) fn by_formula(meaning: FormulaMeaning, text: &str) -> PitchCurveShape {
+    PitchCurveShape::Formula { formula: Formula::parse(text).expect("a formula"), meaning, size_mm: None }
 }
 
 /// Mate of a driver of a sinusoidal ratio.

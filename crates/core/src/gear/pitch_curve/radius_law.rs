@@ -7,9 +7,10 @@
 //! Sources: n-order ellipse, Gao et al. 2017, Eq. 13; driver of a sinusoidal ratio, Litvin and Fuentes, *Noncircular
 //! Gears*, 2009, ch. 2: r = C / (1 + i(phi)) with i the angular speed ratio driver : driven.
 
+use super::formula_law::FormulaLaw;
 use super::mate::MateLaw;
 use crate::error::Refusal;
-use crate::gear::{PitchCurveShape, TableScaling};
+use crate::gear::{FormulaMeaning, PitchCurveShape, TableScaling};
 use crate::math::Jet;
 use crate::math::periodic_spline::PeriodicSpline;
 use crate::parameter;
@@ -23,6 +24,7 @@ pub(super) enum RadiusLaw {
     Pascal { order: f64, eccentricity: f64 },
     Fourier { cosine: Vec<f64>, sine: Vec<f64> },
     Table { spline: PeriodicSpline },
+    Formula(FormulaLaw),
     Mate(Box<MateLaw>),
 }
 
@@ -101,6 +103,13 @@ impl SizedLaw {
                     size_key: parameter::TABLE_SCALING,
                 }
             }
+            PitchCurveShape::Formula { formula, meaning, size_mm } => {
+                let (key, size_key) = match meaning {
+                    FormulaMeaning::Radius => (parameter::RADIUS_FORMULA, parameter::RADIUS_FORMULA_SIZE),
+                    FormulaMeaning::Ratio(_) => (parameter::RATIO_FORMULA, parameter::RATIO_FORMULA_SIZE),
+                };
+                Self { law: RadiusLaw::Formula(FormulaLaw::new(formula, *meaning)?), size_mm: *size_mm, key, size_key }
+            }
             PitchCurveShape::Mate { driver, kind } => {
                 let law = MateLaw::new(driver, *kind, module_mm, teeth, accuracy_mm)?;
                 let size_mm = Some(law.center_distance_mm());
@@ -150,6 +159,7 @@ impl RadiusLaw {
             Self::Pascal { order, eccentricity } => wave(*order).1 * *eccentricity + 1.0,
             Self::Fourier { cosine, sine } => fourier(cosine, sine, phi_rad),
             Self::Table { spline } => spline.at(phi_rad),
+            Self::Formula(law) => law.unit(phi_rad),
             Self::Mate(law) => law.unit(phi_rad),
         }
     }
@@ -175,6 +185,7 @@ impl RadiusLaw {
                 order * (1.0 + 4.0 * ratio_amplitude.abs() / (1.0 + mean_ratio))
             }
             Self::Fourier { cosine, sine } => 2.0 * cosine.len().max(sine.len()).max(1) as f64,
+            Self::Formula(law) => law.harmonics,
             Self::Table { spline } => return (8 * spline.knots_rad().len()).max(1024),
             Self::Mate(law) => return law.samples_per_turn().max(1024),
         };

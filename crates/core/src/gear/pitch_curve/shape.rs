@@ -1,6 +1,7 @@
 //! Which kind of curve a pitch curve is, and its sizes.
 
 use crate::gear::GearKind;
+use crate::math::formula::Formula;
 
 /// Shape of the closed pitch curve r(phi). A size left out (`None`) is solved so that the curve closes: perimeter = pi
 /// m z.
@@ -53,6 +54,15 @@ pub enum PitchCurveShape {
         /// How the radii become a curve that closes.
         scaling: TableScaling,
     },
+    /// r(phi) by a formula; see [`FormulaMeaning`].
+    Formula {
+        /// The formula.
+        formula: Formula,
+        /// What its values are.
+        meaning: FormulaMeaning,
+        /// C of the ratio, or what the radius is multiplied by.
+        size_mm: Option<f64>,
+    },
     /// The gear that runs with a driver; see [`super::mate`].
     Mate {
         /// The gear it runs with.
@@ -60,6 +70,15 @@ pub enum PitchCurveShape {
         /// External: r2 = a - r1. Internal: r2 = a + r1.
         kind: GearKind,
     },
+}
+
+/// What the values of a formula of phi are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum FormulaMeaning {
+    /// The radius over its scale.
+    Radius,
+    /// The angular speed i of the gear over that of its mate: r = C / (1 + i) outside, C / (1 - i) of a ring.
+    Ratio(GearKind),
 }
 
 /// How far the radii of a table may be scaled so that the perimeter is pi m z.
@@ -120,6 +139,10 @@ impl PitchCurveShape {
             Self::Table { points_rad_mm, .. } => {
                 format!("periodic spline through {} points", points_rad_mm.len())
             }
+            Self::Formula { formula, meaning, .. } => match meaning {
+                FormulaMeaning::Radius => format!("radius by the formula {}", formula.text()),
+                FormulaMeaning::Ratio(_) => format!("driver of the ratio {}", formula.text()),
+            },
             Self::Mate { driver, .. } => format!("mate of {} teeth: {}", driver.teeth, driver.curve.words()),
         }
     }

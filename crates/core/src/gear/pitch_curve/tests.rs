@@ -4,9 +4,9 @@ use std::f64::consts::{PI, TAU};
 
 use proptest::prelude::*;
 
-use super::examples::{any_curve, examples};
+use super::examples::{any_curve, by_formula, examples};
 use super::*;
-use crate::gear::{Driver, GearKind};
+use crate::gear::{Driver, FormulaMeaning, GearKind};
 
 #[test]
 fn derivatives_match_differences() {
@@ -158,6 +158,95 @@ proptest! {
         prop_assert!(frame.radius_mm >= facts.smallest_radius_mm * (1.0 - 1e-12));
         let inside = facts.concave_zones_rad.iter().any(|z| (phi - z[0]).rem_euclid(TAU) < z[1] - z[0]);
         prop_assert!(inside == (frame.curvature_per_mm < 0.0) || frame.curvature_per_mm.abs() < tolerance);
+    }
+}
+
+/// Every built-in curve as a formula: radii, slopes, curvatures and arcs are the same to rounding, at odd angles too.
+#[test]
+fn formulas_are_the_built_in_curves() {
+    let external = FormulaMeaning::Ratio(GearKind::External);
+    for (shape, meaning, text) in [
+        (PitchCurveShape::Circle, FormulaMeaning::Radius, "1"),
+        (
+            PitchCurveShape::Ellipse { order: 3, eccentricity: 0.1348, semi_major_axis_mm: None },
+            FormulaMeaning::Radius,
+            "(1 - 0.1348^2)/(1 - 0.1348*cos(3*phi))",
+        ),
+        (
+            PitchCurveShape::SinusoidalRatio {
+                order: 2,
+                mean_ratio: 1.2,
+                ratio_amplitude: 0.3,
+                center_distance_mm: None,
+            },
+            external,
+            "1.2 + 0.3*sin(2*phi)",
+        ),
+        (
+            PitchCurveShape::Pascal { order: 2, eccentricity: 0.2, mean_radius_mm: None },
+            FormulaMeaning::Radius,
+            "1 + 0.2*cos(2*phi)",
+        ),
+        (
+            PitchCurveShape::Fourier { cosine: vec![0.05, 0.1], sine: vec![-0.04, 0.0, 0.02], mean_radius_mm: None },
+            FormulaMeaning::Radius,
+            "1 + 0.05*cos(phi) + 0.1*cos(2*phi) - 0.04*sin(phi) + 0.02*sin(3*phi)",
+        ),
+    ] {
+        let [built_in, formula] =
+            [shape, by_formula(meaning, text)].map(|shape| PitchCurve::new(&shape, 3.0, 42).expect("a curve"));
+        for i in -40..80 {
+            let phi = 0.1 + 0.173 * f64::from(i);
+            let [a, b] = [&built_in, &formula].map(|curve| curve.radius(phi));
+            for k in 0..4 {
+                let [a, b] = [a, b].map(|radius| radius.derivative(k) / 63.0);
+                assert!((a - b).abs() < 1e-12 * a.abs().max(1.0), "{text} at {phi}: derivative {k}: {a} {b}");
+            }
+            let [a, b] = [&built_in, &formula].map(|curve| curve.arc_mm(phi) / 63.0);
+            assert!((a - b).abs() < 1e-12 * a.abs().max(1.0), "{text} at {phi}: arcs {a} {b}");
+        }
+    }
+}
+
+/// A ring by its own ratio: r - r_2 = C with r_2 = i r, the ratio of the speeds; the ring of 2.06 +- 0.5 turns of the
+/// gear inside to one of its own exists.
+#[test]
+fn a_ring_has_the_ratio_of_its_formula() {
+    let text = "1/(2.06 + 0.5*sin(2*phi))";
+    let shape = by_formula(FormulaMeaning::Ratio(GearKind::Internal), text);
+    let curve = PitchCurve::new(&shape, 2.0, 84).expect("a ring");
+    for i in 0..50 {
+        let phi = 0.3 * f64::from(i);
+        let radius_mm = curve.radius(phi).value();
+        let turns = radius_mm / (radius_mm - curve.size_mm());
+        let expected = 2.06 + 0.5 * (2.0 * phi).sin();
+        assert!((turns - expected).abs() < 1e-12 * expected, "{turns} not {expected}");
+    }
+}
+
+#[test]
+fn formulas_without_a_curve_are_refused_with_the_angle() {
+    let external = FormulaMeaning::Ratio(GearKind::External);
+    for (meaning, text, key, words) in [
+        // sin = -1 / 1.2 at 236.443 deg.
+        (external, "1 + 1.2*sin(phi)", parameter::RATIO_FORMULA, "passes zero at 236.443 deg"),
+        (FormulaMeaning::Radius, "cos(phi)", parameter::RADIUS_FORMULA, "passes zero at 90.000 deg"),
+        (FormulaMeaning::Radius, "-1", parameter::RADIUS_FORMULA, "passes zero at 0.000 deg"),
+        (
+            FormulaMeaning::Ratio(GearKind::Internal),
+            "0.9 + 0.2*sin(phi)",
+            parameter::RATIO_FORMULA,
+            "reaches 1 at 30.000",
+        ),
+        // The root of a negative number beyond 60 deg.
+        (FormulaMeaning::Radius, "1 + sqrt(cos(phi) - 0.5)", parameter::RADIUS_FORMULA, "no derivative at 60.000"),
+        (FormulaMeaning::Radius, "2 + sin(1.5*phi)", parameter::RADIUS_FORMULA, "slope of"),
+        (FormulaMeaning::Radius, "2 + phi", parameter::RADIUS_FORMULA, "2.000000 at 0 deg and 8.283185 at 360 deg"),
+        (FormulaMeaning::Radius, "2 + 0.1*sin(5000*phi)", parameter::RADIUS_FORMULA, "varies with the harmonic"),
+    ] {
+        let refusal = PitchCurve::new(&by_formula(meaning, text), 3.0, 42).expect_err(text);
+        assert_eq!(refusal.key, key, "{text}");
+        assert!(refusal.problem.contains(words), "{text}: {}", refusal.problem);
     }
 }
 

@@ -1,0 +1,209 @@
+//! `gearcut export`: sections, points and programs of a gear, and its tool, for other people's programs.
+
+use std::path::Path;
+
+use gearcut::backend::Choice;
+use gearcut::export::drawing::Drawing;
+use gearcut::export::dxf::dxf;
+use gearcut::export::points::{self, PointsWish};
+use gearcut::export::section::{GearSection, ProfileSource, SectionCurve, SectionWish, profile_mm};
+use gearcut::export::unit::FileUnit;
+use gearcut::export::wire::{WireProgram, WireWish};
+use gearcut::interrupt::Interrupt;
+use gearcut::job::GearJob;
+use gearcut::output::atomic::write_bytes_atomically;
+use gearcut::output::text::{Sheet, plain, significant};
+use gearcut::pair_job::watch::Watch;
+use gearcut::process;
+use gearcut::scene::Scene;
+use gearcut::units::UM_PER_MM;
+use gearcut::{Refusal, Result};
+
+use super::args::{ExportArguments, LengthUnitChoice};
+use super::failure::Failure;
+use super::{backend, folder, print};
+
+/// Tolerances that are taken, um: below the first the dexels of a cut gear and the tables of tools are the coarser
+/// ones, above the last no gear is recognised.
+const TOLERANCES_UM: [f64; 2] = [0.01, 1000.0];
+
+/// Runs the command.
+pub fn run(arguments: &ExportArguments) -> Result<(), Failure> {
+    let loaded = process::load(&arguments.scene.scene, &arguments.scene.settings)?;
+    let wish = wish(arguments, &loaded.scene)?;
+    let wire = wire_wish(arguments, &wish)?;
+    for (option, path, ending) in [
+        ("--dxf", &arguments.dxf, "dxf"),
+        ("--tool-dxf", &arguments.tool_dxf, "dxf"),
+        ("--points", &arguments.points, "csv"),
+        ("--wire", &arguments.wire, "ngc"),
+    ] {
+        path.as_deref().map_or(Ok(()), |path| ends_with(option, path, ending))?;
+    }
+    let (choice, progress) = backend::of_few_places(&arguments.compute, false, &loaded.scene)?;
+    let interrupt = Interrupt::listen().map_err(folder::listening(&arguments.scene.scene))?;
+    let watch = Watch::new(&progress, &interrupt);
+    let mut exporter = Exporter { arguments, wish, wire, watch, choice, sheet: Sheet::default() };
+    let done = process::prepare(&loaded.scene).and_then(|job| job.with_gear(&mut |gear| exporter.export(gear)));
+    done.map_err(|error| Failure::of_scene(&loaded, error))?;
+    Ok(print::sheet(&exporter.sheet.into_text())?)
+}
+
+/// Writes the files one after the other and says what is in them.
+struct Exporter<'a> {
+    arguments: &'a ExportArguments,
+    wish: SectionWish,
+    wire: WireWish,
+    watch: Watch<'a>,
+    choice: Choice,
+    sheet: Sheet,
+}
+
+impl Exporter<'_> {
+    fn export(&mut self, gear: &dyn GearJob) -> Result<()> {
+        let arguments = self.arguments;
+        if let Some(path) = &arguments.points {
+            self.points(gear, path)?;
+        }
+        if arguments.dxf.is_none() && arguments.tool_dxf.is_none() && arguments.wire.is_none() {
+            return Ok(());
+        }
+        let Some(gear) = gear.cylindrical() else {
+            let way_out =
+                "export a shaped or hobbed gear; of a bevel gear there are --points, and mesh/ of `gearcut cut`";
+            return Err(Refusal::new("gear", "a bevel gear has no transverse section", way_out).into());
+        };
+        if let Some(path) = &arguments.tool_dxf {
+            self.drawing(path, &Drawing::of_tool(gear, self.wish.tolerance_mm), "")?;
+        }
+        if arguments.dxf.is_none() && arguments.wire.is_none() {
+            return Ok(());
+        }
+        let teeth = self.teeth(gear);
+        let stage = self.watch.stage("profile", (teeth[1] + 1 - teeth[0]) as usize, "teeth")?;
+        let chain_mm = profile_mm(gear, self.choice.backend.as_ref(), &self.wish, &stage)?;
+        stage.finish();
+        if let Some(path) = &arguments.dxf {
+            let section = GearSection::new(gear, &chain_mm, &self.wish);
+            let more = format!("; a polyline within the same has {} lines", section.polyline_count);
+            self.drawing(path, &Drawing::of_gear(gear, &section, &self.wish), &more)?;
+        }
+        if let Some(path) = &arguments.wire {
+            let program = WireProgram::new(gear, &chain_mm, &self.wire)?;
+            self.watch.check()?;
+            write_bytes_atomically(path, program.text.as_bytes())?;
+            let [least_um, most_um] = program.off_mm.map(|mm| significant(mm * UM_PER_MM, 2));
+            let [arcs, lines] = [program.path.count() - program.path.lines(), program.path.lines()];
+            self.sheet.heading(&path.display().to_string());
+            self.sheet.line("path of the wire", format!("{arcs} arcs and {lines} lines"));
+            self.sheet.line("read back, off the profile", format!("{least_um} to {most_um} um"));
+        }
+        Ok(())
+    }
+
+    /// First and last tooth.
+    fn teeth(&self, gear: &(impl GearJob + ?Sized)) -> [u32; 2] {
+        self.wish.teeth.unwrap_or([1, gear.scene().gear.teeth])
+    }
+
+    fn points(&mut self, gear: &dyn GearJob, path: &Path) -> Result<()> {
+        let teeth = self.teeth(gear);
+        let wish = PointsWish { source: self.wish.source, teeth, grid: self.arguments.grid.0 };
+        let flanks = 2 * (teeth[1] + 1 - teeth[0]) as usize;
+        let stage = self.watch.stage("points", flanks, "flanks")?;
+        let text = points::csv(gear, self.choice.backend.as_ref(), &wish, unit(self.arguments), &stage)?;
+        stage.finish();
+        write_bytes_atomically(path, text.as_bytes())?;
+        let [profile, lead] = wish.grid;
+        self.sheet.heading(&path.display().to_string());
+        self.sheet.line("points", format!("{} on {flanks} flanks, {profile} x {lead} each", flanks * profile * lead));
+        Ok(())
+    }
+
+    fn drawing(&mut self, path: &Path, drawing: &Drawing, more: &str) -> Result<()> {
+        self.watch.check()?;
+        write_bytes_atomically(path, dxf(drawing, unit(self.arguments)).as_bytes())?;
+        describe(&mut self.sheet, path, drawing, more);
+        Ok(())
+    }
+}
+
+fn unit(arguments: &ExportArguments) -> FileUnit {
+    match arguments.units {
+        LengthUnitChoice::Mm => FileUnit::Millimetre,
+        LengthUnitChoice::Inch => FileUnit::Inch,
+    }
+}
+
+/// The wire; programs are in mm.
+fn wire_wish(arguments: &ExportArguments, section: &SectionWish) -> Result<WireWish, Refusal> {
+    if arguments.wire.is_some() && arguments.units == LengthUnitChoice::Inch {
+        let way_out = "leave --units out, or write drawing and program with two commands";
+        return Err(Refusal::new("--units", "programs of wire erosion are in mm", way_out));
+    }
+    for (option, value, [least, most]) in [
+        ("--wire-diameter-um", arguments.wire_diameter_um, [10.0, 1000.0]),
+        ("--gap-um", arguments.gap_um, [0.0, 500.0]),
+        ("--lead-mm", arguments.lead_mm, [0.1, 1000.0]),
+        ("--feed-mm-per-min", arguments.feed_mm_per_min, [1e-3, 1e3]),
+    ] {
+        if !(least..=most).contains(&value) {
+            let problem = format!("{value} is not {least} to {most}");
+            return Err(Refusal::new(option, problem, "give a value in this range"));
+        }
+    }
+    Ok(WireWish {
+        wire_mm: arguments.wire_diameter_um / UM_PER_MM,
+        gap_mm: arguments.gap_um / UM_PER_MM,
+        lead_mm: arguments.lead_mm,
+        feed_mm_per_min: arguments.feed_mm_per_min,
+        tolerance_mm: section.tolerance_mm,
+    })
+}
+
+/// What is asked of the section.
+fn wish(arguments: &ExportArguments, scene: &Scene) -> Result<SectionWish, Refusal> {
+    let [least, most] = TOLERANCES_UM;
+    let um = arguments.tolerance_um;
+    if !(least..=most).contains(&um) {
+        let problem = format!("{um} um is not {least} to {most} um");
+        return Err(Refusal::new("--tolerance-um", problem, "1 um suits wire erosion and grinding, 10 um a laser"));
+    }
+    let half_mm = 0.5 * scene.gear.face_width_mm;
+    if !(-half_mm..=half_mm).contains(&arguments.section_mm) {
+        let problem = format!("{} mm lies outside of the face, which ends at {half_mm} mm", arguments.section_mm);
+        return Err(Refusal::new("--section-mm", problem, "give a place along the tooth from the middle of the face"));
+    }
+    let count = scene.gear.teeth;
+    let teeth = arguments.teeth.map(|range| range.0);
+    if let Some([_, last]) = teeth.filter(|&[_, last]| last > count) {
+        let problem = format!("there is no tooth {last}: the gear has {count}");
+        return Err(Refusal::new("--teeth", problem, "leave it out for the whole gear"));
+    }
+    let source = if arguments.as_cut { ProfileSource::Cut } else { ProfileSource::Target };
+    Ok(SectionWish { source, teeth, z_mm: arguments.section_mm, tolerance_mm: um / UM_PER_MM })
+}
+
+/// Files are replaced, scenes among them: the name must say that it is an export.
+fn ends_with(option: &str, path: &Path, ending: &str) -> Result<(), Refusal> {
+    if path.extension().is_some_and(|found| found.eq_ignore_ascii_case(ending)) {
+        return Ok(());
+    }
+    let problem = format!("{} does not end with .{ending}", path.display());
+    Err(Refusal::new(option, problem, format!("name the file {}", path.with_extension(ending).display())))
+}
+
+fn describe(sheet: &mut Sheet, path: &Path, drawing: &Drawing, more: &str) {
+    sheet.heading(&path.display().to_string());
+    for (i, layer) in drawing.layers.iter().enumerate() {
+        let what = match &layer.curve {
+            SectionCurve::Circle(radius_mm) => format!("circle of {} mm diameter", plain(2.0 * radius_mm)),
+            SectionCurve::Path(path) => {
+                let [arcs, lines] = [path.count() - path.lines(), path.lines()];
+                let end = if path.is_closed { "closed" } else { "open" };
+                format!("{arcs} arcs and {lines} lines, {end}{}", if i == 0 { more } else { "" })
+            }
+        };
+        sheet.line(layer.name, what);
+    }
+}

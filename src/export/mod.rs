@@ -1,0 +1,21 @@
+//! `gearcut export`: what other people's programs take of a gear, in their own formats.
+//!
+//! In: a scene made ready. Out: files that CAD, wire erosion, laser and measuring machines read.
+//!
+//! | module | what |
+//! | --- | --- |
+//! | [`arcs`] | a dense chain of points as few arcs and lines |
+//! | [`section`] | profile, pitch curve and stock of a transverse section as such paths |
+//! | [`drawing`] | layers of paths, with what is said about them |
+//! | [`dxf`] | the drawing as a DXF file |
+//! | [`points`] | points of flanks with their normals as CSV |
+//! | [`wire`] | programs of wire erosion |
+//! | [`unit`] | units of length, and how numbers are written |
+
+pub mod arcs;
+pub mod drawing;
+pub mod dxf;
+pub mod points;
+pub mod section;
+pub mod unit;
+pub mod wire;

@@ -1,0 +1,209 @@
+//! The transverse section of a cylindrical gear: one contour, pitch curve, stock.
+//!
+//! In: a gear, and what is wanted of it. Out: [`GearSection`], paths of arcs and lines within the tolerance.
+//!
+//! The **target** is the envelope of the finishing operation under continuous motion: flanks, fillets, undercut.
+//! **As cut** it is what the passes leave in that section, each mark of them: dexels as far apart as in the scene's
+//! fields, [`crate::pair_job::outline`]. Marks that are lower than the tolerance do not show; nothing is averaged.
+//!
+//! Points of the target are so close together that a fillet of a fifth of a module bends by a fortieth of the tolerance
+//! between two of them. That and the digits of files is what [`FIT_SHARE`] leaves room for.
+
+use super::arcs::{ArcPath, PathPieces};
+use crate::job::{CylindricalGear, ToothSection};
+use crate::measure::round_gear::is_round;
+use crate::pair_job::outline::{cut_flank, cut_root, joined};
+use crate::pair_job::watch::WatchedUnits;
+use gearcut_core::cut::Backend;
+use gearcut_core::dexel::NO_PASS;
+use gearcut_core::error::Result;
+use gearcut_core::gear::Back;
+use gearcut_core::terms::Side;
+use gearcut_core::units::TURN_RAD;
+use glam::DVec2;
+use rayon::prelude::*;
+use std::f64::consts::PI;
+
+/// Share of the tolerance that arcs may take; the rest is what the curve may do between two points.
+pub const FIT_SHARE: f64 = 0.95;
+/// Spacing of points over the root of tolerance times module: arrow heights s^2 / 8 r of fillets of r = m / 5 are then
+/// a fortieth of the tolerance.
+const SPACING_SHARE: f64 = 0.2;
+/// Points of a whole pitch curve at least.
+const LEAST_POINTS: f64 = 720.0;
+
+/// Which profile a section has.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ProfileSource {
+    /// The envelope of the finishing operation.
+    Target,
+    /// What the passes leave.
+    Cut,
+}
+
+/// What is wanted of a section.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SectionWish {
+    /// Which profile.
+    pub source: ProfileSource,
+    /// First and last tooth; `None`: all, as one closed contour.
+    pub teeth: Option<[u32; 2]>,
+    /// Place along the tooth from the middle of the face, mm.
+    pub z_mm: f64,
+    /// Largest distance between the paths and the curves, mm.
+    pub tolerance_mm: f64,
+}
+
+/// A closed curve of the section.
+#[derive(Debug, Clone, PartialEq)]
+pub enum SectionCurve {
+    /// A circle about the gear's axis: its radius, mm.
+    Circle(f64),
+    /// Any other one.
+    Path(ArcPath),
+}
+
+/// Paths of a section; gear frame, mm.
+#[derive(Debug, Clone, PartialEq)]
+pub struct GearSection {
+    /// The profile.
+    pub profile: ArcPath,
+    /// Lines that a polyline within the same tolerance has.
+    pub polyline_count: usize,
+    /// The pitch curve.
+    pub pitch_curve: SectionCurve,
+    /// The stock's outline, on which the tips lie.
+    pub tips: SectionCurve,
+    /// Bore or rim.
+    pub back: Back,
+}
+
+impl GearSection {
+    /// Section of a gear with the profile of [`profile_mm`].
+    pub fn new(gear: &dyn CylindricalGear, chain_mm: &[DVec2], wish: &SectionWish) -> Self {
+        let tolerance_mm = FIT_SHARE * wish.tolerance_mm;
+        let fitted = |pieces| ArcPath::fit(chain_mm, wish.teeth.is_none(), tolerance_mm, pieces);
+        let (blank, curve) = (gear.blank(), gear.curve());
+        let points = (curve.perimeter_mm() / spacing_mm(gear, wish)).max(LEAST_POINTS).ceil();
+        let closed = |height_mm: f64| {
+            if is_round(curve) {
+                return SectionCurve::Circle(blank.at_height_mm(0.0, height_mm).length());
+            }
+            let at = |i: u32| blank.at_height_mm(TURN_RAD * f64::from(i) / points, height_mm);
+            let chain_mm: Vec<DVec2> = (0..points as u32).map(at).collect();
+            SectionCurve::Path(ArcPath::fit(&chain_mm, true, tolerance_mm, PathPieces::Arcs))
+        };
+        Self {
+            profile: fitted(PathPieces::Arcs),
+            polyline_count: fitted(PathPieces::Lines).count(),
+            pitch_curve: closed(0.0),
+            tips: closed(blank.addendum_mm),
+            back: blank.back,
+        }
+    }
+}
+
+/// Distance of points along the target, mm.
+fn spacing_mm(gear: &dyn CylindricalGear, wish: &SectionWish) -> f64 {
+    SPACING_SHARE * (wish.tolerance_mm * gear.scene().gear.module_mm).sqrt()
+}
+
+/// Points of the profile, counter-clockwise: all round, or from the middle of the root before the first tooth to that
+/// behind the last one; `stage` counts teeth.
+///
+/// # Errors
+/// A flank whose target is not known in closed form, or that no pass has reached; the backend's; Ctrl-C.
+pub fn profile_mm(
+    gear: &dyn CylindricalGear,
+    backend: &dyn Backend,
+    wish: &SectionWish,
+    stage: &WatchedUnits,
+) -> Result<Vec<DVec2>> {
+    let [first, last] = wish.teeth.unwrap_or([1, gear.scene().gear.teeth]);
+    match wish.source {
+        ProfileSource::Target => target_profile_mm(gear, [first, last], wish, stage),
+        ProfileSource::Cut => cut_profile_mm(gear, backend, [first, last], wish.z_mm, stage),
+    }
+}
+
+/// The number of a tooth or space from 1 on.
+fn counted(gear: &dyn CylindricalGear, number: u32) -> u32 {
+    if number == 0 { gear.scene().gear.teeth } else { number }
+}
+
+fn target_profile_mm(
+    gear: &dyn CylindricalGear,
+    [first, last]: [u32; 2],
+    wish: &SectionWish,
+    stage: &WatchedUnits,
+) -> Result<Vec<DVec2>> {
+    let section = |tooth: u32| {
+        let section = gear.target_section(counted(gear, tooth), wish.z_mm, spacing_mm(gear, wish))?;
+        stage.count()?;
+        Ok(section)
+    };
+    // The root before the first tooth belongs to the tooth before it.
+    let sections: Vec<ToothSection> = (first - 1..=last).into_par_iter().map(section).collect::<Result<_>>()?;
+    let (before, teeth) = sections.split_first().expect("a tooth before the first");
+    let mut chain = before.root_mm[before.root_mm.len() / 2..].to_vec();
+    for (tooth, section) in (first..).zip(teeth) {
+        let root_mm = &section.root_mm;
+        let end = if tooth == last { root_mm.len() / 2 } else { root_mm.len() - 1 };
+        chain.extend(&section.tooth_mm);
+        chain.extend(&root_mm[..=end]);
+    }
+    Ok(chain)
+}
+
+/// The profile as the passes leave it.
+fn cut_profile_mm(
+    gear: &dyn CylindricalGear,
+    backend: &dyn Backend,
+    [first, last]: [u32; 2],
+    z_mm: f64,
+    stage: &WatchedUnits,
+) -> Result<Vec<DVec2>> {
+    let way_out = "export a section that is cut, or the target: leave --as-cut out";
+    let root = |space: u32| Ok(cut_root(gear, backend, counted(gear, space), &[z_mm], way_out)?.remove(0));
+    let roots: Vec<Vec<DVec2>> = (first - 1..=last).into_par_iter().map(root).collect::<Result<_>>()?;
+    let tooth = |tooth: u32| {
+        let [before, behind] = [tooth - first, tooth + 1 - first].map(|space| &roots[space as usize]);
+        // From the middle of the root to the tip.
+        let half = |side: Side, root: &[DVec2]| -> Result<Vec<DVec2>> {
+            let flank = cut_flank(gear, backend, tooth, side, &[z_mm])?.remove(0);
+            Ok(joined(root, side, &flank).points_mm)
+        };
+        let (mut chain, left) = (half(Side::Right, before)?, half(Side::Left, behind)?);
+        let tips_mm = [chain[chain.len() - 1], left[left.len() - 1]];
+        chain.extend(cut_tip_mm(gear, backend, tooth, z_mm, tips_mm)?);
+        chain.extend(left.into_iter().rev());
+        stage.count()?;
+        Ok(chain)
+    };
+    let teeth: Vec<Vec<DVec2>> = (first..=last).into_par_iter().map(tooth).collect::<Result<_>>()?;
+    Ok(teeth.concat())
+}
+
+/// The tip land between the tips of both flanks: the stock's own outline, or what a tool that tops the gear leaves.
+fn cut_tip_mm(
+    gear: &dyn CylindricalGear,
+    backend: &dyn Backend,
+    tooth: u32,
+    z_mm: f64,
+    tips_mm: [DVec2; 2],
+) -> Result<Vec<DVec2>> {
+    let Some(grid) = gear.tip_surface(backend, tooth)? else { return Ok(Vec::new()) };
+    let row = grid.rows_mm.partition_point(|&row_mm| row_mm < z_mm).min(grid.rows() - 1);
+    if (0..grid.columns()).any(|column| grid.passes[column * grid.rows() + row] != NO_PASS) {
+        return Ok((0..grid.columns()).map(|column| grid.position_mm(column, row).truncate()).collect());
+    }
+    let blank = gear.blank();
+    let [from, to] = tips_mm.map(|tip_mm| blank.height(tip_mm, tip_mm.to_angle()).1);
+    let width = (to - from).rem_euclid(TURN_RAD);
+    // Tips of a whole pitch would be no tips: the flanks have crossed.
+    if width > PI {
+        return Ok(Vec::new());
+    }
+    let count = (tips_mm[0].distance(tips_mm[1]) / crate::job::TIP_SPACING_MM[0]).ceil().max(1.0);
+    Ok((0..=count as u32).map(|i| blank.outline_mm(from + width * f64::from(i) / count)).collect())
+}

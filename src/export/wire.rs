@@ -1,0 +1,252 @@
+//! Programs of wire erosion: the centre of the wire round the section, for LinuxCNC.
+//!
+//! In: the profile as a closed chain, wire and spark gap. Out: [`WireProgram`]: the path from a start hole to the
+//! middle of the first tooth's tip land, all round, and back, as arcs and lines in `G90 G17`; and the path as the
+//! program's own reader has it, judged against the profile.
+//!
+//! **Law.** The wire cuts a circle of radius d = half its diameter and the gap. Its centre runs d beside the profile in
+//! the air, on an arc of radius d round every corner that stands out. Where the profile is hollow with a radius below
+//! d, or narrower than 2 d, the offset path comes nearer to another part of the profile than d: every place of it is
+//! looked at, and such a profile is refused.
+
+use super::arcs::{ArcPath, ArcVertex, PathPieces, distinct};
+use super::section::FIT_SHARE;
+use super::unit::{FileUnit, fixed};
+use crate::gcode::{Grammar, Move, ProgramArc, ascii, statements};
+use crate::job::CylindricalGear;
+use crate::machine::AxisKind;
+use crate::measure::target_outline::TargetOutline;
+use crate::output::text::plain;
+use gearcut_core::error::Refusal;
+use gearcut_core::gear::Back;
+use gearcut_core::units::UM_PER_MM;
+use glam::DVec2;
+use std::f64::consts::{PI, TAU};
+use std::fmt::Write as _;
+
+/// A chain turns by more than this at corners, rad; round them the wire goes in steps of at most so much.
+const CORNER_RAD: f64 = 0.2;
+const CORNER_STEP_RAD: f64 = 0.04;
+/// Share of the tolerance by which chords of the chain may come nearer than d.
+const CHORD_SHARE: f64 = 0.1;
+/// Places at which a program is judged are so far apart, mm.
+const JUDGED_MM: f64 = 0.01;
+/// Both radii of an arc agree to this, mm; LinuxCNC allows a thousand times as much.
+const RADII_MM: f64 = 1e-5;
+
+/// The wire and how it runs.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct WireWish {
+    /// Diameter of the wire, mm.
+    pub wire_mm: f64,
+    /// Spark gap beside it, mm.
+    pub gap_mm: f64,
+    /// From the start hole to the path, mm.
+    pub lead_mm: f64,
+    /// Largest feed, mm/min.
+    pub feed_mm_per_min: f64,
+    /// Largest distance of the path from that of the law, mm.
+    pub tolerance_mm: f64,
+}
+
+impl WireWish {
+    /// Distance of the wire's centre from the profile, mm.
+    pub fn offset_mm(&self) -> f64 {
+        0.5 * self.wire_mm + self.gap_mm
+    }
+}
+
+/// A program and what it cuts.
+#[derive(Debug, Clone, PartialEq)]
+pub struct WireProgram {
+    /// The text of the file.
+    pub text: String,
+    /// Arcs and lines.
+    pub path: ArcPath,
+    /// How far what the read program cuts is off the profile, mm, negative where it cuts into the gear: least and most.
+    pub off_mm: [f64; 2],
+}
+
+impl WireProgram {
+    /// Program round the closed profile of a gear.
+    ///
+    /// # Errors
+    /// A profile that the wire cannot follow, with the place.
+    pub fn new(gear: &dyn CylindricalGear, chain_mm: &[DVec2], wish: &WireWish) -> Result<Self, Refusal> {
+        let blank = gear.blank();
+        // Parts of the profile end where the next ones begin, but for rounding, which has any direction.
+        let mut chain = distinct(chain_mm, true);
+        let outline = TargetOutline::new(chain.clone(), blank.back);
+        let first = nearest(&chain, tip_middle_mm(gear));
+        chain.rotate_left(first);
+        let mut centre = offset_chain(&chain, blank.kind().tip_sign() * wish.offset_mm());
+        centre.push(centre[0]);
+        clear_of_profile(&centre, &outline, wish)?;
+        let path = ArcPath::fit(&centre, false, FIT_SHARE * wish.tolerance_mm, PathPieces::Arcs);
+        let outwards = (centre[0] - chain[0]).normalize_or_zero();
+        let hole_mm = centre[0] + wish.lead_mm * outwards;
+        let room = wish.offset_mm() + wish.lead_mm;
+        if let Some(near_mm) = outline.distance_mm(hole_mm, room).filter(|near_mm| *near_mm < wish.offset_mm()) {
+            let problem =
+                format!("{} mm from the path the start hole is {near_mm:.3} mm from the profile", wish.lead_mm);
+            return Err(Refusal::new("--lead-mm", problem, "give a shorter lead"));
+        }
+        let text = text(&path, hole_mm, wish, &gear.scene().name);
+        let read = read(&text).map_err(|why| {
+            Refusal::new("--wire", format!("the program cannot be read back: {why}"), "please report this")
+        })?;
+        Ok(Self { text, path, off_mm: judged(&read, &chain, &outline, wish) })
+    }
+}
+
+/// Middle of the first tooth's tip land.
+fn tip_middle_mm(gear: &dyn CylindricalGear) -> DVec2 {
+    let pitch_mm = PI * gear.scene().gear.transverse_module_mm();
+    gear.blank().outline_mm(gear.curve().phi_at_arc(0.5 * pitch_mm))
+}
+
+fn nearest(chain_mm: &[DVec2], place_mm: DVec2) -> usize {
+    let distance = |i: &usize| chain_mm[*i].distance_squared(place_mm);
+    (0..chain_mm.len()).min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap_or_default()
+}
+
+/// The closed chain moved aside to its right by `right_mm`, with arcs round corners that stand out on that side.
+fn offset_chain(chain: &[DVec2], right_mm: f64) -> Vec<DVec2> {
+    let count = chain.len();
+    let mut moved = Vec::with_capacity(count);
+    for (i, &point) in chain.iter().enumerate() {
+        let before = (point - chain[(i + count - 1) % count]).normalize_or_zero();
+        let after = (chain[(i + 1) % count] - point).normalize_or_zero();
+        let turn = before.angle_to(after);
+        let aside = |along: DVec2| -right_mm * along.perp();
+        if turn.abs() <= CORNER_RAD {
+            moved.push(point + aside((before + after).normalize_or_zero()));
+            continue;
+        }
+        // A corner that is hollow on the wire's side gives both ends; what lies between is too near.
+        let steps = if turn * right_mm > 0.0 { (turn.abs() / CORNER_STEP_RAD).ceil() as u32 } else { 1 };
+        moved.extend((0..=steps).map(|step| {
+            let along = DVec2::from_angle(turn * f64::from(step) / f64::from(steps)).rotate(before);
+            point + aside(along)
+        }));
+    }
+    moved
+}
+
+/// Refuses a path that comes nearer to the profile than the wire and its gap.
+fn clear_of_profile(centre: &[DVec2], outline: &TargetOutline, wish: &WireWish) -> Result<(), Refusal> {
+    let offset_mm = wish.offset_mm();
+    let allowed_mm = offset_mm - CHORD_SHARE * wish.tolerance_mm;
+    let depth_mm = |p: &DVec2| {
+        let near_mm = outline.distance_mm(*p, 2.0 * offset_mm).unwrap_or(f64::INFINITY);
+        (allowed_mm - near_mm, *p)
+    };
+    let deepest = centre.iter().map(depth_mm).max_by(|a, b| a.0.total_cmp(&b.0));
+    let Some((depth_mm, place_mm)) = deepest.filter(|(depth_mm, _)| *depth_mm > 0.0) else { return Ok(()) };
+    let problem = format!(
+        "a wire of {} mm with a gap of {} mm would cut {:.3} mm into the gear at the polar angle {:.3} deg, {:.3} mm \
+         from the axis: the profile is more hollow there than {offset_mm} mm",
+        plain(wish.wire_mm),
+        plain(wish.gap_mm),
+        depth_mm,
+        place_mm.to_angle().to_degrees(),
+        place_mm.length()
+    );
+    let way_out = "use a thinner wire (--wire-diameter-um), or a tool with a larger tip radius";
+    Err(Refusal::new("--wire-diameter-um", problem, way_out))
+}
+
+fn text(path: &ArcPath, hole_mm: DVec2, wish: &WireWish, name: &str) -> String {
+    let unit = FileUnit::Millimetre;
+    let place = |p: DVec2| format!("X{} Y{}", unit.shown(p.x), unit.shown(p.y));
+    let mut text = String::from("%\n");
+    for words in [
+        format!("gearcut {}: wire round the section of {}", env!("CARGO_PKG_VERSION"), ascii(name)),
+        format!(
+            "wire {} mm, gap {} mm: its centre {} mm beside the profile, within {} um",
+            plain(wish.wire_mm),
+            plain(wish.gap_mm),
+            plain(wish.offset_mm()),
+            plain(wish.tolerance_mm * UM_PER_MM)
+        ),
+        "gear frame: axis at the origin, a tooth space on the X axis".to_owned(),
+        "F is the largest feed: the generator holds the gap".to_owned(),
+    ] {
+        let _ = writeln!(text, "({words})");
+    }
+    let _ = writeln!(text, "G17 G21 G90 G94\n(start hole)\nG0 {}\n(thread the wire)\nM0", place(hole_mm));
+    let _ = writeln!(text, "G1 {} F{}", place(path.vertices[0].point_mm), plain(wish.feed_mm_per_min));
+    for pair in path.vertices.windows(2) {
+        let (from, to, bulge) = (pair[0].point_mm, pair[1].point_mm, pair[0].bulge);
+        if bulge == 0.0 {
+            let _ = writeln!(text, "G1 {}", place(to));
+            continue;
+        }
+        let chord = to - from;
+        let centre = 0.5 * chord + (1.0 - bulge * bulge) / (4.0 * bulge) * chord.perp();
+        let code = if bulge > 0.0 { 3 } else { 2 };
+        let _ = writeln!(text, "G{code} {} I{} J{}", place(to), fixed(centre.x, 8), fixed(centre.y, 8));
+    }
+    let _ = writeln!(text, "G1 {}\nM2\n%", place(hole_mm));
+    text
+}
+
+/// The path of a program of wire erosion from its first block at the feed on, as a control reads it.
+///
+/// # Errors
+/// Line and word of what is malformed, unknown or missing; an arc whose ends are not equally far from its centre.
+pub fn read(text: &str) -> Result<ArcPath, String> {
+    let axes = [('X', AxisKind::Linear), ('Y', AxisKind::Linear)];
+    let grammar = Grammar { axes, names: "X and Y", ram: false, arcs: true };
+    let mut at: Option<DVec2> = None;
+    let mut vertices: Vec<ArcVertex> = Vec::new();
+    let (_, ended) = statements(text, &grammar, |statement| {
+        let Some((how, [x, y])) = statement.travel else { return Ok(()) };
+        let to = match at {
+            Some(from) => DVec2::new(x.unwrap_or(from.x), y.unwrap_or(from.y)),
+            None => DVec2::new(x.ok_or("X has no position yet")?, y.ok_or("Y has no position yet")?),
+        };
+        let from = at.replace(to);
+        let (Move::Straight, Some(from)) = (how, from) else { return Ok(()) };
+        if statement.feed.is_none() {
+            return Err("word `F` is missing".to_owned());
+        }
+        let bulge = statement.arc.map_or(Ok(0.0), |arc| bulge(&arc, from, to))?;
+        vertices.push(ArcVertex { point_mm: from, bulge });
+        Ok(())
+    })?;
+    ended?;
+    let end = at.ok_or("no block moves the wire")?;
+    vertices.push(ArcVertex { point_mm: end, bulge: 0.0 });
+    Ok(ArcPath { vertices, is_closed: false })
+}
+
+fn bulge(arc: &ProgramArc, from: DVec2, to: DVec2) -> Result<f64, String> {
+    let centre = from + DVec2::from(arc.centre_mm);
+    let (start, end) = (from - centre, to - centre);
+    if (start.length() - end.length()).abs() > RADII_MM {
+        return Err(format!(
+            "an arc begins {} mm from its centre and ends {} mm from it",
+            start.length(),
+            end.length()
+        ));
+    }
+    let sweep_rad = arc.turn * (arc.turn * start.angle_to(end)).rem_euclid(TAU);
+    Ok((0.25 * sweep_rad).tan())
+}
+
+/// How far what a read path cuts is off the profile: least and most over the path, its leads left out, and over the
+/// profile, so that nothing is left out.
+fn judged(read: &ArcPath, chain_mm: &[DVec2], outline: &TargetOutline, wish: &WireWish) -> [f64; 2] {
+    // The first piece leads in, the last one out.
+    let round = &read.vertices[1..read.vertices.len() - 1];
+    let places = ArcPath { vertices: round.to_vec(), is_closed: false }.places_mm(JUDGED_MM);
+    let offset_mm = wish.offset_mm();
+    let most_mm = 4.0 * offset_mm;
+    let own = places.iter().map(|&p| outline.distance_mm(p, most_mm).unwrap_or(most_mm) - offset_mm);
+    let wire = TargetOutline::new(places.clone(), Back::bore(0.0));
+    let reached = chain_mm.iter().map(|&p| wire.distance_mm(p, most_mm).map_or(most_mm, f64::abs) - offset_mm);
+    // A profile place at a corner is as near to the wire as at its flanks: only what is not reached counts there.
+    own.chain(reached.filter(|off| *off > 0.0))
+        .fold([f64::INFINITY, f64::NEG_INFINITY], |[least, most], off| [least.min(off), most.max(off)])
+}
