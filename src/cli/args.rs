@@ -104,7 +104,7 @@ pub enum Command {
         files but those named by --save.")]
     Texture(Box<TextureArguments>),
     /// List what can compute here.
-    #[command(after_help = "Examples:\n  gearcut devices\n  gearcut devices --bench")]
+    #[command(after_help = "Example:\n  gearcut devices\n  gearcut devices --bench")]
     Devices(DevicesArguments),
     /// Print the JSON Schema of scene files, for editors that complete and check TOML.
     #[command(after_help = "Example:\n  gearcut schema > scene.schema.json")]

@@ -3,8 +3,9 @@
 //! In: lists of what is left on the rays; passes as closed outlines that stand in slices, and which of them visit each
 //! tile, in order of time. Out: what is left then, what every pass removed, the longest material that a return stroke
 //! met on each tile, the pieces that were taken where they are asked for. Lists go over one after the other, lie slot
-//! by slot while they are cut, and come back one after the other (`blank_lists`). They stay on the device for as many cuts
-//! as there are: of shaping one ([`super::blank`]), of hobbing one for each chunk of time ([`super::blank_sweeps`]).
+//! by slot while they are cut, and come back one after the other (`blank_lists`). They stay on the device for as many
+//! cuts as there are: of shaping one ([`super::blank`]), of hobbing one for each chunk of time
+//! ([`super::blank_sweeps`]).
 //!
 //! No list has a fixed capacity: a ray without room stops, and the cut is begun again from lists with room for what it
 //! needed.
