@@ -1,12 +1,12 @@
 // Takes passes from rays through the blank, in order of time.
 //
-// One thread per ray, one workgroup per tile. A pass is a closed outline where it stands in one slice: a cutter tooth in
-// one stroke, or the section of a hob tooth's sweep. Reads launch, tiles, visits, passes, outlines; rewrites spans and
-// rays; adds what every pass removed, in fixed point, so that the sum does not depend on the order of threads; keeps the
-// longest material that a return stroke met on a ray of the tile; lists the pieces that were taken, in any order, if the
-// host asks for them. A list that has no room says how much it needs, and the host comes back with more. Twins:
-// crates/core/src/cut/cpu/blank.rs (derivation there) and blank_sweeps.rs. Adds at most four ulps at the blank's radius
-// to an end that its ray meets at 45 degrees or steeper.
+// One thread per ray, one workgroup per tile. A pass is a closed outline where it stands in one slice: a cutter tooth
+// in one stroke, or the section of a hob tooth's sweep. Reads launch, tiles, visits, passes, outlines; rewrites spans
+// and rays; adds what every pass removed, in fixed point, so that the sum does not depend on the order of threads;
+// keeps the longest material that a return stroke met on a ray of the tile; lists the pieces that were taken, in any
+// order, if the host asks for them. A list that has no room says how much it needs, and the host comes back with more.
+// Twins: crates/core/src/cut/cpu/blank.rs (derivation there) and blank_sweeps.rs. Adds at most four ulps at the blank's
+// radius to an end that its ray meets at 45 degrees or steeper.
 //
 // An outline is a chain of cubics. Each thread goes round it once, with places across its own ray: a piece that turns
 // back there is split at its turning point. Neighbours share the bits of their node, so that crossings come in pairs,
