@@ -30,7 +30,7 @@ pub mod table;
 pub mod tree;
 pub mod unit;
 
-pub use column::{Cell, Cells};
+pub use column::{TableCell, TableCells};
 pub use datum::Datum;
 pub use entry::Entry;
 pub use json::{RESULTS_FILE, SCHEMA, SCHEMA_VERSION};

@@ -28,9 +28,9 @@ pub fn groups() -> Vec<&'static QuantityGroup> {
 
 /// The page of the docs.
 pub fn markdown() -> String {
-    let lead = "What `results.json` and tables can hold: key, symbol, unit, definition, and the reasons for which there may be no \
-        value. The same key is the same quantity in every process. `<...>` is a name of the scene or a number. This \
-        page is printed from the table in the source.";
+    let lead = "What `results.json` and tables can hold: key, symbol, unit, definition, and the reasons for which \
+        there may be no value. The same key is the same quantity in every process. `<...>` is a name of the scene or a \
+        number. This page is printed from the table in the source.";
     let mut page = format!("# Quantities\n\n{}", paragraph(lead));
     for group in groups() {
         let place = paragraph(&format!("Where: {}.", group.place.replace('<', "\\<")));

@@ -15,16 +15,19 @@ rows! {
     PATH: "quantity", "", "path of the quantity in results.json; its key in headline";
     UNIT: "unit", "", "unit of the quantity";
     VALUE_OF_RESULT: "value", "", "value of the result whose letter is the key";
-    DIFFERENCE_TO_FIRST: "difference", "", "value of the result less that of the first" => or(&[NOT_OF_BOTH]);
-    FIRST_OVER_IT: "ratio", "", "value of the first result over that of the other" => or(&[NOT_OF_BOTH]);
+    DIFFERENCE_TO_FIRST: "difference", "that of the row",
+        "value of the result less that of the first" => or(&[NOT_OF_BOTH]);
+    FIRST_OVER_IT: "ratio", "1", "value of the first result over that of the other" => or(&[NOT_OF_BOTH]);
     DEFINITION: "definition", "", "definition of the quantity";
     FIGURE_OF_FLANK: "figure", "um", "figure of ISO 1328-1 of the worst flank, with its sign" => shown();
 }
 
 rows! {
     /// Parameters of two surfaces side by side.
-    COMPARED_SURFACES: "surfaces", "Surfaces side by side", "columns of comparison.csv of two surfaces, beside their parameters";
+    COMPARED_SURFACES: "surfaces", "Surfaces side by side",
+        "columns of comparison.csv of two surfaces, beside their parameters";
 
-    LESS: "second_less_first", "", "value of the second surface less that of the first" => or(&[NOT_OF_BOTH]);
-    OVER: "second_over_first", "", "value of the second surface over that of the first" => or(&[NOT_OF_BOTH]);
+    LESS: "second_less_first", "that of the row",
+        "value of the second surface less that of the first" => or(&[NOT_OF_BOTH]);
+    OVER: "second_over_first", "1", "value of the second surface over that of the first" => or(&[NOT_OF_BOTH]);
 }

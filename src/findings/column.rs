@@ -1,7 +1,7 @@
 //! The values of a column, all of one type.
 //!
-//! In: numbers, counts or words of Rust, each of which may be missing. Out: [`Cells`], which a writer takes whole: CSV
-//! cell by cell, Parquet as an array.
+//! In: numbers, counts or words of Rust, each of which may be missing. Out: [`TableCells`], which a writer takes whole:
+//! CSV cell by cell, Parquet as an array.
 //!
 //! Road not taken: rows of values of any type. A reader had to find out what a column holds, and an empty one did not
 //! say.
@@ -10,7 +10,7 @@ use super::datum::Datum;
 
 /// Values of a column; none where there is no value, for the column's reason.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Cells {
+pub enum TableCells {
     /// Finite numbers.
     Numbers(Vec<Option<f64>>),
     /// Counts.
@@ -20,55 +20,55 @@ pub enum Cells {
 }
 
 /// What a column can hold: numbers, counts, words, and each of them where there may be none.
-pub trait Cell: Sized {
+pub trait TableCell: Sized {
     /// The cells of a column.
-    fn cells(values: impl Iterator<Item = Option<Self>>) -> Cells;
+    fn cells(values: impl Iterator<Item = Option<Self>>) -> TableCells;
 }
 
-impl Cell for f64 {
+impl TableCell for f64 {
     /// NaN and infinity become none: no file has a word for them.
-    fn cells(values: impl Iterator<Item = Option<Self>>) -> Cells {
-        Cells::Numbers(values.map(|value| value.filter(|value| value.is_finite())).collect())
+    fn cells(values: impl Iterator<Item = Option<Self>>) -> TableCells {
+        TableCells::Numbers(values.map(|value| value.filter(|value| value.is_finite())).collect())
     }
 }
 
-impl Cell for u64 {
-    fn cells(values: impl Iterator<Item = Option<Self>>) -> Cells {
-        Cells::Counts(values.collect())
+impl TableCell for u64 {
+    fn cells(values: impl Iterator<Item = Option<Self>>) -> TableCells {
+        TableCells::Counts(values.collect())
     }
 }
 
-impl Cell for u32 {
-    fn cells(values: impl Iterator<Item = Option<Self>>) -> Cells {
+impl TableCell for u32 {
+    fn cells(values: impl Iterator<Item = Option<Self>>) -> TableCells {
         u64::cells(values.map(|count| count.map(u64::from)))
     }
 }
 
-impl Cell for usize {
-    fn cells(values: impl Iterator<Item = Option<Self>>) -> Cells {
+impl TableCell for usize {
+    fn cells(values: impl Iterator<Item = Option<Self>>) -> TableCells {
         u64::cells(values.map(|count| count.map(|count| count as u64)))
     }
 }
 
-impl Cell for String {
-    fn cells(values: impl Iterator<Item = Option<Self>>) -> Cells {
-        Cells::Words(values.collect())
+impl TableCell for String {
+    fn cells(values: impl Iterator<Item = Option<Self>>) -> TableCells {
+        TableCells::Words(values.collect())
     }
 }
 
-impl Cell for &str {
-    fn cells(values: impl Iterator<Item = Option<Self>>) -> Cells {
+impl TableCell for &str {
+    fn cells(values: impl Iterator<Item = Option<Self>>) -> TableCells {
         String::cells(values.map(|word| word.map(str::to_owned)))
     }
 }
 
-impl<T: Cell> Cell for Option<T> {
-    fn cells(values: impl Iterator<Item = Option<Self>>) -> Cells {
+impl<T: TableCell> TableCell for Option<T> {
+    fn cells(values: impl Iterator<Item = Option<Self>>) -> TableCells {
         T::cells(values.map(Option::flatten))
     }
 }
 
-impl Cells {
+impl TableCells {
     /// How many there are.
     pub fn len(&self) -> usize {
         match self {

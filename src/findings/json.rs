@@ -8,7 +8,7 @@ use std::path::Path;
 
 use serde_json::{Map, Value, json};
 
-use super::column::Cells;
+use super::column::TableCells;
 use super::datum::Datum;
 use super::entry::Entry;
 use super::notice::Notice;
@@ -131,7 +131,7 @@ fn of_table(table: &Table) -> Value {
     value
 }
 
-fn of_column((column, cells): (&TableColumn, &Cells)) -> Value {
+fn of_column((column, cells): (&TableColumn, &TableCells)) -> Value {
     let mut value = json!({
         "key": column.key,
         "unit": column.unit,

@@ -5,7 +5,7 @@
 
 use serde_json::{Map, Value};
 
-use super::column::Cells;
+use super::column::TableCells;
 use super::datum::Datum;
 use super::entry::Entry;
 use super::json::{CHARTS, LEVELS};
@@ -105,7 +105,7 @@ fn table(key: &str, value: &Value) -> Read<Table> {
     });
     let rows = rows.collect::<Read<Vec<_>>>()?;
     let cells = list(all, "columns")?.iter().enumerate().map(|(index, column)| {
-        let none = column.get("type").and_then(Value::as_str).and_then(Cells::of_type);
+        let none = column.get("type").and_then(Value::as_str).and_then(TableCells::of_type);
         let none = none.ok_or("the type of a column is number, count or word")?;
         let full = rows.iter().try_fold(none, |cells, row| cells.and(&row[index]));
         full.ok_or_else(|| format!("a cell of {} is not of its type", columns[index].key))
@@ -167,7 +167,8 @@ mod tests {
             Notice::new("texture.few_marks", Severity::Note, "few strokes").about("operations.rough"),
         ];
         let sections = vec![Section::new("operations", "Operations").part(rough)];
-        Findings::new("shaping", "made_by_hand", true, headline, warnings, sections)
+        let found = Findings::new("shaping", "made_by_hand", true, headline, warnings, sections);
+        Findings { program_version: "0.1.0".to_owned(), ..found }
     }
 
     #[test]

@@ -28,6 +28,9 @@
 //! Roads not taken: an enum of all quantities, which a process could not add to; a struct with a field for each
 //! quantity, which every renderer had to know.
 
+/// Unit of a column whose values have that of another column, row by row.
+pub const BY_ROW: &str = "that of the row";
+
 /// How far up a quantity is shown.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Level {
@@ -58,7 +61,7 @@ pub(super) fn title_of(key: &str) -> String {
 pub struct QuantityRow {
     /// Key among its neighbours.
     pub key: &'static str,
-    /// Unit; `"1"` for a pure number, empty for words.
+    /// Unit; `"1"` for a pure number, empty for words, [`BY_ROW`].
     pub unit: &'static str,
     /// What its value is.
     pub definition: &'static str,

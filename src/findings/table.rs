@@ -1,7 +1,7 @@
 //! A table of findings: columns of numbers, counts or words, each with unit and definition.
 //!
 //! In: what the rows are of, and for each column its row of the table of quantities and a function. Out: [`Table`],
-//! whose [`Cells`] a writer takes column by column in the form of its choice.
+//! whose [`TableCells`] a writer takes column by column in the form of its choice.
 //!
 //! A table holds what is the same for every row, such as the allowances of all teeth; a value with a place or a reason
 //! of its own is an entry of a section instead.
@@ -9,9 +9,9 @@
 //! A table may have a file of its own. Where it would swell `results.json`, its rows are in that file alone: thousands
 //! of strokes and points, and rows whose values are in the tree already, one section each.
 
-use super::column::{Cell, Cells};
+use super::column::{TableCell, TableCells};
 use super::datum::Datum;
-use super::row::{ColumnChart, QuantityRow};
+use super::row::{BY_ROW, ColumnChart, QuantityRow};
 use std::borrow::Cow;
 
 /// Ending of the files of tables that a run writes.
@@ -27,7 +27,7 @@ pub struct Table {
     /// Columns; the first names the rows.
     pub columns: Vec<TableColumn>,
     /// Values of each column, as many of one as of another.
-    pub cells: Vec<Cells>,
+    pub cells: Vec<TableCells>,
     /// Rows after which the gear's shape repeats, if it does.
     pub period_rows: Option<u32>,
     /// Its file in the output folder without an ending, such as `tables/flanks`; none where `results.json` is enough.
@@ -95,7 +95,7 @@ impl Table {
 
     /// How many rows there are.
     pub fn len(&self) -> usize {
-        self.cells.first().map_or(0, Cells::len)
+        self.cells.first().map_or(0, TableCells::len)
     }
 
     /// Whether there are none, or none here.
@@ -132,7 +132,7 @@ impl Table {
     pub fn words(&self, row: &QuantityRow) -> impl Iterator<Item = Option<&str>> {
         let cells = self.column(row.key).and_then(|column| self.cells.get(column));
         (0..self.len()).map(move |row| match cells? {
-            Cells::Words(words) => words[row].as_deref(),
+            TableCells::Words(words) => words[row].as_deref(),
             _ => None,
         })
     }
@@ -160,7 +160,7 @@ pub struct Columns<T> {
 impl<T> Columns<T> {
     /// With a column of this row of the table of quantities, or of a row with a key, unit or words of its own.
     #[must_use]
-    pub fn column<V: Cell>(mut self, column: impl Into<TableColumn>, value: impl Fn(&T) -> V) -> Self {
+    pub fn column<V: TableCell>(mut self, column: impl Into<TableColumn>, value: impl Fn(&T) -> V) -> Self {
         self.table.columns.push(column.into());
         self.table.cells.push(V::cells(self.of.iter().map(|of| Some(value(of)))));
         self
@@ -196,7 +196,7 @@ impl QuantityRow {
     pub fn as_column(&self) -> TableColumn {
         TableColumn {
             key: self.key.into(),
-            unit: (!self.unit.is_empty()).then_some(Cow::Borrowed(self.unit)),
+            unit: (!["", BY_ROW].contains(&self.unit)).then_some(Cow::Borrowed(self.unit)),
             definition: self.definition.into(),
             why: match self.reasons {
                 [] => None,
@@ -263,7 +263,7 @@ mod tests {
         assert_eq!(head("removal_rate", "cm^3/min"), "removal_rate_cm3_per_min");
         assert_eq!(head("work_torque", "N m"), "work_torque_Nm");
         assert_eq!([head("tooth", "1"), head("two_flank_chips", "chips")], ["tooth", "two_flank_chips"]);
-        assert_eq!(head("flank", ""), "flank");
+        assert_eq!([head("flank", ""), head("step", BY_ROW)], ["flank", "step"]);
     }
 
     #[test]
@@ -277,7 +277,10 @@ mod tests {
         assert_eq!(heads, ["tooth", "F_alpha_um"]);
         assert_eq!(table.columns[1].why.as_deref(), Some("not cut; or cut away"));
         assert_eq!(table.columns[1].chart, Some(ColumnChart::Bars));
-        assert_eq!(table.cells, [Cells::Counts(vec![Some(1), Some(2)]), Cells::Numbers(vec![Some(0.5), None])]);
+        assert_eq!(
+            table.cells,
+            [TableCells::Counts(vec![Some(1), Some(2)]), TableCells::Numbers(vec![Some(0.5), None])]
+        );
         assert_eq!(table.values(&RANGE).collect::<Vec<_>>(), [Some(0.5), None]);
     }
 

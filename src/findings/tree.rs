@@ -1,6 +1,6 @@
 //! The tree: what a run found, from the headline down to the last detail.
 
-use super::column::Cells;
+use super::column::TableCells;
 use super::entry::Entry;
 use super::notice::{Notice, ranked};
 use super::quantity::Quantity;
@@ -90,7 +90,7 @@ impl Section {
             entry.quantity = entry.quantity.clone().without_value(why.to_owned());
         }
         for table in &mut self.tables {
-            table.cells.iter_mut().for_each(Cells::clear);
+            table.cells.iter_mut().for_each(TableCells::clear);
         }
         self.sections = self.sections.into_iter().map(|part| part.without_values(why, keep)).collect();
         self

@@ -90,7 +90,7 @@ fn reason(failed: csv::Error) -> io::Error {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::findings::{Cells, QuantityRow};
+    use crate::findings::{QuantityRow, TableCells};
 
     static TOOTH: QuantityRow = QuantityRow::new("tooth", "1", "number");
     static X: QuantityRow = QuantityRow::new("x", "mm", "a length");
@@ -142,7 +142,8 @@ mod tests {
             .column(&NOTE, |row| row.1)
             .rows_in_file("rolling");
         write_table(&path, &table).expect("a good table");
-        let empty = Table { cells: vec![Cells::Numbers(Vec::new()), Cells::Words(Vec::new())], ..table.clone() };
+        let empty =
+            Table { cells: vec![TableCells::Numbers(Vec::new()), TableCells::Words(Vec::new())], ..table.clone() };
         assert_eq!(with_rows(&empty, folder.path()).expect("its own file"), table);
         let refused = |why: &str| {
             let reason = with_rows(&empty, folder.path()).expect_err("a foreign file").to_string();

@@ -53,7 +53,8 @@ rows! {
     TOLERANCES: "tolerances", "What differs from gear to gear", "columns of scatter.tolerances and .drawn";
 
     KEY: "key", "", "key of the scene; its name says the unit";
-    LOW: "low", "", "smallest value, in the key's unit";
-    HIGH: "high", "", "largest value, in the key's unit";
-    VALUE: "value", "", "value in this gear, in the key's unit: as likely as any other within the limits";
+    LOW: "low", "that of the row", "smallest value, in the key's unit";
+    HIGH: "high", "that of the row", "largest value, in the key's unit";
+    VALUE: "value", "that of the row",
+        "value in this gear, in the key's unit: as likely as any other within the limits";
 }

@@ -31,9 +31,9 @@ rows! {
 
     PARAMETER: "parameter", "", "symbol of ISO 25178-2";
     PARAMETER_UNIT: "unit", "", "unit of the parameter's values";
-    OF_FIRST: "first", "", "parameter of the first surface" => or(&[NO_PARAMETER]);
-    OF_SECOND: "second", "", "parameter of the second surface" => or(&[NO_PARAMETER]);
-    OF_DIFFERENCE: "difference", "", "parameter of the second surface less that of the first"
+    OF_FIRST: "first", "that of the row", "parameter of the first surface" => or(&[NO_PARAMETER]);
+    OF_SECOND: "second", "that of the row", "parameter of the second surface" => or(&[NO_PARAMETER]);
+    OF_DIFFERENCE: "difference", "that of the row", "parameter of the second surface less that of the first"
         => or(&[NO_PARAMETER]);
     WHAT_IT_IS: "definition", "", "definition of the parameter";
 }

@@ -30,24 +30,27 @@ rows! {
     INFLUENCES: "influences", "Influence of every parameter",
         "columns of budget.influences, those for a unit of the error under their key and um_per_unit";
 
-    STEP: "step", "", "natural step of the parameter; it is shifted by as much to both sides";
+    STEP: "step", "that of the row", "natural step of the parameter; it is shifted by as much to both sides";
     PER_STEP: "per_step", "um", "predicted: largest normal deviation for the natural step";
-    LARGEST: "largest", "", "predicted: largest normal deviation anywhere on the flanks, um for a unit of the error"
+    LARGEST: "largest", "that of the row",
+        "predicted: largest normal deviation anywhere on the flanks, um for a unit of the error"
         => or(&[NEEDS_ALL]);
-    PROFILE: "F_alpha", "", "predicted: largest profile deviation F_alpha, um for a unit of the error"
+    PROFILE: "F_alpha", "that of the row", "predicted: largest profile deviation F_alpha, um for a unit of the error"
         => or(&[NEEDS_ALL]);
-    PROFILE_SLOPE: "f_H_alpha", "",
+    PROFILE_SLOPE: "f_H_alpha", "that of the row",
         "predicted: profile slope deviation f_H_alpha of the largest size, um for a unit of the error"
         => or(&[NEEDS_ALL]);
-    HELIX: "F_beta", "", "predicted: largest helix deviation F_beta, um for a unit of the error" => or(&[NEEDS_ALL]);
-    HELIX_SLOPE: "f_H_beta", "",
+    HELIX: "F_beta", "that of the row",
+        "predicted: largest helix deviation F_beta, um for a unit of the error" => or(&[NEEDS_ALL]);
+    HELIX_SLOPE: "f_H_beta", "that of the row",
         "predicted: helix slope deviation f_H_beta of the largest size, um for a unit of the error"
         => or(&[NEEDS_ALL]);
-    SINGLE_PITCH: "f_p", "", "predicted: single pitch deviation f_p of the largest size, um for a unit of the error"
+    SINGLE_PITCH: "f_p", "that of the row",
+        "predicted: single pitch deviation f_p of the largest size, um for a unit of the error"
         => or(&[NEEDS_ALL]);
-    TOTAL_PITCH: "F_p", "", "predicted: total cumulative pitch deviation F_p, um for a unit of the error"
+    TOTAL_PITCH: "F_p", "that of the row", "predicted: total cumulative pitch deviation F_p, um for a unit of the error"
         => or(&[NEEDS_ALL]);
-    THICKNESS: "thickness", "",
+    THICKNESS: "thickness", "that of the row",
         "predicted: what the mean tooth becomes thicker along the circle, um for a unit of the error"
         => or(&[NEEDS_ALL]);
     HALF_STEP: "half_step", "%", "largest difference from what half the step gives, of the largest influence"
@@ -73,11 +76,14 @@ rows! {
 
     QUANTITY: "quantity", "", "path of the number in results.json; headline.KEY for those of its headline";
     UNIT_OF_NUMBER: "unit", "", "unit of the number; derivatives are for one unit of the error";
-    VALUE: "value", "", "predicted: number of the scene as it is";
-    DERIVATIVE: "derivative", "", "predicted: what the number gains for a unit of the error, both directions"
+    VALUE: "value", "that of the row", "predicted: number of the scene as it is";
+    DERIVATIVE: "derivative", "that of the row",
+        "predicted: what the number gains for a unit of the error, both directions"
         => or(&[VANISHES, NO_WORD]);
-    UPWARDS_OF: "upwards", "", "predicted: what the number gains for a unit of the error, upwards from the scene"
+    UPWARDS_OF: "upwards", "that of the row",
+        "predicted: what the number gains for a unit of the error, upwards from the scene"
         => or(&[VANISHES]);
-    DOWNWARDS_OF: "downwards", "", "predicted: what the number gains for a unit of the error, from below to the scene"
+    DOWNWARDS_OF: "downwards", "that of the row",
+        "predicted: what the number gains for a unit of the error, from below to the scene"
         => or(&[VANISHES, NO_WORD]);
 }

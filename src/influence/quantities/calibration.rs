@@ -24,8 +24,8 @@ rows! {
     /// Fitted parameters.
     FITS: "fits", "Fitted parameters", "columns of calibration.fits";
 
-    SHIFT: "shift", "", "shift beyond the scene" => or(&[UNIDENTIFIED]);
-    HALF_WIDTH: "half_width", "", "half the width of the shift's 95 % interval"
+    SHIFT: "shift", "that of the row", "shift beyond the scene" => or(&[UNIDENTIFIED]);
+    HALF_WIDTH: "half_width", "that of the row", "half the width of the shift's 95 % interval"
         => or(&[UNIDENTIFIED, AT_END_OF_RANGE]);
 }
 
@@ -34,10 +34,10 @@ rows! {
     MEASURED_NUMBERS: "numbers", "Measured numbers", "columns of calibration.numbers";
 
     QUANTITY: "quantity", "", "path in results.json, which says its unit";
-    VALUE: "value", "", "measured: value";
-    UNCERTAINTY: "uncertainty", "", "measured: standard uncertainty of the value";
-    PREDICTED: "predicted", "", "predicted: value of the scene as it is";
-    FITTED: "fitted", "", "fitted: value of the scene with the fitted parameters";
+    VALUE: "value", "that of the row", "measured: value";
+    UNCERTAINTY: "uncertainty", "that of the row", "measured: standard uncertainty of the value";
+    PREDICTED: "predicted", "that of the row", "predicted: value of the scene as it is";
+    FITTED: "fitted", "that of the row", "fitted: value of the scene with the fitted parameters";
 }
 
 rows! {

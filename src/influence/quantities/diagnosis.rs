@@ -42,12 +42,12 @@ rows! {
     /// What is named.
     SOURCES: "sources", "Errors that explain the measured flanks", "columns of diagnosis.sources";
 
-    SIZE: "size", "", "size of the error beyond that of the scene" => or(&[NO_SIZE]);
-    LOW: "low", "",
+    SIZE: "size", "that of the row", "size of the error beyond that of the scene" => or(&[NO_SIZE]);
+    LOW: "low", "that of the row",
         "lower end of the 95 % interval of the size, over all sets of sources that explain the deviations about as well"
         => or(&[NO_SIZE, NO_INTERVAL]);
-    HIGH: "high", "", "upper end of that interval" => or(&[NO_SIZE, NO_INTERVAL]);
-    HALF_IF_RIGHT: "half_if_right", "",
+    HIGH: "high", "that of the row", "upper end of that interval" => or(&[NO_SIZE, NO_INTERVAL]);
+    HALF_IF_RIGHT: "half_if_right", "that of the row",
         "half the width of the 95 % interval if exactly the named sources are there" => or(&[NO_SIZE, NO_INTERVAL]);
     SURE: "sure", "%",
         "weight of the sets of sources with this one, of all that explain the deviations about as well"

@@ -18,7 +18,6 @@ pub mod bearing;
 pub mod charts;
 pub mod findings;
 pub mod page;
-pub mod quantities;
 
 use super::BevelJob;
 use crate::interrupt::Interrupt;

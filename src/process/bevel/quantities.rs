@@ -1,6 +1,7 @@
 //! Quantities that only bevel cutting finds.
 
-use super::pair;
+pub mod pair;
+
 use crate::findings::quantities::cutting::{IDLE, NO_MATERIAL};
 use crate::findings::{QuantityGroup, rows};
 
@@ -27,10 +28,10 @@ pub static QUANTITIES: &[&QuantityGroup] = &[
     &BODY,
     &CHIPS,
     &AXIS_COLUMNS,
-    &pair::quantities::PAIR,
-    &pair::quantities::SIDE,
-    &pair::quantities::PATH,
-    &pair::quantities::TRENDS,
+    &pair::PAIR,
+    &pair::SIDE,
+    &pair::PATH,
+    &pair::TRENDS,
 ];
 
 rows! {

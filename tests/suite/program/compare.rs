@@ -53,7 +53,8 @@ fn results(level: f64, smallest_mm: f64) -> Value {
             "$title": "Rough",
             "strokes": number(4200.0, "strokes"),
             "allowance": {
-                "title": "Allowance", "columns": [column("tooth", "1", "count"), bars], "rows": rows, "period_rows": PERIOD,
+                "title": "Allowance", "columns": [column("tooth", "1", "count"), bars], "rows": rows,
+                "period_rows": PERIOD,
             },
             "unevenness": { "$title": "Unevenness", "mean_denominator": { "$title": "Mean", "max": spread } },
         } } }),

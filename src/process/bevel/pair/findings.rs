@@ -1,16 +1,16 @@
 //! What a bevel pair shows: motion error, path and ellipse of contact, and how they move with the mounting.
 
-use super::quantities::{
+use super::{MountingError, MountingErrors, RolledBevels, RolledSide, Trend};
+use crate::findings::{Entry, Findings, Notice, QuantityRow, Section, Table};
+use crate::process::bevel::BevelJob;
+use crate::process::bevel::notices::EdgeContact;
+use crate::process::bevel::quantities::pair::{
     ADDED, ALONG, ALONG_LINE, AT_EDGE, CENTER_ALONG, CENTER_HEIGHT, ELLIPSE_LENGTH, ERROR, ERROR_AT, ERROR_OF_TREND,
     GEAR, GEAR_AXIAL_ERROR, HALF_LENGTH, HALF_LENGTH_AT, HALF_WIDTH, HALF_WIDTH_AT, HEIGHT, HYPOID_OFFSET, ISO_NAME,
     MARKING, MOTION_ERROR, MOVED_ALONG, MOVED_UP, OFFSET_ERROR, OUTER_MODULE, PAIR, PARABOLA, PATH, PINION,
     PINION_ANGLE, PINION_AXIAL_ERROR, SHAFT_ANGLE, SHAFT_ANGLE_ERROR, TEETH_OF_GEAR, TEETH_OF_PINION, TOO_FEW_PLACES,
     TRENDS, TURNED,
 };
-use super::{MountingError, MountingErrors, RolledBevels, RolledSide, Trend};
-use crate::findings::{Entry, Findings, Notice, QuantityRow, Section, Table};
-use crate::process::bevel::BevelJob;
-use crate::process::bevel::notices::EdgeContact;
 use gearcut_core::bevel::contact::Contact;
 use gearcut_core::units::UM_PER_MM;
 

@@ -1,7 +1,6 @@
 //! The page of a bevel pair: `report.html`.
 
 use super::findings::words;
-use super::quantities::{PAIR, TRENDS};
 use super::{RolledBevels, bearing};
 use crate::findings::{Datum, Findings, Table, unit};
 use crate::output::folder::OutputFolder;
@@ -10,6 +9,7 @@ use crate::output::report::{Block, Page, PageSection, PageTable};
 use crate::output::text::{plain, significant};
 use crate::process::bevel::BevelJob;
 use crate::process::bevel::check::gear_words;
+use crate::process::bevel::quantities::pair::{PAIR, TRENDS};
 use crate::steps;
 use crate::steps::report::{page_of, quantities};
 use gearcut_core::error::Result;

@@ -20,7 +20,7 @@ use std::path::Path;
 const SAME_MM: f64 = 1e-9;
 
 /// A row.
-struct Place {
+struct ChartPlace {
     chart: &'static str,
     tooth: u32,
     side: Side,
@@ -47,7 +47,7 @@ pub(super) fn write(inspection: &Inspection, path: &Path) -> Result<()> {
     }
     for (pitch, (side, _)) in inspection.gear.pitch.iter().zip(SIDES) {
         let cumulative = pitch.iter().flat_map(|pitch| &pitch.cumulative_mm);
-        rows.extend((1_u32..).zip(cumulative).map(|(tooth, &deviation_mm)| Place {
+        rows.extend((1_u32..).zip(cumulative).map(|(tooth, &deviation_mm)| ChartPlace {
             chart: "pitch",
             tooth,
             side,
@@ -71,11 +71,11 @@ fn line(
     flank: &TracedFlank,
     (trace, deviation): (&Trace, Option<TraceDeviation>),
     place_mm: impl Fn(usize) -> [f64; 2],
-) -> Vec<Place> {
+) -> Vec<ChartPlace> {
     let Some([from_mm, to_mm]) = deviation.map(|of| of.between_mm) else { return Vec::new() };
     let inside = |place: f64| place >= from_mm - SAME_MM && place <= to_mm + SAME_MM;
     let places = (0..trace.places_mm.len()).filter(|&i| inside(trace.places_mm[i]));
-    let row = |i: usize| Place {
+    let row = |i: usize| ChartPlace {
         chart,
         tooth: flank.tooth,
         side: flank.side,
