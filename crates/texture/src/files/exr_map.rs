@@ -58,8 +58,8 @@ pub struct MapChannel {
 }
 
 impl MapChannel {
-    /// Lengths in mm; NaN where there is none. Below 16 mm they are rounded to whole 2^-20 mm (0.95 nm): f32 has further
-    /// digits there, which mean nothing and are two thirds of a packed file.
+    /// Lengths in mm; NaN where there is none. Below 16 mm they are rounded to whole 2^-20 mm (0.95 nm): f32 has
+    /// further digits there, which mean nothing and are two thirds of a packed file.
     pub fn lengths_mm(name: &str, definition: &str, values: &[f32]) -> Self {
         const PER_MM: f32 = (1 << 20) as f32;
         let rounded = |&mm: &f32| if mm.abs() < 16.0 { (mm * PER_MM).round_ties_even() / PER_MM } else { mm };
