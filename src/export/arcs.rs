@@ -21,6 +21,8 @@ use glam::DVec2;
 /// A chain that turns by more than this at a point has a corner there, rad. Neighbouring chords of smooth curves turn
 /// by hundredths: points are closer together by far than their radius of curvature.
 const CORNER_RAD: f64 = 0.2;
+/// Points nearer than this to the one before are the same one, mm.
+const NEAREST_MM: f64 = 1e-7;
 /// Halvings of the tolerance at one number of pieces.
 const EVENING_STEPS: u32 = 12;
 /// Largest bulge: half a circle. Programs that read arcs disagree on longer ones.
@@ -60,7 +62,7 @@ impl ArcPath {
     /// Fewer than two points.
     pub fn fit(points_mm: &[DVec2], is_closed: bool, tolerance_mm: f64, pieces: PathPieces) -> Self {
         assert!(points_mm.len() >= 2, "a chain has a beginning and an end");
-        let mut chain = distinct(points_mm, is_closed);
+        let mut chain = distinct(points_mm, is_closed, NEAREST_MM);
         let mut corners: Vec<usize> = (0..chain.len()).filter(|&i| is_corner(&chain, i, is_closed)).collect();
         if is_closed {
             // From corner to corner, and round to the first one.
@@ -117,11 +119,11 @@ impl ArcPath {
     }
 }
 
-/// The chain without points that repeat the one before; a closed one does not repeat its first point either.
-pub fn distinct(points_mm: &[DVec2], is_closed: bool) -> Vec<DVec2> {
+/// The chain without points nearer than `nearest_mm` to the one before; a closed one does not repeat its first either.
+pub fn distinct(points_mm: &[DVec2], is_closed: bool, nearest_mm: f64) -> Vec<DVec2> {
     let mut chain = points_mm.to_vec();
-    chain.dedup_by(|later, kept| later.distance(*kept) < 1e-7);
-    if is_closed && chain.len() > 2 && chain[0].distance(chain[chain.len() - 1]) < 1e-7 {
+    chain.dedup_by(|later, kept| later.distance(*kept) < nearest_mm);
+    if is_closed && chain.len() > 2 && chain[0].distance(chain[chain.len() - 1]) < nearest_mm {
         chain.pop();
     }
     chain

@@ -29,6 +29,8 @@ const CORNER_RAD: f64 = 0.2;
 const CORNER_STEP_RAD: f64 = 0.04;
 /// Share of the tolerance by which chords of the chain may come nearer than d.
 const CHORD_SHARE: f64 = 0.1;
+/// Points nearer to the one before than this share of the tolerance are left out.
+const NEAREST_SHARE: f64 = 0.1;
 /// Places at which a program is judged are so far apart, mm.
 const JUDGED_MM: f64 = 0.01;
 /// Both radii of an arc agree to this, mm; LinuxCNC allows a thousand times as much.
@@ -74,8 +76,8 @@ impl WireProgram {
     /// A profile that the wire cannot follow, with the place.
     pub fn new(gear: &dyn CylindricalGear, chain_mm: &[DVec2], wish: &WireWish) -> Result<Self, Refusal> {
         let blank = gear.blank();
-        // Parts of the profile end where the next ones begin, but for rounding, which has any direction.
-        let mut chain = distinct(chain_mm, true);
+        // Flanks end where fillets begin, but for some hundredths of a micrometre, which have any direction.
+        let mut chain = distinct(chain_mm, true, NEAREST_SHARE * wish.tolerance_mm);
         let outline = TargetOutline::new(chain.clone(), blank.back);
         let first = nearest(&chain, tip_middle_mm(gear));
         chain.rotate_left(first);

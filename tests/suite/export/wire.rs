@@ -34,6 +34,7 @@ fn a_wire_runs_round_the_profile_at_its_distance() {
     for (name, scene, more) in [
         ("round", "scenes/shaping/circular_m3_z24.toml", &[][..]),
         ("undercut", "scenes/shaping/circular_m3_z24.toml", &["--set", "gear.teeth=10"]),
+        ("oval", "scenes/shaping/elliptical_normal.toml", &[]),
         ("ring", "scenes/shaping/internal_circle.toml", &[]),
         ("hobbed", "scenes/hobbing/circular_spur.toml", &[]),
     ] {
