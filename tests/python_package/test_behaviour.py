@@ -25,8 +25,8 @@ def test_a_scene_is_a_mapping_a_text_a_path_or_a_folder(
     settings = {"gear.teeth": np.int64(13), "gear.module_mm": np.float64(2.5), "operation.finish.name": "last"}
     set_ = gearcut.Scene(gear, settings)
     assert (set_.teeth, set_.module_mm, set_.operations) == (13, 2.5, ["rough", "last"])
-    settings = ["gear.teeth=13", "gear.module_mm=2.5", 'operation.finish.name="last"']
-    assert set_.toml == gearcut.Scene(gear, settings).toml
+    words = ["gear.teeth=13", "gear.module_mm=2.5", 'operation.finish.name="last"']
+    assert set_.toml == gearcut.Scene(gear, words).toml
     assert gearcut.Scene(gear).with_settings({"gear.teeth": 13}).teeth == 13
     assert found.folder is not None and gearcut.Scene(found.folder).teeth == 12
     with pytest.raises(TypeError, match="not one text"):
