@@ -99,6 +99,7 @@
 //! - [`influence`]: what errors of the machine do to a gear, and which errors a measured gear shows
 //! - [`export`]: sections, points and programs for other people's programs
 //! - [`scatter`]: how gears of one scene scatter, layer by layer of errors
+//! - [`study`]: many scenes that differ in a few keys, one row of quantities each
 //! - [`library`]: the few items that other programs need
 //! - [`compare`]: results side by side
 //! - [`bench`]: how fast the kernels are on a machine
@@ -155,6 +156,8 @@ pub mod scatter;
 pub mod scene;
 #[doc(hidden)]
 pub mod steps;
+#[doc(hidden)]
+pub mod study;
 #[doc(hidden)]
 pub mod surface;
 #[doc(hidden)]

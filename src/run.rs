@@ -15,12 +15,12 @@ use crate::output::progress::{Progress, ProgressMode};
 use crate::process::{CutDone, ProcessJob};
 use crate::scene::LoadedScene;
 use crate::steps::backend_trial::BackendTrial;
-use crate::steps::parts::Parts;
+use crate::steps::parts::{Parts, Stages};
 use crate::steps::summary::Summary;
 use crate::steps::{Tools, record};
 use gearcut_core::cut::Backend;
 use gearcut_core::cut::cpu::Cpu;
-use gearcut_core::error::Result;
+use gearcut_core::error::{Error, Result};
 use std::path::Path;
 
 /// A finished run.
@@ -46,6 +46,7 @@ pub struct Run<'a> {
     progress: Option<&'a Progress>,
     interrupt: Interrupt,
     parts: Parts,
+    stages: Stages,
     frames: Option<u32>,
 }
 
@@ -53,7 +54,7 @@ impl<'a> Run<'a> {
     /// A run of a scene that was made ready, on a backend; [`crate::Job::run`] has all three.
     pub fn new(scene: &'a LoadedScene, prepared: &'a dyn ProcessJob, choice: &'a Choice) -> Self {
         let (interrupt, parts) = (Interrupt::default(), Parts::all());
-        Self { scene, prepared, choice, progress: None, interrupt, parts, frames: None }
+        Self { scene, prepared, choice, progress: None, interrupt, parts, stages: Stages::ALL, frames: None }
     }
 
     /// Shows steps, time left and notes.
@@ -74,10 +75,37 @@ impl<'a> Run<'a> {
         Self { parts, ..self }
     }
 
+    /// Makes these measurements beside those of flanks and chips.
+    #[must_use]
+    pub fn stages(self, stages: Stages) -> Self {
+        Self { stages, ..self }
+    }
+
     /// Draws so many pictures of the cut as it happens.
     #[must_use]
     pub fn frames(self, frames: Option<u32>) -> Self {
         Self { frames, ..self }
+    }
+
+    /// Cuts and measures, and keeps no file. A GPU that nobody asked for by name is not tried.
+    ///
+    /// # Errors
+    /// Geometry, the backend, the folder of temporary files. Ctrl-C is no error once a flank is finished.
+    pub fn found(self) -> Result<Findings> {
+        let scratch = tempfile::tempdir().map_err(Error::writing(std::env::temp_dir()))?;
+        let (native, quiet) = (Cpu::default(), Progress::new(ProgressMode::Quiet));
+        let tools = Tools {
+            resolved: "",
+            backend: if self.choice.on_trial { &native } else { self.choice.backend.as_ref() },
+            backend_why: &self.choice.why,
+            progress: self.progress.unwrap_or(&quiet),
+            interrupt: &self.interrupt,
+            folder: &OutputFolder::create(&scratch.path().join("run"))?,
+            parts: Parts::of([]),
+            stages: self.stages,
+            notes: &[],
+        };
+        Ok(self.prepared.cut(&tools, None)?.findings)
     }
 
     /// Cuts and writes everything into `out`, which is opened before the work begins, so that a bad path fails at once.
@@ -85,7 +113,7 @@ impl<'a> Run<'a> {
     /// # Errors
     /// Geometry, the backend, files. Ctrl-C is no error once a flank is finished.
     pub fn into_folder(self, out: &Path) -> Result<Done> {
-        let Self { scene, prepared, choice, progress, interrupt, parts, frames } = self;
+        let Self { scene, prepared, choice, progress, interrupt, parts, stages, frames } = self;
         let quiet = Progress::new(ProgressMode::Quiet);
         let progress = progress.unwrap_or(&quiet);
         let mut trial = None;
@@ -121,6 +149,7 @@ impl<'a> Run<'a> {
             interrupt: &interrupt,
             folder: &folder,
             parts,
+            stages,
             notes: &notes,
         };
         let written = || -> Result<CutDone> {

@@ -6,13 +6,12 @@
 //! which makes [`findings()`] once; terminal, `results.json`, tables and page ([`page`]) show those.
 //!
 //! A gear is prepared for each seed as a scene with that seed, so that a row is what `gearcut cut` would find with
-//! `--set machine.errors.seed=...`. Rows are kept as they are found ([`rows`], [`folder`]): a run that was killed goes
-//! on where it ended.
+//! `--set machine.errors.seed=...`. Rows are kept as they are found ([`rows`]): a run that was killed goes on where it
+//! ended.
 //!
 //! Road not taken: whole gears. A flank with its texture takes a hundredth of the time, and two hundred gears a night.
 
 mod findings;
-pub mod folder;
 pub mod layers;
 pub(crate) mod notices;
 pub mod numbers;

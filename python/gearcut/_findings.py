@@ -259,7 +259,8 @@ class Findings(Mapping[str, Quantity]):
     def _repr_html_(self) -> str:
         shown = (self._quantities[key] for key in self.headline)
         rows = "".join(
-            f"<tr title='{escape(of.definition, quote=True)}'><td>{escape(of.title)}</td><td>{escape(of.words)}</td></tr>"
+            f"<tr title='{escape(of.definition, quote=True)}'><td>{escape(of.title)}</td>"
+            f"<td>{escape(of.words)}</td></tr>"
             for of in shown
         )
         notices = "".join(f"<li>{escape(str(notice))}</li>" for notice in self.notices)
@@ -272,7 +273,8 @@ class Findings(Mapping[str, Quantity]):
             return ""
         from base64 import b64encode
 
-        return f"<br><img width='400' alt='the gear' src='data:image/png;base64,{b64encode(drawn.read_bytes()).decode()}'>"
+        picture = b64encode(drawn.read_bytes()).decode()
+        return f"<br><img width='400' alt='the gear' src='data:image/png;base64,{picture}'>"
 
 
 def read(folder: str | os.PathLike[str]) -> Findings:

@@ -9,7 +9,7 @@ from contextlib import contextmanager
 from typing import Any, Union
 
 ProgressLike = Union[None, bool, Callable[[Mapping[str, Any]], object]]
-"""``True`` for a bar, or a callable that takes every event: ``{"event": "progress", "step": "cut", "done": 3, ...}``."""
+"""``True`` for a bar, or a callable that takes events: ``{"event": "progress", "step": "cut", "done": 3, ...}``."""
 
 
 @contextmanager

@@ -117,7 +117,8 @@ class Scene:
         return f"<gearcut.Scene {self.name}: {self.process}, {self.teeth} teeth, module {self.module_mm:g} mm>"
 
     def _repr_html_(self) -> str:
-        return f"<b>{escape(repr(self)[1:-1])}</b><details><summary>scene</summary><pre>{escape(self.toml)}</pre></details>"
+        text = f"<details><summary>scene</summary><pre>{escape(self.toml)}</pre></details>"
+        return f"<b>{escape(repr(self)[1:-1])}</b>{text}"
 
 
 def plain(value: Any) -> Any:

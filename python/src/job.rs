@@ -3,7 +3,7 @@
 use crate::failure;
 use crate::flank::{arrays, side_named};
 use crate::scene::NativeScene;
-use crate::waiting::{Watch, waited};
+use crate::waiting::{EventWatch, waited};
 use gearcut::backend::{BackendWish, OnFailure, choose};
 use gearcut::findings::Notice;
 use gearcut::interrupt::Interrupt;
@@ -121,7 +121,7 @@ impl NativeJob {
     ) -> PyResult<(PathBuf, String, String)> {
         let parts = parts(only)?;
         let interrupt = Interrupt::default();
-        let watch = Watch::new(watcher, &interrupt);
+        let watch = EventWatch::new(watcher, &interrupt);
         let (cut, raised) = waited(py, &interrupt, || {
             let run = self.job.run().show(&watch.progress).until(&interrupt).only(parts).frames(frames);
             let done = run.into_folder(&out)?;

@@ -2,7 +2,7 @@
 
 use crate::failure;
 use crate::scene::NativeScene;
-use crate::waiting::{Watch, waited};
+use crate::waiting::{EventWatch, waited};
 use gearcut::cut::Backend;
 use gearcut::cut::cpu::Cpu;
 use gearcut::interrupt::Interrupt;
@@ -26,7 +26,7 @@ pub fn pair(
 ) -> PyResult<String> {
     let options = of_dict(options)?;
     let interrupt = Interrupt::default();
-    let watch = Watch::new(watcher, &interrupt);
+    let watch = EventWatch::new(watcher, &interrupt);
     let (a, b) = (&a.loaded, &b.loaded);
     let (found, raised) = waited(py, &interrupt, || -> Result<Findings> {
         let scenes = [&a.scene, &b.scene];

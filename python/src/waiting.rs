@@ -44,13 +44,13 @@ pub fn waited<T: Send>(py: Python<'_>, interrupt: &Interrupt, work: impl FnOnce(
 }
 
 /// A callable of Python that takes every event as the text of a JSON object, and what it has raised.
-pub struct Watch {
+pub struct EventWatch {
     /// Where the work reports.
     pub progress: Progress,
     raised: Arc<Mutex<Option<PyErr>>>,
 }
 
-impl Watch {
+impl EventWatch {
     /// Reports to a callable, or to nobody. What the callable raises ends the work.
     pub fn new(watcher: Option<Py<PyAny>>, interrupt: &Interrupt) -> Self {
         let raised = Arc::new(Mutex::new(None));

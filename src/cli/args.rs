@@ -5,6 +5,7 @@ mod export;
 mod pairs;
 mod reading;
 mod shared;
+mod studies;
 mod texture;
 
 use std::path::PathBuf;
@@ -20,6 +21,7 @@ pub use export::{ExportArguments, LengthUnitChoice};
 pub use pairs::{ContactArguments, FlankChoice, PairArguments};
 pub use reading::{AxisChoice, ReadingArguments};
 pub use shared::{BackendChoice, ComputeArguments, GpuFailureChoice, RunArguments, SceneArguments, VerdictArguments};
+pub use studies::{CasesArguments, StudyArguments, SweepArguments};
 pub use texture::{FilterArguments, LineArguments, LineFormChoice, ProfileChoice, TextureArguments};
 
 /// The whole command line.
@@ -180,6 +182,23 @@ pub enum Command {
         scatter.csv with median, 5 % and 95 % of each number. A row is written as soon as its gear is done: after a \
         kill or Ctrl-C the same command goes on. See docs/errors.md.")]
     Scatter(ScatterArguments),
+    /// Make many scenes that differ in a few keys, one row of quantities each.
+    #[command(after_help = "Example:\n  \
+        gearcut study studies/finishing_feed.toml\n  \
+        gearcut study studies/axes_of_ovals.toml --shard 2/8\n\n\
+        Writes a folder (out/<study>_study unless --out is given) that grows while it runs: rows.csv with a row for \
+        every case, its parameters and the quantities that the study keeps, units in the heads; columns.csv with \
+        unit and definition of every column. A case that cannot be made is a row with the reason. After Ctrl-C or a \
+        kill the same command goes on with the cases that are missing. Shares of the cases go to folders of their own; \
+        their rows together are those of the whole. The file: docs/studies.md.")]
+    Study(StudyArguments),
+    /// Make a scene with many values of some keys, one row of quantities each: a study without a file.
+    #[command(after_help = "Example:\n  \
+        gearcut sweep scenes/shaping/circular_m3_z24.toml --draft --grid tool.shaper_cutter.teeth=20,26,34 \\\n      \
+        --range 'operation.finish.strokes_per_revolution=600..4800/4 log' --keep scallop_height,F_alpha\n\n\
+        Writes what `gearcut study` writes, to out/<scene>_study. Of several keys every combination is a case; those \
+        of --grid come first, and the last one changes fastest.")]
+    Sweep(SweepArguments),
     /// Rank the errors of the machine: which micrometre or arc second costs what on the gear.
     #[command(after_help = "Example:\n  \
         gearcut budget scenes/shaping/circular_m3_z24.toml\n  \

@@ -56,9 +56,9 @@ impl Failure {
     }
 
     /// A run that Ctrl-C ended early and that goes on where it ended.
-    pub fn to_go_on(out: &Path, done: usize, all: usize) -> Self {
+    pub fn to_go_on(out: &Path, [done, all]: [u64; 2], what: &str) -> Self {
         let text =
-            format!("stopped by Ctrl-C: {done} of {all} gears are in {}; the same command goes on", out.display());
+            format!("stopped by Ctrl-C: {done} of {all} {what} are in {}; the same command goes on", out.display());
         Self { text, code: INTERRUPTED_EXIT_CODE }
     }
 

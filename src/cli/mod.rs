@@ -22,6 +22,7 @@ mod new;
 mod pair;
 mod print;
 mod scatter;
+mod study;
 mod texture;
 mod threads;
 
@@ -56,6 +57,8 @@ pub fn run(arguments: CommandLine) -> ExitCode {
         Command::Pair(arguments) => pair::run(&arguments),
         Command::Contact(arguments) => contact::run(&arguments),
         Command::Scatter(arguments) => scatter::run(&arguments),
+        Command::Study(arguments) => study::study(&arguments),
+        Command::Sweep(arguments) => study::sweep(&arguments),
         Command::Budget(arguments) => budget::run(&arguments),
         Command::Diagnose(arguments) => diagnose::run(&arguments),
         Command::Calibrate(arguments) => calibrate::run(&arguments),

@@ -7,8 +7,8 @@ use std::path::PathBuf;
 
 use gearcut::cut::Backend;
 use gearcut::interrupt::Interrupt;
+use gearcut::output::growing_folder::GrowingFolder;
 use gearcut::output::progress::Progress;
-use gearcut::scatter::folder::ScatterFolder;
 use gearcut::scatter::layers::{cases, measure_cases};
 use gearcut::scatter::rows::{self, Rows};
 use gearcut::scatter::seeds::measure_seeds;
@@ -44,7 +44,7 @@ pub fn run(arguments: &ScatterArguments) -> Result<(), Failure> {
     let interrupt = Interrupt::listen().map_err(listening(&out))?;
     let (choice, progress) = backend::of_few_places(&arguments.run.compute, false, scene)?;
     let cutter = choice.backend.as_ref();
-    let folder = ScatterFolder::open(&out, record(&loaded, flank, tolerances, &cutter.name_in_files()))?;
+    let folder = GrowingFolder::open(&out, record(&loaded, flank, tolerances, &cutter.name_in_files()))?;
     let watch = (&progress, &interrupt);
     let of_scene = |error| Failure::of_scene(&loaded, error);
     let cases = measure_cases(scene, cases(&layers), flank, cutter, watch).map_err(of_scene)?;
@@ -56,8 +56,8 @@ pub fn run(arguments: &ScatterArguments) -> Result<(), Failure> {
     };
     let done = rows.range(..=gears.unwrap_or(0)).count();
     if let Some(gears) = gears.filter(|&gears| done < gears as usize) {
-        rows::write(&folder.rows(), &rows)?;
-        return Err(Failure::to_go_on(&out, done, gears as usize));
+        rows::write(&folder.path().join(rows::FILE), &rows)?;
+        return Err(Failure::to_go_on(&out, [done as u64, gears.into()], "gears"));
     }
     let mut unfollowed = Vec::new();
     let job = process::prepare(scene).map_err(of_scene)?;
@@ -79,10 +79,10 @@ fn seeds(
     arguments: &ScatterArguments,
     gears: u32,
     (flank, backend): (FlankWish, &dyn Backend),
-    folder: &ScatterFolder,
+    folder: &GrowingFolder,
     watch: (&Progress, &Interrupt),
 ) -> Result<Rows, Error> {
-    let (file, known) = rows::open(&folder.rows())?;
+    let (file, known) = rows::open(&folder.path().join(rows::FILE))?;
     let with_seed = |seed: u32| {
         let mut settings = arguments.scene.settings.clone();
         settings.push(format!("machine.errors.seed={seed}"));

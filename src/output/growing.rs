@@ -1,8 +1,9 @@
 //! Folders that grow while work of hours is done, and go on where a stopped run ended.
 //!
-//! In: rows of numbers by a key, as they are found. Out: those that are there already. A row is one line, written at
-//! once and forced to the disk; what a kill leaves is at most one line without its end, which is cut off before the
-//! next one is written. The folder has a run record that says it is not complete, so that the next run may replace it.
+//! In: lines as they are found, such as rows of numbers by a key. Out: those that are there already. A line is written
+//! at once, so that a kill does not take it, and forced to the disk every second, so that a power cut takes no more.
+//! What a kill leaves is at most one line without its end, which is cut off before the next one is written. The folder
+//! has a run record that says it is not complete, so that the next run may replace it.
 //!
 //! Who writes there holds the lock of an [`super::folder::OutputFolder`] of the same name.
 
@@ -18,6 +19,10 @@ use std::marker::PhantomData;
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 use std::sync::{Mutex, PoisonError};
+use std::time::{Duration, Instant};
+
+/// Between two moments at which lines are forced to the disk.
+const FORCED_EVERY: Duration = Duration::from_secs(1);
 
 /// Numbers of a row; those that do not exist are none.
 pub type RowValues = Vec<Option<f64>>;
@@ -61,9 +66,11 @@ impl RowKind {
     /// # Errors
     /// The file cannot be written.
     pub fn write<K: Display>(&self, path: &Path, rows: &KeyedRows<K>) -> Result<()> {
-        let lines = rows.iter().map(|(key, values)| line(key, values));
-        let text: String = std::iter::once(self.header.clone() + "\n").chain(lines).collect();
-        write_bytes_atomically(path, text.as_bytes())
+        write_lines(path, &self.first_line(), rows.iter().map(|(key, values)| line(key, values)))
+    }
+
+    fn first_line(&self) -> String {
+        self.header.clone() + "\n"
     }
 }
 
@@ -80,11 +87,62 @@ fn line<K: Display>(key: &K, values: &RowValues) -> String {
     line + "\n"
 }
 
+/// Lines of a file that is being added to; the first one says what the others are. All have their ends.
+#[derive(Debug)]
+pub struct LineFile {
+    path: PathBuf,
+    /// The file, and when it was last forced to the disk.
+    file: Mutex<(File, Instant)>,
+}
+
+impl LineFile {
+    /// First line and the others of a file; `None`: there is none.
+    ///
+    /// # Errors
+    /// A file that cannot be read.
+    pub fn read(path: &Path) -> Result<Option<(String, Vec<String>)>> {
+        let text = if path.exists() { fs::read_to_string(path).map_err(Error::reading(path))? } else { String::new() };
+        let mut lines = text.split_inclusive('\n').filter(|line| line.ends_with('\n')).map(str::to_owned);
+        Ok(lines.next().map(|first| (first, lines.collect())))
+    }
+
+    /// Writes the lines that are known, and opens the file for more.
+    ///
+    /// # Errors
+    /// A file that cannot be written.
+    pub fn create(path: &Path, first: &str, lines: impl IntoIterator<Item = impl AsRef<str>>) -> Result<Self> {
+        write_lines(path, first, lines)?;
+        let file = OpenOptions::new().append(true).open(path).map_err(Error::writing(path))?;
+        Ok(Self { path: path.to_owned(), file: Mutex::new((file, Instant::now())) })
+    }
+
+    /// Adds a line.
+    ///
+    /// # Errors
+    /// The file cannot be written.
+    pub fn add(&self, line: &str) -> Result<()> {
+        let mut guard = self.file.lock().unwrap_or_else(PoisonError::into_inner);
+        let (file, forced) = &mut *guard;
+        file.write_all(line.as_bytes()).map_err(Error::writing(&self.path))?;
+        if forced.elapsed() >= FORCED_EVERY {
+            file.sync_data().map_err(Error::writing(&self.path))?;
+            *forced = Instant::now();
+        }
+        Ok(())
+    }
+}
+
+/// Writes a file of lines, completely or not at all.
+fn write_lines(path: &Path, first: &str, lines: impl IntoIterator<Item = impl AsRef<str>>) -> Result<()> {
+    let mut text = first.to_owned();
+    lines.into_iter().for_each(|line| text.push_str(line.as_ref()));
+    write_bytes_atomically(path, text.as_bytes())
+}
+
 /// A file of rows that is being added to.
 #[derive(Debug)]
 pub struct RowFile<K> {
-    path: PathBuf,
-    file: Mutex<File>,
+    lines: LineFile,
     key: PhantomData<fn(K)>,
 }
 
@@ -94,19 +152,17 @@ impl<K: Display + FromStr + Ord> RowFile<K> {
     /// # Errors
     /// A file that cannot be read or written, or is another one.
     pub fn open(path: &Path, kind: &RowKind) -> Result<(Self, KeyedRows<K>)> {
-        let text = if path.exists() { fs::read_to_string(path).map_err(Error::reading(path))? } else { String::new() };
-        let mut lines = text.split_inclusive('\n');
         let mut rows = KeyedRows::new();
-        if let Some(first) = lines.next() {
-            if first.trim_end() != kind.header {
+        if let Some((first, lines)) = LineFile::read(path)? {
+            if first != kind.first_line() {
                 let reason = "its columns are not those of this version; choose another folder with --out".to_owned();
                 return Err(Error::Output { path: path.to_owned(), reason });
             }
-            rows.extend(lines.filter_map(|line| kind.parse(line.strip_suffix('\n')?)));
+            rows.extend(lines.iter().filter_map(|line| kind.parse(line.trim_end_matches('\n'))));
         }
-        kind.write(path, &rows)?;
-        let file = OpenOptions::new().append(true).open(path).map_err(Error::writing(path))?;
-        Ok((Self { path: path.to_owned(), file: Mutex::new(file), key: PhantomData }, rows))
+        let known = rows.iter().map(|(key, values)| line(key, values));
+        let lines = LineFile::create(path, &kind.first_line(), known)?;
+        Ok((Self { lines, key: PhantomData }, rows))
     }
 
     /// Adds a row.
@@ -114,8 +170,6 @@ impl<K: Display + FromStr + Ord> RowFile<K> {
     /// # Errors
     /// The file cannot be written.
     pub fn add(&self, key: &K, values: &RowValues) -> Result<()> {
-        let mut file = self.file.lock().unwrap_or_else(PoisonError::into_inner);
-        let written = file.write_all(line(key, values).as_bytes()).and_then(|()| file.sync_data());
-        written.map_err(Error::writing(&self.path))
+        self.lines.add(&line(key, values))
     }
 }

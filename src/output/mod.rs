@@ -41,6 +41,8 @@ pub mod folder;
 mod font;
 #[doc(hidden)]
 pub mod growing;
+#[doc(hidden)]
+pub mod growing_folder;
 mod heat;
 #[doc(hidden)]
 pub mod inspection_sheet;

@@ -80,6 +80,12 @@ pub trait ProcessJob: Send + Sync {
         prepare(scene)
     }
 
+    /// Peaks of the axes against their limits, and what must be known of them; nothing is written.
+    ///
+    /// # Errors
+    /// Motion that leads to no pose.
+    fn axis_peaks(&self) -> Result<Findings>;
+
     /// Writes axis tables, charts and programs, and says what the axes do; gives what must be known before they are
     /// used.
     ///

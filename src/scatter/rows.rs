@@ -5,6 +5,9 @@ use crate::output::growing::{KeyedRows, RowFile, RowKind};
 use gearcut_core::error::Result;
 use std::path::Path;
 
+/// Name of the file in its folder.
+pub const FILE: &str = "seeds.csv";
+
 /// Rows by seed.
 pub type Rows = KeyedRows<u32>;
 /// A file of rows that is being added to.

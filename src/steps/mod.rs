@@ -43,7 +43,7 @@ use gearcut_core::cut::{Backend, CutStats};
 use gearcut_core::error::{Error, Result};
 use gearcut_core::terms::Side;
 use meshes::ClosedBodies;
-use parts::{Part, Parts};
+use parts::{Part, Parts, Stages};
 use pictures::flank::PicturedFlanks;
 use std::time::Duration;
 
@@ -119,6 +119,8 @@ pub struct Tools<'a> {
     pub folder: &'a OutputFolder,
     /// What is written beyond the numbers.
     pub parts: Parts,
+    /// What is measured.
+    pub stages: Stages,
     /// Scene and program, for the heads of files.
     pub notes: &'a [(String, String)],
 }

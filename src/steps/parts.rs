@@ -45,6 +45,29 @@ impl Part {
     }
 }
 
+/// Measurements of a run that can be left out where nobody asks for their numbers.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Stages {
+    /// Texture windows.
+    pub texture: bool,
+    /// Rays through the whole blank; only shaped gears, whose chips do not come from there, can do without.
+    pub blank: bool,
+}
+
+impl Stages {
+    /// Every one.
+    pub const ALL: Self = Self { texture: true, blank: true };
+
+    /// Those that quantities at these paths need.
+    pub fn of_paths(paths: &[String]) -> Self {
+        let asks = |sections: &[&str]| {
+            let first = |path: &String| path.split_once('.').map(|(section, _)| section.to_owned());
+            paths.iter().filter_map(first).any(|section| sections.contains(&section.as_str()))
+        };
+        Self { texture: asks(&["texture", "roughness", "marks"]), blank: asks(&["blank"]) }
+    }
+}
+
 /// A choice of parts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Parts {

@@ -22,5 +22,6 @@ mod posts;
 mod program;
 mod scene;
 mod shaping;
+mod study;
 mod texture;
 mod tools;

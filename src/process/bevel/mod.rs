@@ -33,7 +33,7 @@ mod stage_costs;
 mod surfaces;
 
 use super::{CutDone, Process};
-use crate::findings::Notice;
+use crate::findings::{Findings, Notice};
 use crate::interrupt::Interrupt;
 use crate::job::GearJob;
 use crate::output::folder::OutputFolder;
@@ -66,6 +66,12 @@ impl super::ProcessJob for BevelJob {
 
     fn with_gear(&self, visit: &mut dyn FnMut(&dyn GearJob) -> Result<()>) -> Result<()> {
         visit(self)
+    }
+
+    fn axis_peaks(&self) -> Result<Findings> {
+        let motion = BevelAxesReport::of_job(self);
+        let foreseen = findings::foresee(self, &motion)?;
+        Ok(axes::found(&self.scene, &motion, foreseen.warnings))
     }
 
     fn axes(&self, folder: &OutputFolder, interrupt: &Interrupt, sheet: &mut Sheet) -> Result<Vec<Notice>> {

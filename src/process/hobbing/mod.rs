@@ -28,7 +28,7 @@ mod surfaces;
 pub mod warnings;
 
 use super::{CutDone, Process, ProcessJob};
-use crate::findings::Notice;
+use crate::findings::{Findings, Notice};
 use crate::interrupt::Interrupt;
 use crate::job::GearJob;
 use crate::output::folder::OutputFolder;
@@ -70,6 +70,12 @@ impl ProcessJob for HobbingJob {
 
     fn with_errors_of(&self, scene: &Scene) -> Result<Box<dyn ProcessJob>> {
         Ok(Box::new(self.sharing_targets(scene)?))
+    }
+
+    fn axis_peaks(&self) -> Result<Findings> {
+        let motion = HobbingAxesReport::of_job(self);
+        let foreseen = foreseen::foresee(&HobCutter::new(self)?, &motion)?;
+        Ok(axes::found(&self.scene, &motion, foreseen.warnings))
     }
 
     fn axes(&self, folder: &OutputFolder, interrupt: &Interrupt, sheet: &mut Sheet) -> Result<Vec<Notice>> {

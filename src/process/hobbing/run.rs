@@ -32,12 +32,12 @@ use rayon::prelude::*;
 /// # Errors
 /// Geometry, the backend, files. Ctrl-C is no error once a flank is finished.
 pub(super) fn run(job: &HobbingJob, tools: &Tools) -> Result<CutDone> {
-    let Tools { resolved, backend, backend_why, progress, interrupt, folder, parts, notes } = *tools;
+    let Tools { resolved, backend, backend_why, progress, interrupt, folder, parts, stages: wanted, notes } = *tools;
     let cutter = HobCutter::new(job)?;
     progress.plan(stages::plan(&cutter, parts, None, &STAGE_COSTS));
     let motion = HobbingAxesReport::of_job(job);
     let foreseen = foresee(&cutter, &motion)?;
-    let windows = &foreseen.windows;
+    let windows = if wanted.texture { foreseen.windows.as_slice() } else { &[] };
     let mut gear = cut_gear(&cutter, backend, progress, interrupt, Some((folder, notes, parts)))?;
     let mut attempts = Attempts::new(progress);
     let textures = texture::measure(&cutter, windows, backend, progress, interrupt);

@@ -8,7 +8,7 @@ use super::chips::deflections;
 use super::foreseen::foresee;
 use super::section::CutSection;
 use super::{ShapingJob, check, run};
-use crate::findings::Notice;
+use crate::findings::{Findings, Notice};
 use crate::interrupt::Interrupt;
 use crate::job::GearJob;
 use crate::output::folder::OutputFolder;
@@ -70,6 +70,12 @@ impl ProcessJob for PreparedShaping {
 
     fn with_errors_of(&self, scene: &Scene) -> Result<Box<dyn ProcessJob>> {
         Ok(Box::new(Self::new(self.rigid.with_errors_of(scene.clone())?)))
+    }
+
+    fn axis_peaks(&self) -> Result<Findings> {
+        let motion = OperationAxes::of_job(&self.rigid);
+        let foreseen = foresee(&self.rigid, &motion)?;
+        Ok(axes::found(&self.rigid.scene, &motion, foreseen.warnings))
     }
 
     fn axes(&self, folder: &OutputFolder, interrupt: &Interrupt, sheet: &mut Sheet) -> Result<Vec<Notice>> {

@@ -30,7 +30,7 @@ use std::mem::take;
 /// # Errors
 /// Geometry, the backend, files. Ctrl-C is no error once a flank is finished.
 pub(super) fn run(job: &ShapingJob, tools: &Tools, frames: Option<u32>) -> Result<CutDone> {
-    let Tools { resolved, backend, backend_why, progress, interrupt, folder, parts, notes } = *tools;
+    let Tools { resolved, backend, backend_why, progress, interrupt, folder, parts, stages: wanted, notes } = *tools;
     progress.plan(stages::plan(job, parts, frames, &STAGE_COSTS));
     let motion = OperationAxes::of_job(job);
     let foreseen = foresee(job, &motion)?;
@@ -39,11 +39,13 @@ pub(super) fn run(job: &ShapingJob, tools: &Tools, frames: Option<u32>) -> Resul
         return Err(Error::Interrupted);
     }
     let mut attempts = Attempts::new(progress);
-    let textures = texture::measure(job, &foreseen.windows, backend, progress, interrupt);
+    let windows = if wanted.texture { foreseen.windows.as_slice() } else { &[] };
+    let textures = texture::measure(job, windows, backend, progress, interrupt);
     let textures = attempts.of("texture", textures)?.unwrap_or_default();
-    let blank = if gear.work.interrupted { Ok(None) } else { blank::cut(job, backend, progress, interrupt) };
+    let cut_blank = wanted.blank && !gear.work.interrupted;
+    let blank = if cut_blank { blank::cut(job, backend, progress, interrupt) } else { Ok(None) };
     let blank = attempts.of("whole blank", blank)?;
-    let mut interrupted = matches!(blank, Some(None));
+    let mut interrupted = wanted.blank && matches!(blank, Some(None));
     let whole = blank.flatten();
     let mut sections = findings::sections(job, &gear.report, &gear.chips, &motion)?;
     let inspected = Inspected::new(job, &gear.report.flanks, &gear.report.inspection)?;

@@ -17,8 +17,9 @@ pub use table::{positions, rates};
 
 use crate::findings::notices::NoProgram;
 use crate::findings::quantities::OPERATIONS;
+use crate::findings::quantities::cutting::{AXIS_MARGIN, NO_LIMITS};
 use crate::findings::table::CSV;
-use crate::findings::{Findings, Notice, Severity, Table};
+use crate::findings::{Findings, Notice, Section, Severity, Table};
 use crate::interrupt::Interrupt;
 use crate::machine::{Peak, smallest_margin};
 use crate::output::atomic::write_bytes_atomically;
@@ -28,6 +29,7 @@ use crate::output::line_chart::LineChart;
 use crate::output::report::{Block, PageSection, Tone};
 use crate::output::table::write_table;
 use crate::output::text::Sheet;
+use crate::scene::Scene;
 use crate::steps::report::peak_table;
 use gearcut_core::error::Result;
 
@@ -96,6 +98,15 @@ pub fn warnings<O: AxesOfOperation>(operations: &[O]) -> Vec<Notice> {
         peaks::exceeded(operation).chain(operation.own_warnings()).chain(left_out).collect()
     };
     operations.iter().flat_map(of).collect()
+}
+
+/// What is found of the axes alone: peaks of every operation under the paths that a cut has them at, and the smallest
+/// margin in the headline.
+pub fn found<O: AxesOfOperation>(scene: &Scene, operations: &[O], warnings: Vec<Notice>) -> Findings {
+    let sections = operations.iter().map(|of| Section::new(of.name(), of.linkage_words()).part(findings(of)));
+    let all = OPERATIONS.section([]).parts(sections);
+    let margin = AXIS_MARGIN.of_or(margin(operations), NO_LIMITS);
+    Findings::new(scene.process_name(), &scene.name, true, [margin], warnings, vec![all])
 }
 
 /// Writes tables and charts of the motion into the folder's `axes/`.

@@ -18,7 +18,7 @@ use gearcut::scene::Scene;
 use gearcut::scene::model::{Picture, PictureColour, PictureView};
 use gearcut::steps::attempts::Attempts;
 use gearcut::steps::cut_flanks::{CutFlank, CutFlanks, cut_flanks, dexels_of};
-use gearcut::steps::parts::Parts;
+use gearcut::steps::parts::{Parts, Stages};
 use gearcut::steps::report::PageGear;
 use gearcut::steps::view_mesh::{ViewFlank, ViewMesh};
 use gearcut::steps::{Tools, pictures, report, sheets};
@@ -242,6 +242,7 @@ fn files_pictures_page_and_texture_ask_for_no_pitch_curve() {
         interrupt: &interrupt,
         folder: &folder,
         parts: Parts::all(),
+        stages: Stages::ALL,
         notes: &notes,
     };
     let done = cut(&job, Some(&tools));

@@ -1,4 +1,4 @@
-//! The folder of gears that are cut one after the other: it goes on where the last run ended.
+//! The folder of gears or scenes that are made one after the other: it goes on where the last run ended.
 //!
 //! In: its name and the record of what it holds. Out: a place for rows, and at the end everything else.
 //!
@@ -9,25 +9,22 @@
 //!
 //! Road not taken: rows under the hidden name. The next run removes what a killed one left there.
 
-use crate::output::folder::{FILES, OutputFolder, RUN_RECORD};
-use crate::output::growing::begin;
+use super::folder::{FILES, OutputFolder, RUN_RECORD};
+use super::growing::begin;
 use gearcut_core::error::{Error, Result};
 use serde_json::{Map, Value};
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// File of the rows.
-const ROWS: &str = "seeds.csv";
-
 /// A folder that grows.
 #[derive(Debug)]
-pub struct ScatterFolder {
+pub struct GrowingFolder {
     path: PathBuf,
     record: Map<String, Value>,
     hidden: OutputFolder,
 }
 
-impl ScatterFolder {
+impl GrowingFolder {
     /// Makes the folder, or takes it as an earlier run with the same record left it. The record tells program, version
     /// and command, and what the rows belong to.
     ///
@@ -49,7 +46,8 @@ impl ScatterFolder {
                 }
                 if there != record {
                     return refuse(
-                        "the folder holds gears of another scene, flank or version; choose another one with --out",
+                        "the folder holds rows of another scene, flank or version, or of other options; choose \
+                         another one with --out",
                     );
                 }
             }
@@ -58,9 +56,9 @@ impl ScatterFolder {
         Ok(Self { path: path.to_owned(), record, hidden })
     }
 
-    /// Where rows grow.
-    pub fn rows(&self) -> PathBuf {
-        self.path.join(ROWS)
+    /// Where files grow.
+    pub fn path(&self) -> &Path {
+        &self.path
     }
 
     /// Lets `write` write everything, rows included, and puts it in the place of what was there.

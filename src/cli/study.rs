@@ -1,0 +1,63 @@
+//! `gearcut study` and `gearcut sweep`: many scenes that differ in a few keys, one row of quantities each.
+
+use super::args::{CasesArguments, StudyArguments, SweepArguments};
+use super::failure::Failure;
+use super::folder::listening;
+use super::{backend, print};
+use gearcut::interrupt::Interrupt;
+use gearcut::process;
+use gearcut::scene::draft::draft_settings;
+use gearcut::study::file::{StudyFile, folder_of, read};
+use gearcut::study::{Study, StudyPlan};
+use std::path::Path;
+
+/// Runs `study`.
+pub fn study(arguments: &StudyArguments) -> Result<(), Failure> {
+    let file = read(&arguments.study, arguments.cases.most_cases)?;
+    let stem = arguments.study.file_stem().and_then(|stem| stem.to_str()).unwrap_or("study");
+    run(file, stem, &arguments.cases)
+}
+
+/// Runs `sweep`.
+pub fn sweep(arguments: &SweepArguments) -> Result<(), Failure> {
+    let listed = arguments.grid.iter().map(|of| of.0.clone());
+    let parameters = listed.chain(arguments.range.iter().map(|of| of.0.clone())).collect();
+    let sampling = (arguments.samples, arguments.design.design(), arguments.seed);
+    let file = StudyFile {
+        scene: arguments.scene.scene.clone(),
+        command: arguments.command.command(),
+        draft: arguments.draft,
+        settings: arguments.scene.settings.clone(),
+        keep: arguments.keep.clone(),
+        plan: StudyPlan::new(parameters, sampling, arguments.cases.most_cases)?,
+    };
+    let stem = arguments.scene.scene.file_stem().and_then(|stem| stem.to_str()).unwrap_or("scene");
+    run(file, stem, &arguments.cases)
+}
+
+fn run(file: StudyFile, stem: &str, arguments: &CasesArguments) -> Result<(), Failure> {
+    let StudyFile { scene: path, command, draft, settings, keep, plan } = file;
+    let base = based(&path, &settings, draft)?;
+    let shard = arguments.shard;
+    let out = arguments.out.clone().unwrap_or_else(|| folder_of(&format!("{stem}_study"), shard));
+    let interrupt = Interrupt::listen().map_err(listening(&out))?;
+    let (choice, progress) = backend::of_few_places(&arguments.compute, false, &base.scene)?;
+    let study = Study { base: &base, command, plan, keep, shard, choice: &choice };
+    let done = study.run(&out, (&progress, &interrupt))?;
+    if done.rows < done.cases {
+        return Err(Failure::to_go_on(&out, [done.rows, done.cases], "cases"));
+    }
+    let failed = if done.failed == 0 { String::new() } else { format!(", {} of them failed", done.failed) };
+    let rows = done.path.join("rows.csv");
+    Ok(print::sheet(&format!("{} cases{failed}; their rows are in {}\n", done.cases, rows.display()))?)
+}
+
+/// The scene that cases change.
+fn based(path: &Path, settings: &[String], draft: bool) -> Result<gearcut::LoadedScene, Failure> {
+    let scene = process::load(path, settings)?;
+    if !draft {
+        return Ok(scene);
+    }
+    // What the user sets comes last and wins.
+    Ok(process::load(path, &[draft_settings(&scene.scene).as_slice(), settings].concat())?)
+}

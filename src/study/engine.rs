@@ -1,0 +1,261 @@
+//! A study at work: cases on all cores, each a row on the disk as soon as it is found.
+//!
+//! In: a [`Study`]. Out: a folder with `rows.csv`, `columns.csv` and the run record. It grows under its final name
+//! ([`GrowingFolder`]): what a kill leaves is rows, and the same command goes on with the cases that are missing.
+//! At the end the rows are in the order of their cases, whatever order they were found in.
+//!
+//! The law: nothing of a row depends on time, threads or machine. What a case refuses is its row; what the machine
+//! refuses (a full disk) ends the study.
+
+use super::kept::{CaseOutcome, LAST_HEADS, cells, columns};
+use super::plan::{Shard, StudyCommand, StudyPlan};
+use crate::backend::Choice;
+use crate::findings::{Findings, TableColumn};
+use crate::interrupt::Interrupt;
+use crate::output::growing::LineFile;
+use crate::output::growing_folder::GrowingFolder;
+use crate::output::progress::Progress;
+use crate::process;
+use crate::run::Run;
+use crate::scene::{LoadedScene, SceneErrors};
+use crate::steps::parts::Stages;
+use gearcut_core::error::{Error, Refusal, Result};
+use rayon::prelude::*;
+use serde_json::{Map, Value, json};
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+/// Rows in the folder.
+const ROWS: &str = "rows.csv";
+/// What their columns are.
+const COLUMNS: &str = "columns.csv";
+/// Cases that may fail one after the other before the study itself is refused.
+const MOST_FAILURES: usize = 100;
+
+/// A study.
+pub struct Study<'a> {
+    /// The scene that cases change, settings of all cases included.
+    pub base: &'a LoadedScene,
+    /// What is done with every case.
+    pub command: StudyCommand,
+    /// The cases.
+    pub plan: StudyPlan,
+    /// Quantities that are kept, by their paths.
+    pub keep: Vec<String>,
+    /// Which of the cases are made.
+    pub shard: Shard,
+    /// What cuts.
+    pub choice: &'a Choice,
+}
+
+/// What a study has.
+#[derive(Debug)]
+pub struct StudyOutcome {
+    /// Its folder.
+    pub path: PathBuf,
+    /// Rows that there are, those of earlier runs included.
+    pub rows: u64,
+    /// Cases of the shard.
+    pub cases: u64,
+    /// Rows of cases that failed.
+    pub failed: u64,
+}
+
+/// Lines by cases.
+type Lines = BTreeMap<u64, String>;
+
+impl Study<'_> {
+    /// Makes all cases that the folder does not have yet. Ctrl-C is no error: what is finished stays, and the outcome
+    /// has fewer rows than cases.
+    ///
+    /// # Errors
+    /// A kept quantity that cases do not have; a folder of something else; cases that all fail; the machine's.
+    pub fn run(&self, out: &Path, (progress, interrupt): (&Progress, &Interrupt)) -> Result<StudyOutcome> {
+        let cases: Vec<u64> = (0..self.plan.cases()).filter(|case| self.shard.has(*case)).collect();
+        // What is wrong with all cases is said before there is a folder that would go on with it.
+        let begun = if out.join(ROWS).exists() { None } else { self.begin(&cases, interrupt)? };
+        if begun.is_none() && !out.join(ROWS).exists() {
+            return Ok(outcome(out, &Lines::new(), cases.len()));
+        }
+        let folder = GrowingFolder::open(out, self.record())?;
+        let [rows, about] = [ROWS, COLUMNS].map(|name| folder.path().join(name));
+        let (mut lines, heads) = match (LineFile::read(&rows)?, begun) {
+            (Some((heads, lines)), _) => (lines.iter().filter_map(|line| self.known(&heads, line)).collect(), heads),
+            (None, Some((lines, kept))) => {
+                self.write_columns(&about, &kept)?;
+                (lines, self.heads(&kept)?)
+            }
+            (None, None) => return Err(Error::Output { path: rows, reason: "somebody removed it".to_owned() }),
+        };
+        let file = LineFile::create(&rows, &heads, lines.values())?;
+        let missing: Vec<u64> = cases.iter().copied().filter(|case| !lines.contains_key(case)).collect();
+        let step = progress.step("cases", missing.len() as u64, self.command.name());
+        let found: Vec<Option<(u64, String)>> = missing
+            .into_par_iter()
+            .with_max_len(1)
+            .map(|case| {
+                let Some(outcome) = self.outcome_of(case, interrupt)? else { return Ok(None) };
+                let line = self.line(case, &outcome)?;
+                file.add(&line)?;
+                step.advance(1);
+                Ok(Some((case, line)))
+            })
+            .collect::<Result<_>>()?;
+        step.finish();
+        lines.extend(found.into_iter().flatten());
+        LineFile::create(&rows, &heads, lines.values())?;
+        let outcome = outcome(folder.path(), &lines, cases.len());
+        if outcome.rows < outcome.cases {
+            return Ok(outcome);
+        }
+        let finished = folder.finish(|new| {
+            for (name, path) in [(ROWS, &rows), (COLUMNS, &about)] {
+                let place = new.path(name)?;
+                std::fs::copy(path, &place).map_err(Error::writing(place))?;
+            }
+            Ok(())
+        })?;
+        Ok(StudyOutcome { path: finished, ..outcome })
+    }
+
+    /// The first cases, one after the other, until one has findings, from which the columns of what is kept follow.
+    /// Nothing after Ctrl-C.
+    fn begin(&self, cases: &[u64], interrupt: &Interrupt) -> Result<Option<(Lines, Vec<TableColumn>)>> {
+        let mut lines = Lines::new();
+        let mut first_reason = None;
+        for &case in cases.iter().take(MOST_FAILURES) {
+            let Some(outcome) = self.outcome_of(case, interrupt)? else { return Ok(None) };
+            lines.insert(case, self.line(case, &outcome)?);
+            match outcome {
+                Ok(found) => return Ok(Some((lines, columns(&found, &self.keep)?))),
+                Err(reason) => first_reason = first_reason.or(Some(format!("case {case}: {reason}"))),
+            }
+        }
+        let problem = format!("the first {} cases all fail; {}", lines.len(), first_reason.unwrap_or_default());
+        Err(Refusal::new("study", problem, "change the scene or the values of its parameters").into())
+    }
+
+    /// What a case finds, or why it cannot be made; nothing after Ctrl-C.
+    fn outcome_of(&self, case: u64, interrupt: &Interrupt) -> Result<Option<CaseOutcome>> {
+        if interrupt.is_raised() {
+            return Ok(None);
+        }
+        match self.found(case, interrupt) {
+            Ok(found) if !found.complete => Ok(None),
+            Ok(found) => Ok(Some(Ok(found))),
+            Err(Error::Interrupted) => Ok(None),
+            Err(Error::Scene(errors)) => Ok(Some(Err(in_one_line(errors.as_ref())))),
+            Err(Error::NotConverged(reason)) => Ok(Some(Err(reason.to_string()))),
+            Err(other) => Err(other),
+        }
+    }
+
+    fn found(&self, case: u64, interrupt: &Interrupt) -> Result<Findings> {
+        let settings = self.plan.settings(case);
+        let scene = self.base.with_settings(&settings, process::table())?;
+        let explained = |error| match error {
+            Error::Refused(refusal) => scene.explain(&refusal).into(),
+            other => other,
+        };
+        let prepared = process::prepare(&scene.scene).map_err(explained)?;
+        let found = match self.command {
+            StudyCommand::Axes => prepared.axis_peaks(),
+            StudyCommand::Cut => Run::new(&scene, prepared.as_ref(), self.choice)
+                .until(interrupt)
+                .stages(Stages::of_paths(&self.keep))
+                .found(),
+        };
+        found.map_err(explained)
+    }
+
+    /// A row of an earlier run with its case, if it is whole and of this study.
+    fn known(&self, heads: &str, line: &str) -> Option<(u64, String)> {
+        let fields = |text: &str| Some(csv_reader(text).records().next()?.ok()?.len());
+        let case: u64 = line.split(',').next()?.parse().ok()?;
+        let sound = fields(line)? == fields(heads)? && case < self.plan.cases() && self.shard.has(case);
+        sound.then(|| (case, line.to_owned()))
+    }
+
+    fn line(&self, case: u64, outcome: &CaseOutcome) -> Result<String> {
+        let values = self.plan.values(case).into_iter().map(|value| value.trim_matches('"').to_owned());
+        csv_line([case.to_string()].into_iter().chain(values).chain(cells(outcome, &self.keep)))
+    }
+
+    fn heads(&self, kept: &[TableColumn]) -> Result<String> {
+        let parameters = self.plan.parameters().iter().map(|of| of.key.clone());
+        let kept = kept.iter().map(TableColumn::head);
+        let last = LAST_HEADS.into_iter().map(str::to_owned);
+        csv_line(["case".to_owned()].into_iter().chain(parameters).chain(kept).chain(last))
+    }
+
+    /// What each column is: its head, unit and definition.
+    fn write_columns(&self, path: &Path, kept: &[TableColumn]) -> Result<()> {
+        let row = |head: String, unit: &str, definition: &str| [head, unit.to_owned(), definition.to_owned()];
+        let parameter = |key: &String| {
+            let known = process::table().displayed(key);
+            row(key.clone(), known.map_or("", |of| of.unit), known.map_or("key of the scene", |of| of.teach))
+        };
+        let rows = [row("case".to_owned(), "1", "number of the case, from 0")]
+            .into_iter()
+            .chain(self.plan.parameters().iter().map(|of| parameter(&of.key)))
+            .chain(kept.iter().map(|of| row(of.head(), of.unit.as_deref().unwrap_or_default(), &of.definition)))
+            .chain([
+                row("faults".to_owned(), "1", "faults among the notices"),
+                row("warnings".to_owned(), "1", "warnings among the notices"),
+                row("notices".to_owned(), "", "ids of all notices: docs/notices.md"),
+                row("error".to_owned(), "", "why the case could not be made"),
+            ]);
+        let heads = csv_line(["column", "unit", "definition"].map(str::to_owned))?;
+        let lines = rows.map(csv_line).collect::<Result<Vec<_>>>()?;
+        LineFile::create(path, &heads, lines).map(drop)
+    }
+
+    /// What the rows of a folder belong to.
+    fn record(&self) -> Map<String, Value> {
+        let values = |case: u64| json!(self.plan.values(case));
+        let cases = self.plan.cases();
+        let entries = [
+            ("program", json!("gearcut")),
+            ("program_version", json!(env!("CARGO_PKG_VERSION"))),
+            ("command", json!("study")),
+            ("of_every_case", json!(self.command.name())),
+            ("parameters", json!(self.plan.parameters().iter().map(|of| &of.key).collect::<Vec<_>>())),
+            ("plan", json!(self.plan.checksum())),
+            ("cases", json!(cases)),
+            ("first_case", values(0)),
+            ("last_case", values(cases - 1)),
+            ("keep", json!(self.keep)),
+            ("shard", json!([self.shard.number, self.shard.of])),
+            ("backend", json!(self.choice.backend.name_in_files())),
+            ("scene", json!(self.base.resolved_toml())),
+        ];
+        entries.into_iter().map(|(key, value)| (key.to_owned(), value)).collect()
+    }
+}
+
+/// What there is.
+fn outcome(path: &Path, lines: &Lines, cases: usize) -> StudyOutcome {
+    let failed = lines.values().filter(|line| !line.trim_end().ends_with(',')).count() as u64;
+    StudyOutcome { path: path.to_owned(), rows: lines.len() as u64, cases: cases as u64, failed }
+}
+
+/// Problems of a scene in one line.
+fn in_one_line(errors: &(dyn std::error::Error + Send + Sync + 'static)) -> String {
+    match errors.downcast_ref::<SceneErrors>() {
+        Some(errors) => errors.problems.iter().map(|of| of.message.as_str()).collect::<Vec<_>>().join("; "),
+        None => errors.to_string().replace('\n', " "),
+    }
+}
+
+fn csv_reader(text: &str) -> csv::Reader<&[u8]> {
+    csv::ReaderBuilder::new().has_headers(false).from_reader(text.as_bytes())
+}
+
+/// Cells as a line, its end included.
+fn csv_line(cells: impl IntoIterator<Item = String>) -> Result<String> {
+    let mut writer = csv::WriterBuilder::new().from_writer(Vec::new());
+    let failed = |reason: String| Error::Output { path: ROWS.into(), reason };
+    writer.write_record(cells).map_err(|reason| failed(reason.to_string()))?;
+    let line = writer.into_inner().map_err(|reason| failed(reason.to_string()))?;
+    String::from_utf8(line).map_err(|reason| failed(reason.to_string()))
+}

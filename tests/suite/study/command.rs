@@ -1,0 +1,210 @@
+//! The commands `study` and `sweep` as a user has them: rows, kills, shares, refusals.
+
+use crate::fixtures::command::{Outcome, gearcut, gearcut_in, read_json};
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Stdio};
+
+/// A coarse round gear: a case of its axes takes milliseconds, a whole cut seconds.
+const SCENE: &str = "
+[gear]
+module_mm = 3.0
+teeth = 24
+face_width_mm = 4.0
+[tool.shaper_cutter]
+teeth = 20
+[fields.flank]
+profile_spacing_um = 500.0
+lead_spacing_um = 2000.0
+[fields.blank]
+spacing_mm = 1.0
+slice_spacing_mm = 4.0
+";
+
+/// Twelve cases, of which those with 2 teeth are refused.
+const SWEEP: [&str; 11] = [
+    "sweep",
+    "round.toml",
+    "--quiet",
+    "--command",
+    "axes",
+    "--grid",
+    "gear.teeth=24,2",
+    "--range",
+    "machine.double_strokes_per_minute=200..600/6",
+    "--keep",
+    "operations.finish.axes.work_speed.peak",
+];
+
+fn folder() -> tempfile::TempDir {
+    let folder = tempfile::tempdir().expect("a folder");
+    fs::write(folder.path().join("round.toml"), SCENE).expect("written");
+    folder
+}
+
+fn swept(folder: &Path, more: &[&str]) -> Outcome {
+    gearcut_in(folder, &[&SWEEP[..], more].concat())
+}
+
+fn rows(path: &Path) -> Vec<String> {
+    fs::read_to_string(path.join("rows.csv")).expect("rows").lines().map(str::to_owned).collect()
+}
+
+/// Of 2,400 strokes a turn and n double strokes a minute the work turns n / 60 / 2,400 of a turn a second.
+#[test]
+fn a_row_has_its_parameters_and_what_is_kept() {
+    let folder = folder();
+    swept(folder.path(), &["--out", "s"]).done().says(&["12 cases, 6 of them failed; their rows are in s/rows.csv"]);
+    let rows = rows(&folder.path().join("s"));
+    let head = "case,gear.teeth,machine.double_strokes_per_minute,operations.finish.axes.work_speed.peak_deg_per_s,\
+        faults,warnings,notices,error";
+    assert_eq!(rows[0], head);
+    for (case, row) in rows[1..7].iter().enumerate() {
+        let fields: Vec<&str> = row.split(',').collect();
+        let strokes = 200.0 + 80.0 * case as f64;
+        assert_eq!(fields[..3], [case.to_string().as_str(), "24", &strokes.to_string()]);
+        let speed: f64 = fields[3].parse().expect("a number");
+        assert!((speed - 360.0 * strokes / 60.0 / 2400.0).abs() < 1e-12, "{row}");
+        assert_eq!((fields[4], fields[7]), ("0", ""), "{row}");
+    }
+    for row in &rows[7..] {
+        assert!(row.contains(",2,") && row.contains(",,,,,") && row.contains("`gear.teeth`"), "{row}");
+    }
+    let about = fs::read_to_string(folder.path().join("s/columns.csv")).expect("columns");
+    assert!(about.contains("work_speed.peak_deg_per_s,deg/s,largest magnitude"), "{about}");
+}
+
+#[test]
+fn shares_together_are_the_whole_and_a_stopped_study_goes_on() {
+    let folder = folder();
+    let whole = folder.path().join("whole");
+    swept(folder.path(), &["--out", "whole"]).done();
+    let mut shared: Vec<String> = Vec::new();
+    for shard in ["1/3", "2/3", "3/3"] {
+        let name = format!("out/round_study/shard_{}", shard.replace('/', "_of_"));
+        swept(folder.path(), &["--shard", shard]).done();
+        shared.extend(rows(&folder.path().join(name)).split_off(1));
+    }
+    let case = |row: &String| row.split(',').next().and_then(|case| case.parse::<u64>().ok());
+    shared.sort_by_key(case);
+    assert_eq!(shared, rows(&whole)[1..]);
+    // A study that is not complete, with rows in the order in which they were found and one that a kill cut off.
+    let stopped = folder.path().join("stopped");
+    fs::create_dir(&stopped).expect("a folder");
+    let record = fs::read_to_string(whole.join("run.json")).expect("a record");
+    let mut record: serde_json::Map<String, serde_json::Value> = serde_json::from_str(&record).expect("JSON");
+    record.remove("files");
+    record.insert("complete".to_owned(), false.into());
+    fs::write(stopped.join("run.json"), serde_json::to_string(&record).expect("JSON")).expect("written");
+    let all = rows(&whole);
+    fs::write(stopped.join("rows.csv"), format!("{}\n{}\n{}\n{}", all[0], all[9], all[2], &all[5][..9]))
+        .expect("written");
+    fs::copy(whole.join("columns.csv"), stopped.join("columns.csv")).expect("copied");
+    let changed = swept(folder.path(), &["--out", "stopped", "--set", "gear.face_width_mm=5"]);
+    changed.failed(1, &["rows of another scene, flank or version"]);
+    swept(folder.path(), &["--out", "stopped"]).done();
+    for name in ["rows.csv", "columns.csv"] {
+        let read = |folder: &Path| fs::read_to_string(folder.join(name)).expect("a file");
+        assert_eq!(read(&stopped), read(&whole), "{name}");
+    }
+}
+
+/// A kill at any moment takes no row.
+#[cfg(unix)]
+#[test]
+fn a_killed_study_goes_on() {
+    let folder = folder();
+    let range = "machine.double_strokes_per_minute=200.0..600.0/20";
+    let study = [&SWEEP[..7], &["--range", range], &SWEEP[9..]].concat();
+    let path = folder.path().join("s/rows.csv");
+    let lines = || fs::read_to_string(&path).map_or(0, |text| text.lines().count());
+    for _ in 0..3 {
+        let before = lines();
+        let mut child = Command::new(env!("CARGO_BIN_EXE_gearcut"))
+            .args(&study)
+            .args(["--out", "s"])
+            .current_dir(folder.path())
+            .stdout(Stdio::null())
+            .stderr(Stdio::null())
+            .spawn()
+            .expect("started");
+        while lines() < before.max(1) + 2 && child.try_wait().expect("a child").is_none() {
+            std::thread::sleep(std::time::Duration::from_millis(1));
+        }
+        child.kill().expect("killed");
+        child.wait().expect("ended");
+        assert!(lines() >= before, "rows are lost");
+    }
+    gearcut_in(folder.path(), &[&study[..], &["--out", "s"]].concat()).done();
+    gearcut_in(folder.path(), &[&study[..], &["--out", "whole"]].concat()).done();
+    assert_eq!(rows(&folder.path().join("s")), rows(&folder.path().join("whole")));
+    assert_eq!(lines(), 41);
+}
+
+/// What a study leaves out changes nothing of what it keeps.
+#[test]
+fn a_cut_case_finds_what_the_command_finds() {
+    let folder = folder();
+    let cut = ["cut", "round.toml", "--quiet", "--set", "gear.teeth=12", "--only", "numbers", "--backend", "cpu"];
+    let code = gearcut_in(folder.path(), &cut).code;
+    assert!(code == 0 || code == 3, "{code}");
+    let found = read_json(&folder.path().join("out/round_part/results.json"));
+    let headline = found["headline"].as_object().expect("an object");
+    let section = "operations.finish.chips.largest_chip_section";
+    let keep = headline.keys().map(String::as_str).chain([section]).collect::<Vec<_>>().join(",");
+    gearcut_in(folder.path(), &["sweep", "round.toml", "--quiet", "--grid", "gear.teeth=12", "--keep", &keep]).done();
+    let rows = rows(&folder.path().join("out/round_study"));
+    let kept = rows[1].split(',').skip(2);
+    let largest = &found["sections"]["operations"]["finish"]["chips"]["largest_chip_section"];
+    let expected = headline.values().chain([largest]).map(|quantity| &quantity["value"]);
+    let mut compared = 0;
+    for (cell, expected) in kept.zip(expected) {
+        let same = match expected {
+            serde_json::Value::Number(number) => cell.parse().ok() == number.as_f64(),
+            other => cell == other.as_str().unwrap_or_default(),
+        };
+        assert!(same, "{cell}, {expected} expected: {rows:?}");
+        compared += 1;
+    }
+    assert!(compared == headline.len() + 1 && compared > 20, "{compared}");
+}
+
+#[test]
+fn studies_that_are_none_say_why() {
+    let folder = folder();
+    let sweep =
+        |more: &[&str]| gearcut_in(folder.path(), &[&["sweep", "round.toml", "--command", "axes"], more].concat());
+    let grid = ["--grid", "gear.teeth=20,24"];
+    let of = |keep: &'static str| sweep(&[&grid[..], &["--keep", keep, "--out", "a"]].concat());
+    of("work_speed.peak")
+        .failed(1, &["`work_speed.peak` is no quantity of these cases; did you mean operations.rough."]);
+    of("axis_margn").failed(1, &["did you mean axis_margin?", "docs/quantities.md"]);
+    let many = ["--range", "machine.back_off_mm=0.1..1.0/600000", "--keep", "axis_margin"];
+    sweep(&[&grid[..], &many].concat()).failed(1, &["1200000 cases are more than 100000", "--most-cases 1200000"]);
+    let wrong = ["--grid", "gear.teth=20,24", "--keep", "axis_margin", "--out", "b"];
+    sweep(&wrong).failed(1, &["the first 2 cases all fail", "gear.teeth"]);
+    sweep(&["--range", "gear.teeth=9..3/2", "--keep", "axis_margin"]).failed(2, &["the first end must be the smaller"]);
+    let file = |text: &str| {
+        fs::write(folder.path().join("study.toml"), text).expect("written");
+        gearcut_in(folder.path(), &["study", "study.toml"])
+    };
+    let head = "[study]\nscene = \"round.toml\"\ncommand = \"axes\"\n";
+    file(&format!("{head}kep = [\"axis_margin\"]\n")).failed(1, &["study.toml", "line 4", "kep", "expected one of"]);
+    let parameter = "keep = [\"axis_margin\"]\n[[parameter]]\nkey = \"gear.teeth\"\n";
+    file(&format!("{head}{parameter}"))
+        .failed(1, &["study.toml: parameter `gear.teeth`", "neither values nor a range"]);
+    file(&format!("{head}{parameter}values = [20, 24]\nlog = true\n")).failed(1, &["count and log belong to a range"]);
+    file(&format!("{head}{parameter}values = [20, 24]\n")).done().says(&["2 cases; their rows are in"]);
+}
+
+/// Every shipped study is read, and its cases are scenes.
+#[test]
+fn shipped_studies_are_read() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let out = folder.path().join("ovals");
+    let share = ["study", "studies/axes_of_ovals.toml", "--quiet", "--shard", "1/40", "--out"];
+    gearcut(&[&share[..], &[out.to_str().expect("a path")]].concat()).done().says(&["4 cases; their rows"]);
+    let rows = rows(&out);
+    assert!(rows[1].contains("shaping_normal") && rows[4].contains("shaping_traditional"), "{rows:?}");
+    gearcut::study::file::read(Path::new("studies/finishing_feed.toml"), 12).expect("a study of 12 cases");
+}

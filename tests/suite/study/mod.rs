@@ -1,0 +1,4 @@
+//! Studies: cases and their rows.
+
+mod cases;
+mod command;
