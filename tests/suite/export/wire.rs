@@ -60,8 +60,9 @@ fn a_wire_runs_round_the_profile_at_its_distance() {
         let turned: f64 = round.iter().map(|piece| piece.start.angle_to(piece.end)).sum();
         assert!((turned - TAU).abs() < 1e-6, "{name}: {turned} rad round the axis");
         // On the side of the air: the start hole lies beyond the tips.
-        let [hole_mm, tip_mm] = [pieces[0].start, pieces[1].start].map(DVec2::length);
-        assert!((hole_mm > tip_mm) == (name != "ring") && ((hole_mm - tip_mm).abs() - 3.0).abs() < 1e-3, "{name}");
+        let lead = pieces[0];
+        assert!((lead.start.length() > lead.end.length()) == (name != "ring"), "{name}");
+        assert!((lead.start.distance(lead.end) - 3.0).abs() < 1e-6, "{name}");
     }
 }
 
