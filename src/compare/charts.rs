@@ -24,7 +24,7 @@ pub(super) fn charts(results: &[Compared]) -> Vec<(String, BarChart)> {
         for column in longest.columns.iter().filter(|column| column.chart == Some(ColumnChart::Bars)) {
             let stem = format!("{path}.{}", column.key).replace('.', "_");
             let of = |count: usize, what: &str, tables: &[(&str, Option<&Table>)]| {
-                chart(&path, what, longest, count, column, tables)
+                chart(what, longest, count, column, tables)
             };
             charts.push((stem.clone(), of(longest.len(), "", &tables)));
             let Some(period) = period else { continue };
@@ -118,7 +118,6 @@ fn table_at<'a>(findings: &'a Findings, path: &str) -> Option<&'a Table> {
 
 /// Bars of the first `count` rows of some tables.
 fn chart(
-    path: &str,
     what: &str,
     longest: &Table,
     count: usize,
@@ -134,9 +133,9 @@ fn chart(
     });
     BarChart {
         limits: Vec::new(),
-        title: format!("{path}: {}{what}", column.definition),
+        title: format!("{}: {}{what}", longest.title, words(column)),
         category_name: longest.columns[0].definition.to_string(),
-        value_name: column.key.replace('_', " "),
+        value_name: words(column),
         least_division: least_division(column),
         unit: column.unit.as_deref().unwrap_or_default().to_owned(),
         series: series.collect(),

@@ -54,14 +54,14 @@ fn series(name: &str, at: &[f64], values: impl Iterator<Item = f64>) -> LineSeri
 
 fn ratio(rolled: &RolledPair) -> LineChart {
     let at = angles_deg(rolled);
-    let asked = series("asked for by the pitch curves", &at, rolled.ratios.iter().map(|ratio| ratio[0]));
+    let asked = series("of the pitch curves", &at, rolled.ratios.iter().map(|ratio| ratio[0]));
     let achieved = series("achieved by the flanks", &at, rolled.ratios.iter().map(|ratio| ratio[1]));
     let off = rolled.ratios.iter().map(|[asked, achieved]| 100.0 * (achieved / asked - 1.0));
     over_angle(
         "Ratio of the speeds of A and B",
         vec![
             panel("ratio", "1", 0.0, vec![achieved, asked]),
-            panel("deviation from the ratio asked for", "%", LEAST_PERCENT, vec![series("deviation", &at, off)]),
+            panel("deviation from that ratio", "%", LEAST_PERCENT, vec![series("deviation", &at, off)]),
         ],
     )
 }

@@ -11,16 +11,20 @@ const LEAST_PERCENT: f64 = 1e-9;
 /// What stands where there is no value.
 const NONE: &str = "–";
 
-/// The quantities of a section as a table.
+/// The quantities of a section as a table, with their places where one of them has a place.
 pub fn table(section: &Section) -> PageTable {
+    let with_places = section.entries.iter().any(|entry| entry.quantity.place().is_some());
+    let placed = |cells: [String; 4]| {
+        cells.into_iter().enumerate().filter(|(k, _)| with_places || *k != 2).map(|(_, cell)| cell).collect()
+    };
     let rows = section.entries.iter().map(|entry| {
         let what = entry.quantity.why().unwrap_or(entry.quantity.definition());
         let [name, what] = [entry.heading().as_str(), what].map(unit::sentence_with_signs);
-        vec![name, value_with_unit(&entry.quantity), place(&entry.quantity), what]
+        placed([name, value_with_unit(&entry.quantity), place(&entry.quantity), what])
     });
     PageTable {
         caption: section.title.clone(),
-        columns: ["", "Value", "At", "What it is"].map(str::to_owned).into(),
+        columns: placed(["", "Value", "At", "What it is"].map(str::to_owned)),
         rows: rows.collect(),
     }
 }

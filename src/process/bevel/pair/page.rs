@@ -2,7 +2,7 @@
 
 use super::findings::words;
 use super::{RolledBevels, bearing};
-use crate::findings::{Datum, Findings, Table, unit};
+use crate::findings::{Datum, Findings, Table, TableColumn, unit};
 use crate::output::folder::OutputFolder;
 use crate::output::line_chart::LineChart;
 use crate::output::report::{Block, Page, PageSection, PageTable};
@@ -89,7 +89,16 @@ fn rows(table: &Table) -> PageTable {
     };
     PageTable {
         caption: table.title.clone(),
-        columns: table.columns.iter().map(|column| unit::sentence_with_signs(&column.head())).collect(),
+        columns: table.columns.iter().map(head).collect(),
         rows: table.rows().map(|row| row.iter().map(cell).collect()).collect(),
+    }
+}
+
+/// The key in words, with the unit in brackets.
+fn head(column: &TableColumn) -> String {
+    let words = column.key.replace('_', " ");
+    match column.unit.as_deref() {
+        Some(of) => format!("{words} [{}]", unit::signs(of)),
+        None => words,
     }
 }

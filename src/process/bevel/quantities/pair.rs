@@ -5,7 +5,7 @@ use crate::findings::rows;
 /// No contact.
 pub const PARTED: &str = "the teeth part there";
 /// No ellipse.
-pub const AT_EDGE: &str = "the contact stands at an edge of the flank";
+pub const AT_EDGE: &str = "the contact is at an edge of the flank";
 /// No long axis.
 pub const ALONG_LINE: &str = "the flanks touch along a line";
 /// No parabola.
