@@ -193,6 +193,14 @@ pub struct ToothSection {
     pub root_mm: Vec<DVec2>,
 }
 
+impl ToothSection {
+    /// Points of the outline: both ends of the root belong to the flanks, which the fillet meets to rounding alone.
+    pub fn outline_mm(&self) -> impl Iterator<Item = DVec2> {
+        let root_mm = self.root_mm.get(1..self.root_mm.len().saturating_sub(1)).unwrap_or_default();
+        self.tooth_mm.iter().chain(root_mm).copied()
+    }
+}
+
 /// Outline of a tool.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ToolSection {

@@ -32,13 +32,24 @@ pub fn run(arguments: &ExportArguments) -> Result<(), Failure> {
     let loaded = process::load(&arguments.scene.scene, &arguments.scene.settings)?;
     let wish = wish(arguments, &loaded.scene)?;
     let wire = wire_wish(arguments, &wish)?;
+    let mut named: Vec<&Path> = Vec::new();
     for (option, path, ending) in [
         ("--dxf", &arguments.dxf, "dxf"),
         ("--tool-dxf", &arguments.tool_dxf, "dxf"),
         ("--points", &arguments.points, "csv"),
         ("--wire", &arguments.wire, "ngc"),
     ] {
-        path.as_deref().map_or(Ok(()), |path| ends_with(option, path, ending))?;
+        let Some(path) = path else { continue };
+        ends_with(option, path, ending)?;
+        if named.contains(&path.as_path()) {
+            let problem = format!("{} is the file of another option, too", path.display());
+            return Err(Refusal::new(option, problem, "give each its own name").into());
+        }
+        if !arguments.force && path.exists() {
+            let way_out = "choose another name, or let it be replaced with --force";
+            return Err(Refusal::new(option, format!("{} exists", path.display()), way_out).into());
+        }
+        named.push(path);
     }
     let (choice, progress) = backend::of_few_places(&arguments.compute, false, &loaded.scene)?;
     let interrupt = Interrupt::listen().map_err(folder::listening(&arguments.scene.scene))?;
@@ -184,7 +195,7 @@ fn wish(arguments: &ExportArguments, scene: &Scene) -> Result<SectionWish, Refus
     Ok(SectionWish { source, teeth, z_mm: arguments.section_mm, tolerance_mm: um / UM_PER_MM })
 }
 
-/// Files are replaced, scenes among them: the name must say that it is an export.
+/// With `--force` files are replaced, scenes among them: the name must say that it is an export.
 fn ends_with(option: &str, path: &Path, ending: &str) -> Result<(), Refusal> {
     if path.extension().is_some_and(|found| found.eq_ignore_ascii_case(ending)) {
         return Ok(());

@@ -89,14 +89,15 @@ def main():
         folder.mkdir(parents=True, exist_ok=True)
         for name, scene, more in CASES:
             path = folder / f"{name}.dxf"
-            command = [arguments.program, "export", scene, "--dxf", path, "--quiet", *more]
+            command = [arguments.program, "export", scene, "--dxf", path, "--quiet", "--force", *more]
             said = subprocess.run(command, check=True, capture_output=True, text=True).stdout
             one(name, path, said, more)
             if arguments.keep:
                 drawn(ezdxf.readfile(path), path.with_suffix(".png"))
         for name, scene in [("cutter", CASES[0][1]), ("hob", CASES[-1][1])]:
             path = folder / f"{name}.dxf"
-            subprocess.run([arguments.program, "export", scene, "--tool-dxf", path], check=True, capture_output=True)
+            command = [arguments.program, "export", scene, "--tool-dxf", path, "--force"]
+            subprocess.run(command, check=True, capture_output=True)
             audit = ezdxf.readfile(path).audit()
             check(f"{name}: a sound file", not audit.errors and not audit.fixes)
             if arguments.keep:

@@ -12,7 +12,7 @@ pub struct ExportArguments {
     /// The scene.
     #[command(flatten)]
     pub scene: SceneArguments,
-    /// DXF of the gear's section to write; an existing file is replaced.
+    /// DXF of the gear's section to write.
     #[arg(long, value_name = "FILE")]
     pub dxf: Option<PathBuf>,
     /// DXF of the tool to write: the whole shaper cutter, or the edge of one hob tooth.
@@ -54,6 +54,9 @@ pub struct ExportArguments {
     /// Unit of length of the files.
     #[arg(long, value_enum, default_value_t = LengthUnitChoice::Mm)]
     pub units: LengthUnitChoice,
+    /// Replace files that exist.
+    #[arg(long)]
+    pub force: bool,
     /// Backend and progress.
     #[command(flatten)]
     pub compute: ComputeArguments,

@@ -62,7 +62,7 @@ impl HobbingJob {
                 self.tooth_outline(tooth, right_forms, z_mm, spacing_mm)
             })
             .collect();
-        let points_mm = teeth.into_iter().flat_map(|of| [of.tooth_mm, of.root_mm]).flatten().collect();
+        let points_mm = teeth.iter().flat_map(ToothSection::outline_mm).collect();
         TargetOutline::new(points_mm, self.blank.back)
     }
 

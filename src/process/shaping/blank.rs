@@ -71,7 +71,7 @@ impl ShapingJob {
             .into_par_iter()
             .map(|tooth| self.tooth_section(tooth, spacing_mm))
             .collect::<Result<_, _>>()?;
-        let points_mm = teeth.into_iter().flat_map(|of| [of.tooth_mm, of.root_mm]).flatten().collect();
+        let points_mm = teeth.iter().flat_map(ToothSection::outline_mm).collect();
         Ok(TargetOutline::new(points_mm, self.blank.back))
     }
 

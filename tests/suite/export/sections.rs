@@ -130,7 +130,8 @@ fn the_same_scene_gives_the_same_bytes_and_tools_are_drawn() {
     let scene = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes/shaping/circular_m3_z24.toml");
     let scene = scene.to_str().expect("UTF-8");
     let write = |name: &str| {
-        let outcome = gearcut_in(folder.path(), &["export", scene, "--dxf", name, "--tool-dxf", "tool.dxf"]).done();
+        let arguments = ["export", scene, "--dxf", name, "--tool-dxf", "tool.dxf", "--force"];
+        let outcome = gearcut_in(folder.path(), &arguments).done();
         outcome.says(&["TARGET", "closed", "a polyline within the same has", "PITCH_CURVE", "circle of 72 mm", "TOOL"]);
         std::fs::read(folder.path().join(name)).expect("written")
     };
@@ -161,4 +162,10 @@ fn what_cannot_be_exported_is_refused_with_a_way_out() {
     refused(&[scene, "--dxf", "a.dxf", "--section-mm", "99"], &["--section-mm", "99 mm lies outside"]);
     refused(&["scenes/bevel/crown_gear.toml", "--dxf", "a.dxf"], &["bevel", "way out"]);
     refused(&[scene, "--dxf", "no/such/folder/a.dxf"], &["no/such/folder"]);
+    refused(&[scene, "--dxf", "a.dxf", "--tool-dxf", "a.dxf"], &["--tool-dxf", "a.dxf", "its own name"]);
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    let there = folder.path().join("there.dxf");
+    std::fs::write(&there, "somebody's").expect("written");
+    refused(&[scene, "--dxf", there.to_str().expect("UTF-8")], &["there.dxf exists", "--force"]);
+    assert_eq!(std::fs::read_to_string(&there).expect("kept"), "somebody's");
 }
