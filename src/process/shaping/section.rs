@@ -122,10 +122,9 @@ impl<'a> CutSection<'a> {
 
 /// The cutter's edges, one tooth after the other round its axis, chords within about `chord_mm`; cutter frame, mm.
 pub fn cutter_outline(job: &ShapingJob, chord_mm: f64) -> Vec<DVec2> {
-    // A segment begins where the one before it ends, and so does a tooth, but for pitch errors.
+    // A tooth begins where the one before it ends, but for pitch errors.
     let mut tooth = job.cutter.edge().points_mm(chord_mm);
     tooth.pop();
-    tooth.dedup();
     let blades = 0..job.cutter.blade_count();
     blades.flat_map(|blade| tooth.iter().map(move |&p| job.cutter.tool_from_blade(blade).point(p))).collect()
 }

@@ -127,9 +127,12 @@ mod slow {
             panic!("pass ids are whole")
         };
         assert!(passes.iter().filter(|&&pass| pass != u32::MAX).count() > 3000);
-        // What a surface is of goes with it in every format.
+        // What a surface is of goes with it, and so it does in every format that is made of it.
+        let window = gear.join("texture/finish/tooth_01_left.x3p");
         for ending in ["x3p", "sdf", "npy", "csv"] {
-            let path = gear.join(format!("texture/finish/tooth_01_left.{ending}"));
+            let path = folder.path().join(format!("saved.{ending}"));
+            let [from, to] = [&window, &path].map(|path| path.to_str().expect("UTF-8"));
+            gearcut(&["texture", from, "--save", to]).done();
             let notes = read_surface(&path, None).expect("a surface with its spacing").notes;
             for (name, words) in
                 [("frame", "arc length along the target profile"), ("scene", "[gear]"), ("run", "version")]

@@ -408,6 +408,8 @@ impl Edge {
             let bulge_mm =
                 (1..8).map(|i| (x(from + (to - from) * f64::from(i) / 8.0) - x(from)).abs()).fold(0.0, f64::max);
             let count = (bulge_mm / chord_mm).sqrt().ceil().max(1.0) as u32;
+            // A segment begins where the one before it ends, to rounding: that place is one point.
+            points.pop();
             points.extend((0..=count).map(|i| {
                 let y = from + (to - from) * f64::from(i) / f64::from(count);
                 segment.blade_from_segment.point(DVec2::new(x(y), y))
