@@ -10,7 +10,7 @@
 //! | [`dxf`] | the drawing as a DXF file |
 //! | [`points`] | points of flanks with their normals as CSV |
 //! | [`wire`] | programs of wire erosion |
-//! | [`unit`] | units of length, and how numbers are written |
+//! | [`mod@unit`] | units of length, and how numbers are written |
 
 pub mod arcs;
 pub mod drawing;
