@@ -17,11 +17,8 @@ use super::{backend, print};
 /// Runs the command; what Ctrl-C ended early is a failure that tells where its results are.
 pub fn run(arguments: &CutArguments) -> Result<(), Failure> {
     let SceneArguments { scene: path, settings } = &arguments.scene;
-    let mut scene = process::load(path, settings)?;
-    if arguments.draft {
-        // What the user sets comes last and wins.
-        scene = process::load(path, &[draft::draft_settings(&scene.scene).as_slice(), settings].concat())?;
-    }
+    let load = if arguments.draft { process::load_draft } else { process::load };
+    let scene = load(path, settings)?;
     let parts = match (arguments.only.as_slice(), arguments.draft) {
         ([], false) => Parts::all(),
         ([], true) => Parts::of([Part::Report]),

@@ -73,17 +73,17 @@ struct Exporter<'a> {
 impl Exporter<'_> {
     fn export(&mut self, gear: &dyn GearJob) -> Result<()> {
         let arguments = self.arguments;
-        if let Some(path) = &arguments.points {
-            self.points(gear, path)?;
-        }
-        if arguments.dxf.is_none() && arguments.tool_dxf.is_none() && arguments.wire.is_none() {
-            return Ok(());
-        }
-        let Some(gear) = gear.cylindrical() else {
+        let cylinder = gear.cylindrical();
+        let wants_cylinder = arguments.dxf.is_some() || arguments.tool_dxf.is_some() || arguments.wire.is_some();
+        if wants_cylinder && cylinder.is_none() {
             let way_out =
                 "export a shaped or hobbed gear; of a bevel gear there are --points, and mesh/ of `gearcut cut`";
             return Err(Refusal::new("gear", "a bevel gear has no transverse section", way_out).into());
-        };
+        }
+        if let Some(path) = &arguments.points {
+            self.points(gear, path)?;
+        }
+        let Some(gear) = cylinder.filter(|_| wants_cylinder) else { return Ok(()) };
         if let Some(path) = &arguments.tool_dxf {
             self.drawing(path, &Drawing::of_tool(gear, self.wish.tolerance_mm), "")?;
         }

@@ -6,10 +6,8 @@ use super::folder::listening;
 use super::{backend, print};
 use gearcut::interrupt::Interrupt;
 use gearcut::process;
-use gearcut::scene::draft::draft_settings;
 use gearcut::study::file::{StudyFile, folder_of, read};
 use gearcut::study::{Study, StudyPlan};
-use std::path::Path;
 
 /// Runs `study`.
 pub fn study(arguments: &StudyArguments) -> Result<(), Failure> {
@@ -37,7 +35,8 @@ pub fn sweep(arguments: &SweepArguments) -> Result<(), Failure> {
 
 fn run(file: StudyFile, stem: &str, arguments: &CasesArguments) -> Result<(), Failure> {
     let StudyFile { scene: path, command, draft, settings, keep, plan } = file;
-    let base = based(&path, &settings, draft)?;
+    let load = if draft { process::load_draft } else { process::load };
+    let base = load(&path, &settings)?;
     let shard = arguments.shard;
     let out = arguments.out.clone().unwrap_or_else(|| folder_of(&format!("{stem}_study"), shard));
     let interrupt = Interrupt::listen().map_err(listening(&out))?;
@@ -50,14 +49,4 @@ fn run(file: StudyFile, stem: &str, arguments: &CasesArguments) -> Result<(), Fa
     let failed = if done.failed == 0 { String::new() } else { format!(", {} of them failed", done.failed) };
     let rows = done.path.join("rows.csv");
     Ok(print::sheet(&format!("{} cases{failed}; their rows are in {}\n", done.cases, rows.display()))?)
-}
-
-/// The scene that cases change.
-fn based(path: &Path, settings: &[String], draft: bool) -> Result<gearcut::LoadedScene, Failure> {
-    let scene = process::load(path, settings)?;
-    if !draft {
-        return Ok(scene);
-    }
-    // What the user sets comes last and wins.
-    Ok(process::load(path, &[draft_settings(&scene.scene).as_slice(), settings].concat())?)
 }

@@ -4,7 +4,7 @@
 //!
 //! Release 2000 (`AC1015`) is the oldest one with `LWPOLYLINE`, and everything that reads DXF reads it. It wants tables
 //! and a dictionary that nobody looks at, each record with a handle of its own and that of its owner. Tolerance, frame
-//! and layers are told in comments (group 999), which readers skip.
+//! and layers are comments (group 999), which readers skip.
 //!
 //! Road not taken: the crate `dxf`. It brings `image`, `chrono` and `uuid`, and puts the time and a random id into each
 //! file: the same scene would no longer give the same bytes.

@@ -19,6 +19,7 @@ use crate::interrupt::Interrupt;
 use crate::job::GearJob;
 use crate::output::folder::OutputFolder;
 use crate::output::text::Sheet;
+use crate::scene::draft::draft_settings;
 use crate::scene::{self, KeyTable, LoadedScene, Scene, SceneErrors, SceneProcess};
 use crate::steps::summary::Summary;
 use crate::steps::{Tools, Work};
@@ -110,6 +111,15 @@ pub fn table() -> &'static KeyTable {
 /// All problems of the scene, each with its place and a way out.
 pub fn load(path: &Path, settings: &[String]) -> Result<LoadedScene, SceneErrors> {
     scene::load(path, settings, table())
+}
+
+/// Loads the scene file at `path` as a draft of itself; what is set comes last and wins.
+///
+/// # Errors
+/// All problems of the scene, each with its place and a way out.
+pub fn load_draft(path: &Path, settings: &[String]) -> Result<LoadedScene, SceneErrors> {
+    let whole = load(path, settings)?;
+    load(path, &[draft_settings(&whole.scene).as_slice(), settings].concat())
 }
 
 /// Reads a scene from text; see [`scene::parse`].

@@ -72,6 +72,11 @@ impl Study<'_> {
     /// A kept quantity that cases do not have; a folder of something else; cases that all fail; the machine's.
     pub fn run(&self, out: &Path, (progress, interrupt): (&Progress, &Interrupt)) -> Result<StudyOutcome> {
         let cases: Vec<u64> = (0..self.plan.cases()).filter(|case| self.shard.has(*case)).collect();
+        if cases.is_empty() {
+            let problem =
+                format!("{} cases have no share {} of {}", self.plan.cases(), self.shard.number, self.shard.of);
+            return Err(Refusal::new("--shard", problem, "take no more shares than there are cases").into());
+        }
         // What is wrong with all cases is said before there is a folder that would go on with it.
         let begun = if out.join(ROWS).exists() { None } else { self.begin(&cases, interrupt)? };
         if begun.is_none() && !out.join(ROWS).exists() {

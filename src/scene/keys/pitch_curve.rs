@@ -64,6 +64,16 @@ const fn ellipse(path: &'static str) -> KeySection {
     }
 }
 
+/// Of every curve by a ratio.
+const CENTER_DISTANCE: Key = Key {
+    name: "center_distance_mm",
+    kind: Kind::Number(Range::above(0.0, 20000.0)),
+    unit: "mm",
+    default: Default::LeftOut("solved so that the curve closes on its teeth"),
+    example: "120.0",
+    teach: "C of the pair. Leave it out, and the size is solved so that the perimeter is pi x module x teeth.",
+};
+
 /// The driver of a sinusoidal ratio, under the given path.
 const fn sinusoidal_ratio(path: &'static str) -> KeySection {
     const KEYS: &[Key] = &[
@@ -84,15 +94,7 @@ const fn sinusoidal_ratio(path: &'static str) -> KeySection {
             example: "0.1",
             teach: "b, how far the ratio swings; smaller than c. Negative: it falls first.",
         },
-        Key {
-            name: "center_distance_mm",
-            kind: Kind::Number(Range::above(0.0, 20000.0)),
-            unit: "mm",
-            default: Default::LeftOut("solved so that the curve closes on its teeth"),
-            example: "120.0",
-            teach: "C of the pair. Leave it out, and the size is solved so that the perimeter is pi x module x \
-                teeth.",
-        },
+        CENTER_DISTANCE,
     ];
     KeySection {
         path,
@@ -188,15 +190,7 @@ const fn ratio_formula(path: &'static str) -> KeySection {
             teach: "i, the angular speed of this gear over that of its mate, by the polar angle phi of this gear in \
                 rad; of a ring below 1. Numbers, pi, + - * / ^ and brackets; sin, cos, tan, sqrt, exp.",
         },
-        Key {
-            name: "center_distance_mm",
-            kind: Kind::Number(Range::above(0.0, 20000.0)),
-            unit: "mm",
-            default: Default::LeftOut("solved so that the curve closes on its teeth"),
-            example: "120.0",
-            teach: "C of the pair. Leave it out, and the size is solved so that the perimeter is pi x module x \
-                teeth.",
-        },
+        CENTER_DISTANCE,
     ];
     KeySection {
         path,

@@ -161,6 +161,9 @@ fn what_cannot_be_exported_is_refused_with_a_way_out() {
     refused(&[scene, "--dxf", "a.dxf", "--tolerance-um", "0"], &["--tolerance-um", "0.01 to 1000"]);
     refused(&[scene, "--dxf", "a.dxf", "--section-mm", "99"], &["--section-mm", "99 mm lies outside"]);
     refused(&["scenes/bevel/crown_gear.toml", "--dxf", "a.dxf"], &["bevel", "way out"]);
+    // Nothing is written before everything is known to be possible.
+    refused(&["scenes/bevel/crown_gear.toml", "--dxf", "a.dxf", "--points", "none.csv"], &["bevel", "way out"]);
+    assert!(!Path::new("none.csv").exists());
     refused(&[scene, "--dxf", "no/such/folder/a.dxf"], &["no/such/folder"]);
     refused(&[scene, "--dxf", "a.dxf", "--tool-dxf", "a.dxf"], &["--tool-dxf", "a.dxf", "its own name"]);
     let folder = tempfile::tempdir().expect("a folder for the test");

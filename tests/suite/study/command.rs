@@ -191,6 +191,8 @@ fn studies_that_are_none_say_why() {
     let wrong = ["--grid", "gear.teth=20,24", "--keep", "axis_margin", "--out", "b"];
     sweep(&wrong).failed(1, &["the first 2 cases all fail", "gear.teeth"]);
     sweep(&["--range", "gear.teeth=9..3/2", "--keep", "axis_margin"]).failed(2, &["the first end must be the smaller"]);
+    sweep(&[&grid[..], &["--keep", "axis_margin", "--shard", "5/8"]].concat())
+        .failed(1, &["2 cases have no share 5 of 8", "--shard"]);
     let file = |text: &str| {
         fs::write(folder.path().join("study.toml"), text).expect("written");
         gearcut_in(folder.path(), &["study", "study.toml"])

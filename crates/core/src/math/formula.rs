@@ -76,7 +76,7 @@ impl Formula {
         let mut reader = FormulaReader { text, at: 0, depth: 0 };
         let term = reader.sum()?;
         if reader.peek().is_some() {
-            return Err(reader.fault("what stands here belongs to nothing: an operator is missing before it"));
+            return Err(reader.fault("this belongs to nothing: an operator is missing before it"));
         }
         Ok(Self { text: text.to_owned(), term })
     }
@@ -190,7 +190,7 @@ impl FormulaReader<'_> {
     fn signed(&mut self) -> Read {
         self.depth += 1;
         if self.depth > DEEPEST {
-            return Err(self.fault("brackets and signs stand too deep inside each other"));
+            return Err(self.fault("brackets and signs are nested too deeply"));
         }
         let term = if self.takes('-') {
             Term::Negative(Box::new(self.signed()?))
@@ -268,7 +268,7 @@ impl FormulaReader<'_> {
             });
         };
         if self.peek() != Some('(') {
-            let message = format!("`{name}` is a function: its argument stands in brackets, {name}(2*phi)");
+            let message = format!("`{name}` is a function: its argument goes into brackets, {name}(2*phi)");
             return Err(FormulaFault { at, message });
         }
         Ok(Term::Of(*function, Box::new(self.brackets()?)))
