@@ -46,7 +46,7 @@ pub fn text(
         let seconds = significant(work.elapsed.as_secs_f64(), 3);
         summary::line(sheet, "cut, measured and mapped in", &format!("{seconds} s"));
         sheet.line("written to", out.display().to_string());
-        sheet.line("told above", count_words(&findings.warnings));
+        sheet.line("shown above", count_words(&findings.warnings));
         if sheet.is_brief() {
             sheet.line("more", "with --verbose, in results.json and report.html");
         }

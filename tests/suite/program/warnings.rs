@@ -85,7 +85,7 @@ fn every_place_shows_the_same_list() {
             assert!(program.contains(&comment), "{comment} is not in the program's head");
         }
     }
-    let count = format!("told above {}", counted(&listed));
+    let count = format!("shown above {}", counted(&listed));
     assert!(summary.contains(&count), "no {count:?} in {summary}");
     assert!(page.contains(&format!("{}</a>", counted(&listed))), "the page does not count them");
 }
