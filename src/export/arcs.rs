@@ -241,8 +241,8 @@ mod tests {
             let path = ArcPath::fit(&chain, false, tolerance_mm, PathPieces::Arcs);
             let off = (0..=100 * points).map(|i| distance_mm(&path, at(i, 100 * points))).fold(0.0, f64::max);
             assert!(off <= 1.001 * tolerance_mm && off > 0.2 * tolerance_mm, "{off} mm within {tolerance_mm} mm");
-            // A spiral of length l is k' l^3 / (72 sqrt 3) off the arc through its ends. An involute has k' = 1 / (r_b^2
-            // u^3) and ds = r_b u du, so that equally good arcs divide u evenly.
+            // A spiral of length l is k' l^3 / (72 sqrt 3) off the arc through its ends. An involute has the slope
+            // k' = 1 / (r_b^2 u^3) of its curvature and ds = r_b u du, so that equally good arcs divide u evenly.
             let fewest = (30.0 / (72.0 * 3_f64.sqrt() * tolerance_mm)).cbrt() * (to - from);
             let chords = ArcPath::fit(&chain, false, tolerance_mm, PathPieces::Lines).count();
             let count = path.count();
