@@ -57,7 +57,7 @@ fn what_is_no_formula_is_refused_at_its_place() {
         ("1 + * 2", 4..5, "`*` is no value"),
         ("2 phi", 2..3, "operator is missing"),
         ("sin(phi", 3..4, "never closed"),
-        ("sin phi", 0..3, "in brackets"),
+        ("sin phi", 0..3, "into brackets"),
         ("1 + 0.3*sinus(phi)", 8..13, "`sinus` is not known"),
         ("1 + x", 4..5, "phi (rad)"),
         ("phi^0.5", 4..7, "sqrt"),
