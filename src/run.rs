@@ -140,7 +140,9 @@ impl<'a> Run<'a> {
             "version": env!("CARGO_PKG_VERSION"),
             "backend": backend.name_in_files(),
         });
-        let notes = [("run".to_owned(), run.to_string()), ("scene".to_owned(), resolved.clone())];
+        let sha256 = record::sha256_hex(resolved.as_bytes());
+        let notes = [("run", run.to_string()), ("scene", resolved.clone()), ("scene_sha256", sha256)]
+            .map(|(name, text)| (name.to_owned(), text));
         let tools = Tools {
             resolved: &resolved,
             backend,

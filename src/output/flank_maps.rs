@@ -1,6 +1,7 @@
 //! Maps of one flank: what every operation left, as pictures and as EXR for other programs.
 //!
-//! In: the cut field at dexel spacing. Out, each as picture and EXR:
+//! In: the cut field at dexel spacing. Out: EXR of every flank and, of those that the scene wants (`GearMaps::drawn`),
+//! pictures:
 //!
 //! | what | where |
 //! | --- | --- |
@@ -213,51 +214,14 @@ impl FlankMaps {
         format!("tooth_{:02}_{}", self.tooth, self.side.name())
     }
 
-    /// Writes all maps; `operations` are their names and the largest stock that the colours of their allowance maps
-    /// tell apart, `notes` go into the EXR headers.
+    /// Writes the EXR files; `operations` are their names, `notes` go into the headers, but for the scene itself: it
+    /// would be a third of each file and is in run.json, under the same SHA-256.
     ///
     /// # Errors
     /// Files that cannot be written.
     pub fn write(&self, folder: &OutputFolder, operations: &[OperationMaps], notes: &[(String, String)]) -> Result<()> {
         let stem = self.file_stem();
-        let flank = format!("tooth {}, {} flank", self.tooth, self.side.name());
         for (index, OperationMaps { name, .. }) in operations.iter().enumerate() {
-            let heights_um: Vec<f32> = self.highest_mm[index].iter().map(|h| h * UM_PER_MM as f32).collect();
-            let picture = MapPicture {
-                missing: NO_PASS_CAME,
-                title: &format!("{name}: {flank}"),
-                quantity: "normal deviation, highest of cell",
-                unit: "µm",
-                grid: &self.grid,
-                values: &heights_um,
-                scale: ColourScale::heights_over([heights_um.as_slice()]),
-            };
-            write_map_png(&folder.path(format!("maps/{name}/{stem}.png"))?, &picture)?;
-            let last = index + 1 == operations.len();
-            // One picture of passes is enough to see the order of cutting: that of the finished surface. The EXR has
-            // all.
-            if last {
-                let picture = MapPicture {
-                    title: &format!("{name}: {flank}, the pass that left each place"),
-                    quantity: "latest pass of cell, in the order of time",
-                    unit: "1",
-                    values: &self.latest_pass,
-                    scale: ColourScale::sequential_over([self.latest_pass.as_slice()]),
-                    ..picture
-                };
-                write_map_png(&folder.path(format!("maps/{name}/{stem}_pass.png"))?, &picture)?;
-            }
-            if let Some(chips) = self.chips.get(index).filter(|_| last) {
-                let thickness_um: Vec<f32> = chips.thickness_mm.iter().map(|h| h * UM_PER_MM as f32).collect();
-                let picture = MapPicture {
-                    title: &format!("{name}: {flank}, the chip that left each place"),
-                    quantity: CHIP_QUANTITY,
-                    values: &thickness_um,
-                    scale: ColourScale::between_quantiles([thickness_um.as_slice()], CHIPS_SHOWN),
-                    ..picture
-                };
-                write_map_png(&folder.path(format!("maps/{name}/{stem}_chip.png"))?, &picture)?;
-            }
             let mut channels = vec![
                 MapChannel::lengths_mm("height_mm", "normal deviation after this operation", &self.heights_mm[index]),
                 MapChannel::lengths_mm(
@@ -268,7 +232,7 @@ impl FlankMaps {
                 ids("pass_id", "pass that left the surface; 4294967295 where none came", self.passes[index].clone()),
             ];
             if let Some(chips) = self.chips.get(index) {
-                channels.push(MapChannel::lengths_mm(
+                channels.push(MapChannel::coarse_lengths_mm(
                     "chip_thickness_mm",
                     "uncut chip thickness, the largest of four dexels across the cell: solid material before the edge \
                     along the target's normal, times the cosine to the edge's normal; NaN where none came",
@@ -280,67 +244,95 @@ impl FlankMaps {
                     flank",
                     chips.sides.iter().copied().map(u32::from).collect(),
                 ));
-                channels.sort_by(|a, b| a.name.cmp(&b.name));
             }
             self.write_exr(&folder.path(format!("maps/{name}/{stem}.exr"))?, channels, notes)?;
         }
         let earlier = &operations[..operations.len() - 1];
-        if let Some((index, OperationMaps { name, stock_scale })) = earlier.iter().enumerate().next_back() {
-            let stock_mm = self.mean_stock_mm(index);
-            let picture = MapPicture {
-                missing: NO_PASS_CAME,
-                title: &format!("Stock of {name} over {}: {flank}", operations[operations.len() - 1].name),
-                quantity: "normal stock, mean of cell",
-                unit: "mm",
-                grid: &self.grid,
-                values: &stock_mm,
-                scale: *stock_scale,
+        if !earlier.is_empty() {
+            let stock = |(index, OperationMaps { name, .. }): (usize, &OperationMaps)| {
+                let definition = format!("normal stock of {name} over the last operation");
+                MapChannel::lengths_mm(&format!("stock_{name}_mm"), &definition, &self.stock_mm(index))
             };
-            write_map_png(&folder.path(format!("allowance/{stem}.png"))?, &picture)?;
-            let mut channels: Vec<MapChannel> = earlier
-                .iter()
-                .enumerate()
-                .map(|(index, OperationMaps { name, .. })| {
-                    let definition = format!("normal stock of {name} over the last operation");
-                    MapChannel::lengths_mm(&format!("stock_{name}_mm"), &definition, &self.stock_mm(index))
-                })
-                .collect();
-            channels.sort_by(|a, b| a.name.cmp(&b.name));
+            let channels = earlier.iter().enumerate().map(stock).collect();
             self.write_exr(&folder.path(format!("allowance/{stem}.exr"))?, channels, notes)?;
         }
-        Ok(())
-    }
-
-    /// Writes the deviation map; `scale` (µm) is that of all flanks, so that they can be compared.
-    ///
-    /// # Errors
-    /// Files that cannot be written.
-    pub fn write_deviation(
-        &self,
-        folder: &OutputFolder,
-        last: &str,
-        scale: ColourScale,
-        notes: &[(String, String)],
-    ) -> Result<()> {
-        let stem = self.file_stem();
-        let values_um: Vec<f32> = self.deviation_mm().iter().map(|h| h * UM_PER_MM as f32).collect();
-        let picture = MapPicture {
-            missing: NO_PASS_CAME,
-            title: &format!("Deviation after {last}: tooth {}, {} flank", self.tooth, self.side.name()),
-            quantity: "mean normal deviation of cell",
-            unit: "µm",
-            grid: &self.grid,
-            values: &values_um,
-            scale,
-        };
-        write_map_png(&folder.path(format!("deviation/{stem}.png"))?, &picture)?;
         let definition = "mean normal deviation of the cell's dexels after the last operation";
         let channel = MapChannel::lengths_mm("deviation_mm", definition, self.deviation_mm());
         self.write_exr(&folder.path(format!("deviation/{stem}.exr"))?, vec![channel], notes)
     }
 
-    fn write_exr(&self, path: &std::path::Path, channels: Vec<MapChannel>, notes: &[(String, String)]) -> Result<()> {
-        let map = ExrMap { grid: self.grid.clone(), frame: FRAME.to_owned(), channels, notes: notes.to_vec() };
+    /// Draws the maps of this flank by themselves; `deviation_scale` (µm) is that of all flanks, so that they can be
+    /// compared.
+    ///
+    /// # Errors
+    /// Files that cannot be written.
+    pub fn draw(
+        &self,
+        folder: &OutputFolder,
+        operations: &[OperationMaps],
+        deviation_scale: ColourScale,
+    ) -> Result<()> {
+        let stem = self.file_stem();
+        let flank = format!("tooth {}, {} flank", self.tooth, self.side.name());
+        let um = |mm: &[f32]| -> Vec<f32> { mm.iter().map(|h| h * UM_PER_MM as f32).collect() };
+        let picture = |path: String, title: String, [quantity, unit]: [&str; 2], values: &[f32], scale| {
+            let grid = &self.grid;
+            let picture = MapPicture { title: &title, quantity, unit, grid, values, scale, missing: NO_PASS_CAME };
+            write_map_png(&folder.path(path)?, &picture)
+        };
+        for (OperationMaps { name, .. }, highest_mm) in operations.iter().zip(&self.highest_mm) {
+            let heights_um = um(highest_mm);
+            let scale = ColourScale::heights_over([heights_um.as_slice()]);
+            let shown = ["normal deviation, highest of cell", "µm"];
+            picture(format!("maps/{name}/{stem}.png"), format!("{name}: {flank}"), shown, &heights_um, scale)?;
+        }
+        let Some((last, earlier)) = operations.split_last() else { return Ok(()) };
+        let name = &last.name;
+        let passes = ColourScale::sequential_over([self.latest_pass.as_slice()]);
+        picture(
+            format!("maps/{name}/{stem}_pass.png"),
+            format!("{name}: {flank}, the pass that left each place"),
+            ["latest pass of cell, in the order of time", "1"],
+            &self.latest_pass,
+            passes,
+        )?;
+        if let Some(chips) = self.chips.get(earlier.len()) {
+            let thickness_um = um(&chips.thickness_mm);
+            picture(
+                format!("maps/{name}/{stem}_chip.png"),
+                format!("{name}: {flank}, the chip that left each place"),
+                [CHIP_QUANTITY, "µm"],
+                &thickness_um,
+                ColourScale::between_quantiles([thickness_um.as_slice()], CHIPS_SHOWN),
+            )?;
+        }
+        if let Some(before) = earlier.last() {
+            picture(
+                format!("allowance/{stem}.png"),
+                format!("Stock of {} over {name}: {flank}", before.name),
+                ["normal stock, mean of cell", "mm"],
+                &self.mean_stock_mm(earlier.len() - 1),
+                before.stock_scale,
+            )?;
+        }
+        picture(
+            format!("deviation/{stem}.png"),
+            format!("Deviation after {name}: {flank}"),
+            ["mean normal deviation of cell", "µm"],
+            &um(self.deviation_mm()),
+            deviation_scale,
+        )
+    }
+
+    fn write_exr(
+        &self,
+        path: &std::path::Path,
+        mut channels: Vec<MapChannel>,
+        notes: &[(String, String)],
+    ) -> Result<()> {
+        channels.sort_by(|a, b| a.name.cmp(&b.name));
+        let notes = notes.iter().filter(|(name, _)| name != "scene").cloned().collect();
+        let map = ExrMap { grid: self.grid.clone(), frame: FRAME.to_owned(), channels, notes };
         write_exr_map(path, &map).map_err(file_error)
     }
 }

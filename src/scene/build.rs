@@ -49,6 +49,7 @@ pub(super) fn build(name: &str, process: &SceneProcess, base_dir: &Path, values:
         output: Output {
             map_spacing_mm: output.number("map_spacing_mm")?,
             mesh_spacing_mm: output.number("mesh_spacing_mm")?,
+            draws_all_flanks: output.text("flank_pictures")? == "all",
             folder: output.text("folder").map(PathBuf::from),
             gcode_contour_error_mm: output.mm_from_um("gcode_contour_error_um")?,
             post: match output.text("post")? {

@@ -241,6 +241,8 @@ pub struct Output {
     pub map_spacing_mm: f64,
     /// Spacing of vertices on meshes.
     pub mesh_spacing_mm: f64,
+    /// Whether every flank is drawn by itself, and not only those that are looked at.
+    pub draws_all_flanks: bool,
     /// Folder given in the scene, if any; the command line wins.
     pub folder: Option<PathBuf>,
     /// Largest displacement on the flanks that straight lines of axis programs may cause.

@@ -4,6 +4,7 @@
 
 use crate::colormap::ColourScale;
 use crate::output::flank_maps::FlankMaps;
+use gearcut_core::terms::Side;
 use gearcut_core::units::UM_PER_MM;
 
 /// Deviations whose colours reach the ends of the scale at least, µm: on a finer scale a perfect gear would look
@@ -48,6 +49,38 @@ impl GearMaps {
     }
 }
 
+impl GearMaps {
+    /// Flanks that are drawn by themselves: those of `windows`, and those with the largest and the smallest value of
+    /// what is evaluated of the finished surface, its mean deviation and the stock for it.
+    pub fn drawn(&self, windows: &[(u32, Side)]) -> Vec<&FlankMaps> {
+        let last = |map: &FlankMaps| map.evaluated_mm.len() - 1;
+        let mut chosen: Vec<usize> = (0..self.flanks.len())
+            .filter(|&i| windows.contains(&(self.flanks[i].tooth, self.flanks[i].side)))
+            .collect();
+        let mut extremes = |values: &dyn Fn(&FlankMaps) -> Vec<f32>, operation: usize| {
+            let ends = self.flanks.iter().enumerate().map(|(index, map)| {
+                let values = values(map);
+                let evaluated = map.evaluated(&values, operation).iter();
+                let (low, high) = evaluated
+                    .fold((f32::INFINITY, f32::NEG_INFINITY), |(low, high), &value| (low.min(value), high.max(value)));
+                (index, low, high)
+            });
+            let ends: Vec<_> = ends.filter(|(_, low, high)| low <= high).collect();
+            chosen.extend(ends.iter().min_by(|a, b| a.1.total_cmp(&b.1)).map(|(index, ..)| *index));
+            chosen.extend(ends.iter().max_by(|a, b| a.2.total_cmp(&b.2)).map(|(index, ..)| *index));
+        };
+        let Some(last) = self.flanks.first().map(last) else { return Vec::new() };
+        extremes(&finished_heights_um, last);
+        extremes(&|map| map.deviation_mm().to_vec(), last);
+        if last > 0 {
+            extremes(&|map| map.mean_stock_mm(last - 1), last - 1);
+        }
+        chosen.sort_unstable();
+        chosen.dedup();
+        chosen.into_iter().map(|index| &self.flanks[index]).collect()
+    }
+}
+
 fn stock_scale(flanks: &[FlankMaps], operation: usize) -> ColourScale {
     let stocks_mm: Vec<Vec<f32>> = flanks.iter().map(|map| map.mean_stock_mm(operation)).collect();
     let evaluated = flanks.iter().zip(&stocks_mm).map(|(map, stock)| map.evaluated(stock, operation));
@@ -71,7 +104,6 @@ pub fn um(lengths_mm: &[f32]) -> Vec<f32> {
 mod tests {
     use super::*;
     use gearcut_core::dexel::{Column, Field};
-    use gearcut_core::terms::Side;
     use glam::DVec2;
 
     /// A fillet half a millimetre deep below flanks that are 3 um high and have 0.2 mm of stock: the colours are those
@@ -108,5 +140,35 @@ mod tests {
         near(maps.height_scale.ends(), (3.0, 3.0));
         near(maps.stock_scales[0].ends(), (0.195, 0.205));
         near(GearMaps::new(vec![map([0.71, 0.72])]).deviation_scale.ends(), (-500.0, 500.0));
+    }
+
+    /// Flank 3 is the highest, flank 5 the lowest, flank 4 has the least stock, flank 6 the most: they are drawn
+    /// beside the one that a window looks at, each once.
+    #[test]
+    fn extremes_are_drawn_beside_the_flanks_of_windows() {
+        let column = |i: u32| Column {
+            arc_mm: f64::from(i) * 0.05,
+            origin_mm: DVec2::ZERO,
+            normal: DVec2::X,
+            low_mm: -1.0,
+            blank_mm: 1.0,
+        };
+        let field = Field { columns: (0..10).map(column).collect(), rows_z_mm: vec![0.0, 0.1] };
+        let flank = |tooth: u32, rough_mm: f32, finish_mm: f32| {
+            let layers = [rough_mm, finish_mm].map(|mm| {
+                let mut layer = field.blank_layer();
+                layer.heights_mm.fill(mm);
+                layer.passes.fill(1);
+                layer
+            });
+            FlankMaps::sample(tooth, Side::Left, [&field.arcs_mm(), &field.rows_z_mm], &layers, 0.1)
+        };
+        let heights = [(0.2, 0.0), (0.2, 0.0), (0.203, 0.003), (0.19, 0.0), (0.198, -0.002), (0.21, 0.0), (0.2, 0.0)];
+        let flanks = (1..).zip(heights).map(|(tooth, (rough, finish))| flank(tooth, rough, finish)).collect();
+        let maps = GearMaps::new(flanks);
+        let drawn = |windows: &[(u32, Side)]| -> Vec<u32> { maps.drawn(windows).iter().map(|map| map.tooth).collect() };
+        assert_eq!(drawn(&[(2, Side::Left), (2, Side::Right)]), [2, 3, 4, 5, 6]);
+        assert_eq!(drawn(&[]), [3, 4, 5, 6]);
+        assert!(GearMaps::new(Vec::new()).drawn(&[(1, Side::Left)]).is_empty());
     }
 }

@@ -1,4 +1,5 @@
-//! All flanks on one picture each: stock, heights, deviations, passes, chips.
+//! All flanks on one picture each: stock, heights, deviations, passes, chips; and single flanks on pictures of their
+//! own.
 
 use super::gear_maps::{GearMaps, finished_heights_um, um};
 use super::parts::Part;
@@ -8,7 +9,9 @@ use crate::job::GearJob;
 use crate::output::contact_sheet::{ContactSheet, Thumbnail, write_contact_sheet};
 use crate::output::flank_maps::{CHIP_QUANTITY, CHIPS_SHOWN, FlankMaps, NO_PASS_CAME, OperationMaps};
 use crate::output::folder::OutputFolder;
+use crate::texture;
 use gearcut_core::error::{Error, Result};
+use gearcut_core::terms::Side;
 use rayon::prelude::*;
 use std::path::Path;
 
@@ -18,12 +21,12 @@ fn passes_from_first(ids: &[f32]) -> Vec<f32> {
     ids.iter().map(|&id| id - first).collect()
 }
 
-/// Sheets of all flanks, and their deviations on one scale.
+/// Sheets of all flanks, and pictures of those that the scene wants by themselves.
 ///
 /// # Errors
 /// Files that cannot be written.
-pub fn write_sheets_and_deviations(job: &dyn GearJob, maps: &GearMaps, tools: &Tools) -> Result<()> {
-    let Tools { folder, notes, progress, parts, .. } = *tools;
+pub fn write_sheets_and_flanks(job: &dyn GearJob, maps: &GearMaps, tools: &Tools) -> Result<()> {
+    let Tools { folder, progress, parts, .. } = *tools;
     if parts.has(Part::Pictures) {
         let step = progress.step("sheets", 1, "set");
         write_contact_sheets(job, maps, folder)?;
@@ -31,11 +34,14 @@ pub fn write_sheets_and_deviations(job: &dyn GearJob, maps: &GearMaps, tools: &T
         step.finish();
     }
     if parts.has(Part::Maps) {
-        let step = progress.step("deviation maps", maps.flanks.len() as u64, "flanks");
-        let operations = job.operations();
-        let last = operations.last().map_or("", |(name, _)| *name);
-        maps.flanks.par_iter().try_for_each(|map| {
-            map.write_deviation(folder, last, maps.deviation_scale, notes)?;
+        let windows: Vec<(u32, Side)> =
+            texture::windows(job)?.iter().map(|window| (window.tooth, window.side)).collect();
+        let drawn =
+            if job.scene().output.draws_all_flanks { maps.flanks.iter().collect() } else { maps.drawn(&windows) };
+        let step = progress.step("flank pictures", drawn.len() as u64, "flanks");
+        let operations = map_operations(job);
+        drawn.par_iter().try_for_each(|map| {
+            map.draw(folder, &operations, maps.deviation_scale)?;
             step.advance(1);
             Ok::<(), Error>(())
         })?;

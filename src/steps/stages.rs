@@ -64,7 +64,7 @@ pub fn plan(job: &dyn GearJob, parts: Parts, frames: Option<u32>, costs: &Costs)
         ("cut the whole blank", costs.blank_s * teeth),
         ("tables and charts", 0.02 + share(Part::Chips, 0.2)),
         ("sheets", share(Part::Pictures, 0.005 * teeth)),
-        ("deviation maps", share(Part::Maps, 0.007 * teeth)),
+        ("flank pictures", share(Part::Maps, 0.01 * teeth.min(10.0))),
         ("roots", if needs_surfaces(job, parts) { costs.root_s * teeth } else { 0.0 }),
         ("tips", if needs_surfaces(job, parts) { 0.004 * teeth } else { 0.0 }),
         ("meshes", share(Part::Meshes, 0.002 * teeth)),

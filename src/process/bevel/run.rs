@@ -69,8 +69,8 @@ pub(super) fn run(job: &BevelJob, tools: &Tools) -> Result<CutDone> {
         let write = || write_bytes_atomically(&folder.path("pictures/settings.svg")?, svg.as_bytes());
         attempts.of("drawing of the settings", write())?;
     }
-    let sheets = sheets::write_sheets_and_deviations(job, &gear.maps, tools);
-    attempts.of("sheets and maps of deviations", sheets)?;
+    let sheets = sheets::write_sheets_and_flanks(job, &gear.maps, tools);
+    attempts.of("sheets and pictures of flanks", sheets)?;
     attempts.of("tables", write_tables(&found, folder))?;
     if parts.has(Part::Texture) {
         attempts.of("files of texture", texture::write(job, &textures, folder, notes))?;

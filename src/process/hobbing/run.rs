@@ -80,8 +80,8 @@ pub(super) fn run(job: &HobbingJob, tools: &Tools) -> Result<CutDone> {
         let write = || chart.write_svg(&folder.path("pictures/offset_curves.svg")?);
         attempts.of("chart of the offset curves", write())?;
     }
-    let sheets = sheets::write_sheets_and_deviations(&cutter, &gear.maps, tools);
-    attempts.of("sheets and maps of deviations", sheets)?;
+    let sheets = sheets::write_sheets_and_flanks(&cutter, &gear.maps, tools);
+    attempts.of("sheets and pictures of flanks", sheets)?;
     attempts.of("tables", write_tables(&found, folder))?;
     if parts.has(Part::Texture) {
         attempts.of("files of texture", texture::write(&cutter, &textures, folder, notes))?;

@@ -93,6 +93,15 @@ pub(super) static SECTIONS: &[KeySection] = &[
                 teach: "Spacing of vertices on meshes; those within 1 um of the triangles between the others are left \
                     out.",
             },
+            Key::word(
+                "flank_pictures",
+                &["chosen", "all"],
+                "chosen",
+                "\"all\"",
+                "Flanks that are drawn by themselves: those with texture windows and those with the largest and the \
+                    smallest deviation, mark and stock; or all. The sheets show every flank, and every flank has its \
+                    EXR.",
+            ),
             Key {
                 name: "folder",
                 kind: Kind::Path,

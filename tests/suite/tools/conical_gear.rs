@@ -246,7 +246,7 @@ fn files_pictures_page_and_texture_ask_for_no_pitch_curve() {
         notes: &notes,
     };
     let done = cut(&job, Some(&tools));
-    sheets::write_sheets_and_deviations(&job, &done.maps, &tools).expect("sheets");
+    sheets::write_sheets_and_flanks(&job, &done.maps, &tools).expect("sheets");
     // What stands for the gear's body: here the flank alone.
     let body = done.surfaces[0].mesh("tooth_01_left");
     let mut attempts = Attempts::new(&progress);

@@ -61,8 +61,17 @@ impl MapChannel {
     /// Lengths in mm; NaN where there is none. Below 16 mm they are rounded to whole 2^-20 mm (0.95 nm): f32 has
     /// further digits there, which mean nothing and are two thirds of a packed file.
     pub fn lengths_mm(name: &str, definition: &str, values: &[f32]) -> Self {
-        const PER_MM: f32 = (1 << 20) as f32;
-        let rounded = |&mm: &f32| if mm.abs() < 16.0 { (mm * PER_MM).round_ties_even() / PER_MM } else { mm };
+        Self::rounded_mm(name, definition, values, (1 << 20) as f32)
+    }
+
+    /// Lengths in mm that are not known to a nanometre, such as the thickness of a chip: as [`Self::lengths_mm`], in
+    /// whole 2^-17 mm (7.6 nm).
+    pub fn coarse_lengths_mm(name: &str, definition: &str, values: &[f32]) -> Self {
+        Self::rounded_mm(name, definition, values, (1 << 17) as f32)
+    }
+
+    fn rounded_mm(name: &str, definition: &str, values: &[f32], per_mm: f32) -> Self {
+        let rounded = |&mm: &f32| if mm.abs() < 16.0 { (mm * per_mm).round_ties_even() / per_mm } else { mm };
         Self {
             name: name.to_owned(),
             unit: "mm".to_owned(),

@@ -98,6 +98,8 @@ fn lengths_of_maps_are_within_half_a_nanometre() {
         assert!((f64::from(*of) - f64::from(*is)).abs() <= 0.5 / f64::from(1 << 20), "{of} became {is}");
     }
     assert_eq!((rounded[1].to_bits(), rounded[5], rounded[7]), (0, lengths[5], f32::MAX), "whole steps, and no others");
+    let coarse = MapChannel::coarse_lengths_mm("thickness_mm", "a thickness", &[4.0e-6, 3.0e-6]).samples;
+    assert_eq!(coarse, Samples::F32(vec![1.0 / f32::from(2_u8).powi(17), 0.0]), "7.6 nm or nothing");
     let Samples::F32(none) = MapChannel::lengths_mm("height_mm", "none", &[f32::NAN]).samples else { panic!("floats") };
     assert!(none[0].is_nan());
 }

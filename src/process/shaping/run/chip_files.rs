@@ -103,7 +103,7 @@ fn write_map(
         scale: ColourScale::Sequential { low: 0.0, high: high as f32 },
     };
     write_map_png(&folder.path(format!("{stem}.png"))?, &picture)?;
-    let channels = vec![MapChannel::lengths_mm(
+    let channels = vec![MapChannel::coarse_lengths_mm(
         "thickness_mm",
         "largest uncut chip thickness of all cutter teeth; NaN where nothing is cut",
         &thickness_mm,

@@ -12,7 +12,7 @@ use crate::process::shaping::axes_report::OperationAxes;
 use crate::process::shaping::measure::unevenness::ToothAllowance;
 use crate::steps::attempts::Attempts;
 use crate::steps::parts::Part;
-use crate::steps::sheets::write_sheets_and_deviations;
+use crate::steps::sheets::write_sheets_and_flanks;
 use crate::steps::{Tools, axes};
 use gearcut_core::error::Result;
 
@@ -52,7 +52,7 @@ pub fn write(
     }
     step.advance(1);
     step.finish();
-    attempts.of("sheets and maps of deviations", write_sheets_and_deviations(job, &cut.maps, tools))?;
+    attempts.of("sheets and pictures of flanks", write_sheets_and_flanks(job, &cut.maps, tools))?;
     Ok(())
 }
 
