@@ -29,14 +29,14 @@ pub use texture::{FilterArguments, LineArguments, LineFormChoice, ProfileChoice,
 #[command(
     name = "gearcut",
     version,
-    about = "Cuts non-circular gears on this computer before anyone cuts them in steel, and measures what the cutter \
-        leaves.",
+    about = "Cuts gears, non-circular ones above all, on this computer before anyone cuts them in steel, and measures \
+        their flanks.",
     after_help = "First steps:\n  \
         gearcut check scenes/shaping/elliptical_finishing_stock.toml   what the scene means, in a second\n  \
         gearcut cut scenes/shaping/elliptical_finishing_stock.toml     cut it and measure it\n  \
         gearcut new shaping --out my_gear.toml                         a commented scene of your own\n\n\
         Exit codes: 0 done; 1 refused or failed, with the reason; 2 wrong usage; 3 done and written, but the verdict \
-        is bad (a fault; pair: a tip stands in the mate); 130 stopped by Ctrl-C."
+        is bad (a fault; pair: a tip cuts into the mate); 130 stopped by Ctrl-C."
 )]
 pub struct CommandLine {
     /// What to do.
@@ -47,7 +47,7 @@ pub struct CommandLine {
 /// The commands.
 #[derive(Debug, Subcommand)]
 pub enum Command {
-    /// Cut a scene and measure what is left.
+    /// Cut a scene and measure the gear.
     #[command(after_help = "Example:\n  \
         gearcut cut scenes/shaping/elliptical_normal.toml --set operation.rough.offset_mm=1.5\n  \
         gearcut cut scenes/shaping/elliptical_normal.toml --draft\n  \
@@ -59,7 +59,7 @@ pub enum Command {
         gearcut wrote it, and only after the new one is complete. The summary goes to standard output, \
         progress to standard error.")]
     Cut(CutArguments),
-    /// Say what a scene means: pitch curve, teeth, axes, relief, warnings, cost. Cuts nothing.
+    /// Show what a scene means: pitch curve, teeth, axes, relief, warnings, cost. Cuts nothing.
     #[command(after_help = "Example:\n  \
         gearcut check scenes/shaping/elliptical_normal.toml --set gear.teeth=45\n\n\
         Prints lengths in mm or um, angles in deg, speeds in deg/s and mm/s; writes no files.")]
@@ -113,7 +113,7 @@ pub enum Command {
     Schema,
     /// Write a commented scene to start from.
     #[command(after_help = "Example:\n  gearcut new shaping --out my_gear.toml\n\n\
-        Every key stands in it with its unit, its range and its default. An existing file is never replaced.")]
+        The scene has every key with its unit, its range and its default. An existing file is never replaced.")]
     New(NewArguments),
     /// Write the scene of the gear that runs with a scene's gear.
     #[command(after_help = "Example:\n  \
@@ -133,7 +133,7 @@ pub enum Command {
         gearcut export scenes/hobbing/circular_helical.toml --points nominal.csv --teeth 1..4 --grid 9x5\n\n\
         The section of a cylindrical gear, external or a ring, round or not: the profile with its fillets as one \
         closed polyline of arcs and lines, the pitch curve, the stock, bore or rim, each on a layer of its name. The \
-        target is what the tool leaves under continuous motion; as cut has every mark. Corners stay corners. Lengths \
+        target is the tool's envelope under continuous motion; as cut has every mark. Corners stay corners. Lengths \
         in mm or inch, as the file says; programs in mm.\n\n\
         A program of wire erosion is read back and judged before it is written; a profile that the wire cannot follow \
         is refused. Points are tooth, flank, u and v (arc along the profile from the form point, place along the \
@@ -212,7 +212,7 @@ pub enum Command {
         figure per unit of each error, tables/influence_maps.csv with the derivative of every height. \
         See docs/budget.md.")]
     Budget(BudgetArguments),
-    /// Say which errors of the machine explain measured flanks, and what they leave over.
+    /// Find the machine errors that explain a measured gear, and the unexplained rest.
     #[command(after_help = "Example:\n  \
         gearcut diagnose scenes/shaping/circular_m3_z24.toml --measured gear.csv --noise-um 0.5\n  \
         gearcut diagnose my.toml --measured gear.csv --noise-um 0.5 --parameters mounting,machine.errors.guide\n\n\
@@ -220,8 +220,8 @@ pub enum Command {
         (arc along the profile from the form point), v_mm (along the tooth from the middle of the face), deviation_um \
         (normal to the target, positive where material is). The noise is the standard deviation of each value.\n\n\
         Fits the influences of errors to the deviations from the scene's own gear, and names those that explain more \
-        than noise would, with 95 % intervals; says which of them cannot be told apart, and whether what is left over \
-        is more than noise. A turn of the gear on the measuring machine is always fitted along.\n\n\
+        than noise would, with 95 % intervals; names those that cannot be separated, and whether the unexplained rest \
+        exceeds the noise. A turn of the gear on the measuring machine is always fitted along.\n\n\
         Writes a folder (out/<scene>_diagnosis unless --out is given): report.html, results.json, tables/sources.csv, \
         tables/residuals.csv. See docs/budget.md.")]
     Diagnose(DiagnoseArguments),
