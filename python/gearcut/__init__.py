@@ -1,4 +1,4 @@
-"""gearcut: cuts gears stroke by stroke in the computer, and measures what the cutter leaves.
+"""gearcut: cuts gears stroke by stroke in the computer, and measures the gear.
 
 >>> import gearcut
 >>> gear = {
