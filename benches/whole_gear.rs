@@ -26,6 +26,7 @@ use gearcut::passes::CutPlan;
 use gearcut::process::shaping;
 use gearcut::process::shaping::ShapingJob;
 use gearcut::process::shaping::measure::flank_report;
+use gearcut::steps::parts::Stages;
 use gearcut::terms::Side;
 use std::hint::black_box;
 use std::time::Duration;
@@ -75,7 +76,7 @@ fn one_flank(criterion: &mut Criterion, job: &ShapingJob) {
 fn whole_gear(job: &ShapingJob, strokes: &str) {
     for cpu in common::backends() {
         let quiet = Progress::new(ProgressMode::Quiet);
-        let gear = shaping::cut_gear(job, &cpu, &quiet, &Interrupt::default(), None).expect("native");
+        let gear = shaping::cut_gear(job, Stages::ALL, &cpu, (&quiet, &Interrupt::default()), None).expect("native");
         let seconds = gear.work.elapsed.as_secs_f64();
         let visits = gear.work.stats.dexel_passes as f64;
         println!(

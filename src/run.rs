@@ -75,7 +75,7 @@ impl<'a> Run<'a> {
         Self { parts, ..self }
     }
 
-    /// Makes these measurements beside those of flanks and chips.
+    /// Makes these measurements beside those of flanks; numbers of others are not among what is found.
     #[must_use]
     pub fn stages(self, stages: Stages) -> Self {
         Self { stages, ..self }
@@ -105,7 +105,9 @@ impl<'a> Run<'a> {
             stages: self.stages,
             notes: &[],
         };
-        Ok(self.prepared.cut(&tools, None)?.findings)
+        let mut found = self.prepared.cut(&tools, None)?.findings;
+        found.retain(&|path| self.stages.find(path));
+        Ok(found)
     }
 
     /// Cuts and writes everything into `out`, which is opened before the work begins, so that a bad path fails at once.

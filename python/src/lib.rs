@@ -15,6 +15,7 @@ mod flank;
 mod job;
 mod pair;
 mod scene;
+mod study;
 mod texture;
 mod waiting;
 
@@ -28,6 +29,7 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<scene::NativeScene>()?;
     module.add_class::<job::NativeJob>()?;
     module.add_function(wrap_pyfunction!(pair::pair, module)?)?;
+    module.add_function(wrap_pyfunction!(study::study, module)?)?;
     module.add_function(wrap_pyfunction!(texture::texture, module)?)?;
     module.add_function(wrap_pyfunction!(texture::texture_of_file, module)?)?;
     Ok(())

@@ -9,6 +9,7 @@ use gearcut::cut::Backend;
 use gearcut::interrupt::Interrupt;
 use gearcut::output::growing_folder::GrowingFolder;
 use gearcut::output::progress::Progress;
+use gearcut::process::ProcessJob;
 use gearcut::scatter::layers::{cases, measure_cases};
 use gearcut::scatter::rows::{self, Rows};
 use gearcut::scatter::seeds::measure_seeds;
@@ -47,11 +48,14 @@ pub fn run(arguments: &ScatterArguments) -> Result<(), Failure> {
     let folder = GrowingFolder::open(&out, record(&loaded, flank, tolerances, &cutter.name_in_files()))?;
     let watch = (&progress, &interrupt);
     let of_scene = |error| Failure::of_scene(&loaded, error);
-    let cases = measure_cases(scene, cases(&layers), flank, cutter, watch).map_err(of_scene)?;
+    let job = process::prepare(scene).map_err(of_scene)?;
+    let cases = measure_cases((scene, job.as_ref()), cases(&layers), flank, cutter, watch).map_err(of_scene)?;
     let differs = !tolerances.is_empty() || layers.iter().any(|layer| layer.is_random());
     let gears = Some(arguments.seeds).filter(|&gears| gears > 0 && differs);
     let rows = match gears {
-        Some(gears) => seeds(arguments, gears, (flank, cutter), &folder, watch).map_err(of_scene)?,
+        Some(gears) => {
+            seeds(arguments, gears, (&loaded, job.as_ref()), (flank, cutter), &folder, watch).map_err(of_scene)?
+        }
         None => Rows::new(),
     };
     let done = rows.range(..=gears.unwrap_or(0)).count();
@@ -60,7 +64,6 @@ pub fn run(arguments: &ScatterArguments) -> Result<(), Failure> {
         return Err(Failure::to_go_on(&out, [done as u64, gears.into()], "gears"));
     }
     let mut unfollowed = Vec::new();
-    let job = process::prepare(scene).map_err(of_scene)?;
     job.with_gear(&mut |gear| {
         unfollowed = gear.unfollowed_errors();
         Ok(())
@@ -78,18 +81,18 @@ pub fn run(arguments: &ScatterArguments) -> Result<(), Failure> {
 fn seeds(
     arguments: &ScatterArguments,
     gears: u32,
-    (flank, backend): (FlankWish, &dyn Backend),
+    (base, job): (&LoadedScene, &dyn ProcessJob),
+    of: (FlankWish, &dyn Backend),
     folder: &GrowingFolder,
     watch: (&Progress, &Interrupt),
 ) -> Result<Rows, Error> {
     let (file, known) = rows::open(&folder.path().join(rows::FILE))?;
     let with_seed = |seed: u32| {
-        let mut settings = arguments.scene.settings.clone();
-        settings.push(format!("machine.errors.seed={seed}"));
+        let mut settings = vec![format!("machine.errors.seed={seed}")];
         settings.extend(tolerance::settings(&arguments.tolerances, seed));
-        Ok(process::load(&arguments.scene.scene, &settings).map_err(|errors| Error::Scene(Box::new(errors)))?.scene)
+        Ok(base.with_settings(&settings, process::table()).map_err(|errors| Error::Scene(Box::new(errors)))?.scene)
     };
-    measure_seeds((known, &file), gears, with_seed, flank, backend, watch)
+    measure_seeds((known, &file), gears, with_seed, job, of, watch)
 }
 
 /// The tolerances, each of which makes a gear at both of its limits.

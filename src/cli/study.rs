@@ -5,9 +5,8 @@ use super::failure::Failure;
 use super::folder::listening;
 use super::{backend, print};
 use gearcut::interrupt::Interrupt;
-use gearcut::process;
+use gearcut::study::StudyPlan;
 use gearcut::study::file::{StudyFile, folder_of, read};
-use gearcut::study::{Study, StudyPlan};
 
 /// Runs `study`.
 pub fn study(arguments: &StudyArguments) -> Result<(), Failure> {
@@ -34,15 +33,12 @@ pub fn sweep(arguments: &SweepArguments) -> Result<(), Failure> {
 }
 
 fn run(file: StudyFile, stem: &str, arguments: &CasesArguments) -> Result<(), Failure> {
-    let StudyFile { scene: path, command, draft, settings, keep, plan } = file;
-    let load = if draft { process::load_draft } else { process::load };
-    let base = load(&path, &settings)?;
+    let base = file.base()?;
     let shard = arguments.shard;
     let out = arguments.out.clone().unwrap_or_else(|| folder_of(&format!("{stem}_study"), shard));
     let interrupt = Interrupt::listen().map_err(listening(&out))?;
     let (choice, progress) = backend::of_few_places(&arguments.compute, false, &base.scene)?;
-    let study = Study { base: &base, command, plan, keep, shard, choice: &choice };
-    let done = study.run(&out, (&progress, &interrupt))?;
+    let done = file.study(&base, shard, &choice).run(&out, (&progress, &interrupt))?;
     if done.rows < done.cases {
         return Err(Failure::to_go_on(&out, [done.rows, done.cases], "cases"));
     }

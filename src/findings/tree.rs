@@ -41,6 +41,21 @@ pub struct Section {
     pub sections: Vec<Section>,
 }
 
+impl Findings {
+    /// Without the entries of the headline and the sections whose paths are not to be kept.
+    pub fn retain(&mut self, keep: &dyn Fn(&str) -> bool) {
+        fn within(before: &str, sections: &mut Vec<Section>, keep: &dyn Fn(&str) -> bool) {
+            sections.retain_mut(|section| {
+                let path = format!("{before}{}", section.key);
+                within(&format!("{path}."), &mut section.sections, keep);
+                keep(&path)
+            });
+        }
+        self.headline.retain(|entry| keep(&entry.key));
+        within("", &mut self.sections, keep);
+    }
+}
+
 impl Section {
     /// An empty section.
     pub fn new(key: impl Into<String>, title: impl Into<String>) -> Self {

@@ -49,6 +49,8 @@ pub struct Process {
     pub quantities: &'static [&'static QuantityGroup],
     /// Makes a scene ready to cut; it refuses geometry that cannot be cut, and scenes of other processes.
     pub prepare: fn(&Scene) -> Result<Box<dyn ProcessJob>>,
+    /// Peaks of the axes against their limits, and nothing that only teeth need.
+    pub axis_peaks: fn(&Scene) -> Result<Findings>,
 }
 
 /// A scene made ready to cut.
@@ -72,20 +74,14 @@ pub trait ProcessJob: Send + Sync {
     /// Those of `visit`; more passes than can be numbered.
     fn with_gear(&self, visit: &mut dyn FnMut(&dyn GearJob) -> Result<()>) -> Result<()>;
 
-    /// Makes another scene ready, one with other errors; what both have in common may be taken over, such as targets.
-    /// The job is the same as that of [`prepare`].
+    /// Makes another scene ready, whose errors differ, or some of its keys; what both have in common may be taken over,
+    /// such as targets. The job is the same as that of [`prepare`].
     ///
     /// # Errors
     /// Geometry that cannot be cut.
     fn with_errors_of(&self, scene: &Scene) -> Result<Box<dyn ProcessJob>> {
         prepare(scene)
     }
-
-    /// Peaks of the axes against their limits, and what must be known of them; nothing is written.
-    ///
-    /// # Errors
-    /// Motion that leads to no pose.
-    fn axis_peaks(&self) -> Result<Findings>;
 
     /// Writes axis tables, charts and programs, and says what the axes do; gives what must be known before they are
     /// used.
@@ -135,6 +131,18 @@ pub fn parse(text: &str, file_name: &str, base_dir: &Path, settings: &[String]) 
 /// # Errors
 /// Geometry that cannot be cut: see the parts.
 pub fn prepare(scene: &Scene) -> Result<Box<dyn ProcessJob>> {
+    (of(scene).prepare)(scene)
+}
+
+/// Peaks of the axes against their limits; exceeded ones are its only notices.
+///
+/// # Errors
+/// Motion that leads to no pose, cutters and linkages that cannot be.
+pub fn axis_peaks(scene: &Scene) -> Result<Findings> {
+    (of(scene).axis_peaks)(scene)
+}
+
+fn of(scene: &Scene) -> &'static Process {
     let process = PROCESSES.iter().find(|process| process.scene.name == scene.process_name());
-    (process.expect("scenes are read for the processes of the table").prepare)(scene)
+    process.expect("scenes are read for the processes of the table")
 }

@@ -5,6 +5,7 @@ use super::numbers::{Values, measure};
 use crate::interrupt::Interrupt;
 use crate::machine_errors::ErrorLayer;
 use crate::output::progress::Progress;
+use crate::process::ProcessJob;
 use crate::scene::Scene;
 use gearcut_core::cut::Backend;
 use gearcut_core::error::Result;
@@ -56,7 +57,7 @@ pub fn cases(layers: &[ErrorLayer]) -> Vec<LayerCase> {
 /// # Errors
 /// Geometry, the backend; Ctrl-C.
 pub fn measure_cases(
-    scene: &Scene,
+    (scene, like): (&Scene, &dyn ProcessJob),
     cases: Vec<LayerCase>,
     flank: FlankWish,
     backend: &dyn Backend,
@@ -69,7 +70,7 @@ pub fn measure_cases(
             interrupt.check()?;
             let mut scene = scene.clone();
             scene.process.keep_layers(&case.kept);
-            let values = measure(&scene, flank, backend)?;
+            let values = measure(&scene, like, flank, backend)?;
             step.advance(1);
             Ok((case, values))
         })

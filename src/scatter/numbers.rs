@@ -16,7 +16,7 @@ use crate::job::{GearJob, rows_z_mm};
 use crate::measure::deviation::{PitchDeviations, Trace};
 use crate::measure::topography::Form;
 use crate::output::growing::RowValues;
-use crate::process;
+use crate::process::ProcessJob;
 use crate::scene::Scene;
 use crate::scene::model::{TextureFilters, TextureWindow, WindowSides};
 use crate::texture::{cut_window, windows};
@@ -58,11 +58,11 @@ pub static NUMBERS: [&QuantityRow; 13] = [
 /// A gear's values of [`NUMBERS`].
 pub type Values = RowValues;
 
-/// Cuts what is needed of a gear and measures it.
+/// Cuts what is needed of a gear and measures it; `like` is the job of a scene with other errors.
 ///
 /// # Errors
 /// A tooth that the gear does not have; geometry; the backend.
-pub fn measure(scene: &Scene, flank: FlankWish, backend: &dyn Backend) -> Result<Values> {
+pub fn measure(scene: &Scene, like: &dyn ProcessJob, flank: FlankWish, backend: &dyn Backend) -> Result<Values> {
     if !(1..=scene.gear.teeth).contains(&flank.tooth) {
         let problem = format!("tooth {} is asked for, the gear has {}", flank.tooth, scene.gear.teeth);
         return Err(Refusal::new("gear.teeth", problem, "ask for a tooth from 1 to the number of teeth").into());
@@ -83,7 +83,7 @@ pub fn measure(scene: &Scene, flank: FlankWish, backend: &dyn Backend) -> Result
         measured: None,
     }];
     let mut values = Values::new();
-    process::prepare(&scene)?.with_gear(&mut |gear| {
+    like.with_errors_of(&scene)?.with_gear(&mut |gear| {
         values = of_gear(gear, flank, backend)?;
         Ok(())
     })?;

@@ -5,13 +5,14 @@ use super::numbers::measure;
 use super::rows::{Rows, SeedFile};
 use crate::interrupt::Interrupt;
 use crate::output::progress::Progress;
+use crate::process::ProcessJob;
 use crate::scene::Scene;
 use gearcut_core::cut::Backend;
 use gearcut_core::error::Result;
 use rayon::prelude::*;
 
 /// Cuts and measures the seeds 1 to `seeds` that the rows do not have yet; each is written as soon as it is found.
-/// `scene` gives the scene of a seed. Gives all rows that there are then.
+/// `scene` gives the scene of a seed, and `like` is the job of one of them. Gives all rows that there are then.
 ///
 /// # Errors
 /// Geometry, the backend, the file. Ctrl-C is no error: what is finished is returned.
@@ -19,8 +20,8 @@ pub fn measure_seeds(
     (rows, file): (Rows, &SeedFile),
     seeds: u32,
     scene: impl Fn(u32) -> Result<Scene> + Sync,
-    flank: FlankWish,
-    backend: &dyn Backend,
+    like: &dyn ProcessJob,
+    (flank, backend): (FlankWish, &dyn Backend),
     (progress, interrupt): (&Progress, &Interrupt),
 ) -> Result<Rows> {
     let missing: Vec<u32> = (1..=seeds).filter(|seed| !rows.contains_key(seed)).collect();
@@ -32,7 +33,7 @@ pub fn measure_seeds(
             if interrupt.is_raised() {
                 return Ok(None);
             }
-            let values = measure(&scene(seed)?, flank, backend)?;
+            let values = measure(&scene(seed)?, like, flank, backend)?;
             file.add(&seed, &values)?;
             step.advance(1);
             Ok(Some((seed, values)))

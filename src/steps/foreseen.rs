@@ -6,6 +6,7 @@
 //! that `check` accepts is one that `cut` starts on.
 
 use super::inspection;
+use super::parts::{Stage, Stages};
 use crate::findings::Notice;
 use crate::findings::notice::ranked;
 use crate::job::GearJob;
@@ -40,6 +41,14 @@ impl Foreseen {
         }
         Ok(Self { windows, warnings: ranked(warnings) })
     }
+}
+
+/// Texture windows of a job; none where nobody looks at them.
+///
+/// # Errors
+/// A window that lies on no flank.
+pub fn windows(job: &dyn GearJob, wanted: Stages) -> Result<Vec<Window>> {
+    if wanted.has(Stage::Texture) { texture::windows(job) } else { Ok(Vec::new()) }
 }
 
 /// Says in `check` which kinds of warnings only a cut can find.

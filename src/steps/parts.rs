@@ -45,26 +45,78 @@ impl Part {
     }
 }
 
-/// Measurements of a run that can be left out where nobody asks for their numbers.
+/// A measurement that can be left out where nobody keeps its numbers.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Stage {
+    /// Texture windows.
+    Texture,
+    /// Rays through the whole blank; only shaped gears, whose chips do not come from there, can do without.
+    Blank,
+    /// The ledger of a shaper's chips.
+    Chips,
+    /// Stock in a shaped gear's roots.
+    Roots,
+}
+
+impl Stage {
+    const ALL: [Self; 4] = [Self::Texture, Self::Blank, Self::Chips, Self::Roots];
+
+    /// Where its numbers are found: sections, those below an operation by their own keys, and keys of the headline.
+    fn places(self) -> &'static [&'static str] {
+        match self {
+            Self::Texture => &["texture", "roughness", "marks"],
+            Self::Blank => &["blank"],
+            Self::Chips => &[
+                "chips",
+                "deflection",
+                "largest_chip_thickness",
+                "largest_cutting_force",
+                "removed_volume",
+                "removal_rate",
+                "largest_chip_section",
+                "entry_cutting_force",
+                "idle_strokes",
+            ],
+            Self::Roots => &["root_stock"],
+        }
+    }
+
+    /// Whether it finds what is at a path.
+    fn finds(self, path: &str) -> bool {
+        let mut keys = path.split('.');
+        let place = match keys.next() {
+            Some("operations") => keys.nth(1),
+            first => first,
+        };
+        place.is_some_and(|place| self.places().contains(&place))
+    }
+}
+
+/// The measurements that a run makes beside those of flanks.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Stages {
-    /// Texture windows.
-    pub texture: bool,
-    /// Rays through the whole blank; only shaped gears, whose chips do not come from there, can do without.
-    pub blank: bool,
+    /// One bit for each stage.
+    bits: u8,
 }
 
 impl Stages {
     /// Every one.
-    pub const ALL: Self = Self { texture: true, blank: true };
+    pub const ALL: Self = Self { bits: u8::MAX };
 
     /// Those that quantities at these paths need.
     pub fn of_paths(paths: &[String]) -> Self {
-        let asks = |sections: &[&str]| {
-            let first = |path: &String| path.split_once('.').map(|(section, _)| section.to_owned());
-            paths.iter().filter_map(first).any(|section| sections.contains(&section.as_str()))
-        };
-        Self { texture: asks(&["texture", "roughness", "marks"]), blank: asks(&["blank"]) }
+        let needed = Stage::ALL.into_iter().filter(|stage| paths.iter().any(|path| stage.finds(path)));
+        Self { bits: needed.fold(0, |bits, stage| bits | 1 << stage as u8) }
+    }
+
+    /// Whether a stage is among them.
+    pub fn has(self, stage: Stage) -> bool {
+        self.bits & 1 << stage as u8 != 0
+    }
+
+    /// Whether what is found at a path comes from these stages or from flanks.
+    pub fn find(self, path: &str) -> bool {
+        Stage::ALL.into_iter().all(|stage| self.has(stage) || !stage.finds(path))
     }
 }
 

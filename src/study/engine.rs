@@ -15,15 +15,16 @@ use crate::interrupt::Interrupt;
 use crate::output::growing::LineFile;
 use crate::output::growing_folder::GrowingFolder;
 use crate::output::progress::Progress;
-use crate::process;
+use crate::process::{self, ProcessJob};
 use crate::run::Run;
-use crate::scene::{LoadedScene, SceneErrors};
+use crate::scene::{LoadedScene, Scene, SceneErrors};
 use crate::steps::parts::Stages;
 use gearcut_core::error::{Error, Refusal, Result};
 use rayon::prelude::*;
 use serde_json::{Map, Value, json};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
 
 /// Rows in the folder.
 const ROWS: &str = "rows.csv";
@@ -46,6 +47,8 @@ pub struct Study<'a> {
     pub shard: Shard,
     /// What cuts.
     pub choice: &'a Choice,
+    /// The base made ready, once a case needs it; none where it cannot be cut itself.
+    pub(super) shared: OnceLock<Option<Box<dyn ProcessJob>>>,
 }
 
 /// What a study has.
@@ -158,19 +161,28 @@ impl Study<'_> {
     fn found(&self, case: u64, interrupt: &Interrupt) -> Result<Findings> {
         let settings = self.plan.settings(case);
         let scene = self.base.with_settings(&settings, process::table())?;
-        let explained = |error| match error {
+        let found = match self.command {
+            StudyCommand::Axes => process::axis_peaks(&scene.scene),
+            StudyCommand::Cut => self.prepared(&scene.scene).and_then(|prepared| {
+                Run::new(&scene, prepared.as_ref(), self.choice)
+                    .until(interrupt)
+                    .stages(Stages::of_paths(&self.keep))
+                    .found()
+            }),
+        };
+        found.map_err(|error| match error {
             Error::Refused(refusal) => scene.explain(&refusal).into(),
             other => other,
-        };
-        let prepared = process::prepare(&scene.scene).map_err(explained)?;
-        let found = match self.command {
-            StudyCommand::Axes => prepared.axis_peaks(),
-            StudyCommand::Cut => Run::new(&scene, prepared.as_ref(), self.choice)
-                .until(interrupt)
-                .stages(Stages::of_paths(&self.keep))
-                .found(),
-        };
-        found.map_err(explained)
+        })
+    }
+
+    /// A scene made ready. What it shares with the base, such as targets of teeth, is found once.
+    fn prepared(&self, scene: &Scene) -> Result<Box<dyn ProcessJob>> {
+        let base = &self.base.scene;
+        match self.shared.get_or_init(|| process::prepare(base).ok()) {
+            Some(shared) if base.process_name() == scene.process_name() => shared.with_errors_of(scene),
+            _ => process::prepare(scene),
+        }
     }
 
     /// A row of an earlier run with its case, if it is whole and of this study.

@@ -3,11 +3,16 @@
 //! In: the path of a file. Out: [`StudyFile`]. Unknown names are refused with their line, and paths in the file are
 //! those beside it.
 
+use super::engine::Study;
 use super::parameter::{ParameterValues, StudyParameter, ValueRange};
 use super::plan::{SampleDesign, Shard, StudyCommand, StudyPlan};
+use crate::backend::Choice;
+use crate::process;
+use crate::scene::{LoadedScene, SceneErrors};
 use gearcut_core::error::{Error, Refusal, Result};
 use serde::Deserialize;
 use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
 use toml::Value;
 
 /// A study as its file says it.
@@ -25,6 +30,23 @@ pub struct StudyFile {
     pub keep: Vec<String>,
     /// The cases.
     pub plan: StudyPlan,
+}
+
+impl StudyFile {
+    /// The scene that cases change.
+    ///
+    /// # Errors
+    /// All problems of the scene.
+    pub fn base(&self) -> Result<LoadedScene, SceneErrors> {
+        let load = if self.draft { process::load_draft } else { process::load };
+        load(&self.scene, &self.settings)
+    }
+
+    /// A share of the study, with its base.
+    pub fn study<'a>(self, base: &'a LoadedScene, shard: Shard, choice: &'a Choice) -> Study<'a> {
+        let Self { command, keep, plan, .. } = self;
+        Study { base, command, plan, keep, shard, choice, shared: OnceLock::new() }
+    }
 }
 
 #[derive(Deserialize)]

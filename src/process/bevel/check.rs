@@ -11,6 +11,7 @@ use crate::steps::axes;
 use crate::steps::check_cost::{BYTES_PER_DEXEL, TimeCost};
 use crate::steps::computer_speed::{ComputerSpeed, so_far_s};
 use crate::steps::foreseen::{OF_WINDOWS, print_unknown};
+use crate::steps::parts::Stages;
 use crate::steps::stages;
 use gearcut_core::cut::Backend as _;
 use gearcut_core::cut::cpu::Cpu;
@@ -43,7 +44,7 @@ pub fn print(sheet: &mut Sheet, job: &BevelJob) -> Result<Vec<Notice>> {
         axes::print(operation, sheet);
     }
     // Before the cost: a cut does it as well.
-    let foreseen = findings::foresee(job, &operations)?;
+    let foreseen = findings::foresee(job, &operations, Stages::ALL)?;
     print_cost(sheet, job)?;
     let kinds = ["parts of flanks that the roll does not cover", OF_WINDOWS];
     print_unknown(sheet, &kinds);

@@ -23,9 +23,10 @@ use crate::findings::{Entry, Findings, Notice, QuantityRow, Section, Table};
 use crate::machine_errors::ErrorLayer;
 use crate::output::text::significant;
 use crate::steps::axes::{self, AxesOfOperation as _};
-use crate::steps::foreseen::Foreseen;
+use crate::steps::foreseen::{Foreseen, windows};
 use crate::steps::inspection::headline::{self, Cutting, Placed, candidates};
 use crate::steps::machine_errors::{self, size, tool_words};
+use crate::steps::parts::Stages;
 use crate::steps::program_under_test::ProgramUnderTest;
 use crate::steps::untouched_dexels;
 use crate::texture::{self, WindowTexture};
@@ -84,9 +85,9 @@ pub fn findings(job: &BevelJob, gear: &BevelGear, measured: &BevelMeasured) -> R
 ///
 /// # Errors
 /// A place that the roll does not generate, a window that lies on no flank, too many rays through the blank.
-pub fn foresee(job: &BevelJob, motion: &[BevelAxesReport]) -> Result<Foreseen> {
+pub fn foresee(job: &BevelJob, motion: &[BevelAxesReport], wanted: Stages) -> Result<Foreseen> {
     CellGrid::of_scene(job)?;
-    let windows = texture::windows(job)?;
+    let windows = windows(job, wanted)?;
     let own = job.next_tooth_warning()?.into_iter().chain(job.contradictions()).chain(job.undercut_warning()?);
     let own = own.chain(axes::warnings(motion)).collect();
     Foreseen::new(job, &windows, own, true)

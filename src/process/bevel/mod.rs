@@ -33,11 +33,12 @@ mod stage_costs;
 mod surfaces;
 
 use super::{CutDone, Process};
-use crate::findings::{Findings, Notice};
+use crate::findings::Notice;
 use crate::interrupt::Interrupt;
 use crate::job::GearJob;
 use crate::output::folder::OutputFolder;
 use crate::output::text::Sheet;
+use crate::steps::parts::Stages;
 use crate::steps::{Tools, axes};
 use axes_report::BevelAxesReport;
 use gearcut_core::error::Result;
@@ -50,6 +51,7 @@ pub static PROCESS: Process = Process {
     notices: notices::NOTICES,
     quantities: quantities::QUANTITIES,
     prepare: |scene| Ok(Box::new(BevelJob::new(scene)?)),
+    axis_peaks: |scene| Ok(axes::found(scene, &BevelAxesReport::of_job(&BevelJob::new(scene)?))),
 };
 
 impl super::ProcessJob for BevelJob {
@@ -68,14 +70,8 @@ impl super::ProcessJob for BevelJob {
         visit(self)
     }
 
-    fn axis_peaks(&self) -> Result<Findings> {
-        let motion = BevelAxesReport::of_job(self);
-        let foreseen = findings::foresee(self, &motion)?;
-        Ok(axes::found(&self.scene, &motion, foreseen.warnings))
-    }
-
     fn axes(&self, folder: &OutputFolder, interrupt: &Interrupt, sheet: &mut Sheet) -> Result<Vec<Notice>> {
         let motion = BevelAxesReport::of_job(self);
-        axes::command(&motion, findings::foresee(self, &motion)?.warnings, folder, interrupt, sheet)
+        axes::command(&motion, findings::foresee(self, &motion, Stages::ALL)?.warnings, folder, interrupt, sheet)
     }
 }

@@ -30,11 +30,10 @@ pub(super) fn run(job: &BevelJob, tools: &Tools) -> Result<CutDone> {
     let Tools { resolved, backend, backend_why, progress, interrupt, folder, parts, stages: wanted, notes } = *tools;
     progress.plan(stages::plan(job, parts, None, &STAGE_COSTS));
     let motion = BevelAxesReport::of_job(job);
-    let foreseen = findings::foresee(job, &motion)?;
+    let foreseen = findings::foresee(job, &motion, wanted)?;
     let gear = cut_gear(job, backend, progress, interrupt, Some((folder, notes, parts)))?;
     let mut attempts = Attempts::new(progress);
-    let windows = if wanted.texture { foreseen.windows.as_slice() } else { &[] };
-    let textures = texture::measure(job, windows, backend, progress, interrupt);
+    let textures = texture::measure(job, &foreseen.windows, backend, progress, interrupt);
     let textures = attempts.of("texture", textures)?.unwrap_or_default();
     let mut work = gear.work;
     let whole = if work.interrupted { None } else { blank::cut(job, backend, progress, interrupt)? };

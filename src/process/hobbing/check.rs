@@ -12,6 +12,7 @@ use crate::steps::axes;
 use crate::steps::check_curve::{self, gear_words};
 use crate::steps::flanks_of;
 use crate::steps::inspection;
+use crate::steps::parts::Stages;
 use gearcut_core::error::Result;
 use gearcut_core::terms::Side;
 use rayon::prelude::*;
@@ -33,7 +34,7 @@ pub fn print(sheet: &mut Sheet, job: &HobbingJob) -> Result<Vec<Notice>> {
         axes::print(operation, sheet);
     }
     // Before the cost: a cut does it as well.
-    let foreseen = foreseen::foresee(&cutter, &operations)?;
+    let foreseen = foreseen::foresee(&cutter, &operations, Stages::ALL)?;
     print_chips(sheet, &cutter)?;
     cost::print(sheet, &cutter)?;
     foreseen::print(sheet);

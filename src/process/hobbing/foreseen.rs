@@ -4,17 +4,17 @@ use super::HobCutter;
 use super::axes_report::HobbingAxesReport;
 use super::warnings;
 use crate::output::text::Sheet;
-use crate::steps::foreseen::{Foreseen, OF_WINDOWS, print_unknown};
-use crate::texture;
+use crate::steps::foreseen::{Foreseen, OF_WINDOWS, print_unknown, windows};
+use crate::steps::parts::Stages;
 use gearcut_core::error::Result;
 
 /// Windows and warnings of a gear with its passes.
 ///
 /// # Errors
 /// A window that lies on no flank, too large a blank field, a flank that the hob does not generate.
-pub fn foresee(cutter: &HobCutter, motion: &[HobbingAxesReport]) -> Result<Foreseen> {
+pub fn foresee(cutter: &HobCutter, motion: &[HobbingAxesReport], wanted: Stages) -> Result<Foreseen> {
     cutter.job.blank_grid()?;
-    let windows = texture::windows(cutter)?;
+    let windows = windows(cutter, wanted)?;
     Foreseen::new(cutter, &windows, warnings::before(cutter, motion)?, true)
 }
 

@@ -28,12 +28,13 @@ mod surfaces;
 pub mod warnings;
 
 use super::{CutDone, Process, ProcessJob};
-use crate::findings::{Findings, Notice};
+use crate::findings::Notice;
 use crate::interrupt::Interrupt;
 use crate::job::GearJob;
 use crate::output::folder::OutputFolder;
 use crate::output::text::Sheet;
 use crate::scene::Scene;
+use crate::steps::parts::Stages;
 use crate::steps::{Tools, axes};
 use axes_report::HobbingAxesReport;
 use gearcut_core::error::Result;
@@ -50,6 +51,7 @@ pub static PROCESS: Process = Process {
     notices: notices::NOTICES,
     quantities: quantities::QUANTITIES,
     prepare: |scene| Ok(Box::new(HobbingJob::new(scene)?)),
+    axis_peaks: |scene| Ok(axes::found(scene, &HobbingAxesReport::of_job(&HobbingJob::new(scene)?))),
 };
 
 impl ProcessJob for HobbingJob {
@@ -72,15 +74,9 @@ impl ProcessJob for HobbingJob {
         Ok(Box::new(self.sharing_targets(scene)?))
     }
 
-    fn axis_peaks(&self) -> Result<Findings> {
-        let motion = HobbingAxesReport::of_job(self);
-        let foreseen = foreseen::foresee(&HobCutter::new(self)?, &motion)?;
-        Ok(axes::found(&self.scene, &motion, foreseen.warnings))
-    }
-
     fn axes(&self, folder: &OutputFolder, interrupt: &Interrupt, sheet: &mut Sheet) -> Result<Vec<Notice>> {
         let motion = HobbingAxesReport::of_job(self);
-        let foreseen = foreseen::foresee(&HobCutter::new(self)?, &motion)?;
+        let foreseen = foreseen::foresee(&HobCutter::new(self)?, &motion, Stages::ALL)?;
         axes::command(&motion, foreseen.warnings, folder, interrupt, sheet)
     }
 }

@@ -36,8 +36,8 @@ pub(super) fn run(job: &HobbingJob, tools: &Tools) -> Result<CutDone> {
     let cutter = HobCutter::new(job)?;
     progress.plan(stages::plan(&cutter, parts, None, &STAGE_COSTS));
     let motion = HobbingAxesReport::of_job(job);
-    let foreseen = foresee(&cutter, &motion)?;
-    let windows = if wanted.texture { foreseen.windows.as_slice() } else { &[] };
+    let foreseen = foresee(&cutter, &motion, wanted)?;
+    let windows = foreseen.windows.as_slice();
     let mut gear = cut_gear(&cutter, backend, progress, interrupt, Some((folder, notes, parts)))?;
     let mut attempts = Attempts::new(progress);
     let textures = texture::measure(&cutter, windows, backend, progress, interrupt);

@@ -52,12 +52,11 @@ pub struct OperationAxes<'a> {
     peaks: Vec<Peak>,
     /// The program under test against the scene's own strokes, if one is cut.
     program: Option<Judgement>,
-    /// Where the return stroke has the least clearance.
-    pub relief: SmallestRelief,
-    /// Largest angle between the line of centres and the common normal direction, rad, without its sign.
-    largest_beta_rad: f64,
-    /// Polar angle of the pitch point there, rad.
-    largest_beta_phi_rad: f64,
+    /// Where the return stroke has the least clearance, once somebody has asked.
+    relief: OnceLock<SmallestRelief>,
+    /// Largest angle between the line of centres and the common normal direction, without its sign, and polar angle of
+    /// the pitch point there, rad; once somebody has asked.
+    largest_beta_rad: OnceLock<[f64; 2]>,
     /// All strokes, once a table or chart has asked for them.
     strokes: OnceLock<Vec<StrokeRow>>,
     /// Charts for folder and page, drawn once.
@@ -69,17 +68,8 @@ pub struct OperationAxes<'a> {
 impl<'a> OperationAxes<'a> {
     /// Peaks and relief of operation `index` of a job.
     pub fn new(job: &'a ShapingJob, index: usize) -> Self {
-        let PreparedOperation { spec, linkage, schedule, retraction, program, .. } = &job.operations[index];
+        let PreparedOperation { spec, schedule, retraction, program, .. } = &job.operations[index];
         let limits = dynamics::limits(&job.machine.limits);
-        let beta = |phi: f64| {
-            let motion = linkage.pose_motion(phi, spec.offset_mm);
-            let out = motion.pose.center_mm - motion.instantaneous_center_mm();
-            let back = linkage.gear().tip_sign() * motion.pose.center_mm;
-            out.perp_dot(back).atan2(out.dot(back)).abs()
-        };
-        let places = (0..BETA_PLACES).map(|i| TURN_RAD * f64::from(i) / f64::from(BETA_PLACES));
-        let (largest_beta_phi_rad, largest_beta_rad) =
-            places.map(|phi| (phi, beta(phi))).fold((0.0, 0.0), |best, here| if here.1 > best.1 { here } else { best });
         let judged = |program: &AxisProgram| {
             let ram = job.ram_times();
             let back = retraction.is_in_axes().then_some((&ram, retraction));
@@ -100,9 +90,8 @@ impl<'a> OperationAxes<'a> {
                 .as_ref()
                 .map_or_else(|| peaks(schedule, &limits), |program| program.peaks(schedule, &limits)),
             program: program.as_ref().map(judged),
-            relief: relief::smallest_relief(linkage, spec.offset_mm, job.scene.gear.pressure_angle_rad),
-            largest_beta_rad,
-            largest_beta_phi_rad,
+            relief: OnceLock::new(),
+            largest_beta_rad: OnceLock::new(),
             strokes: OnceLock::new(),
             charts: OnceLock::new(),
             retraction: RetractionMotion::new(schedule, retraction, &job.ram_times(), &limits),
@@ -116,6 +105,30 @@ impl<'a> OperationAxes<'a> {
 
     fn operation(&self) -> &'a PreparedOperation {
         &self.job.operations[self.index]
+    }
+
+    /// Where the return stroke has the least clearance.
+    pub fn relief(&self) -> &SmallestRelief {
+        let PreparedOperation { spec, linkage, .. } = self.operation();
+        let alpha_rad = self.job.scene.gear.pressure_angle_rad;
+        self.relief.get_or_init(|| relief::smallest_relief(linkage, spec.offset_mm, alpha_rad))
+    }
+
+    /// Largest angle between the line of centres and the common normal direction, without its sign, and polar angle of
+    /// the pitch point there, rad.
+    fn largest_beta_rad(&self) -> [f64; 2] {
+        let PreparedOperation { spec, linkage, .. } = self.operation();
+        let beta = |phi: f64| {
+            let motion = linkage.pose_motion(phi, spec.offset_mm);
+            let out = motion.pose.center_mm - motion.instantaneous_center_mm();
+            let back = linkage.gear().tip_sign() * motion.pose.center_mm;
+            out.perp_dot(back).atan2(out.dot(back)).abs()
+        };
+        let places = (0..BETA_PLACES).map(|i| TURN_RAD * f64::from(i) / f64::from(BETA_PLACES));
+        *self.largest_beta_rad.get_or_init(|| {
+            let betas = places.map(|phi| [beta(phi), phi]);
+            betas.fold([0.0; 2], |best, here| if here[0] > best[0] { here } else { best })
+        })
     }
 
     fn strokes(&self) -> &[StrokeRow] {
@@ -139,17 +152,19 @@ impl<'a> OperationAxes<'a> {
 
     /// Clearance on the return stroke.
     pub fn relief_findings(&self) -> Section {
-        let flank = match self.relief.flank {
+        let relief = self.relief();
+        let flank = match relief.flank {
             ReliefFlank::Left => "left",
             ReliefFlank::Right => "right",
         };
-        let at = Place::default().and("flank", flank).and("polar_angle_deg", self.relief.phi_rad.to_degrees());
-        let clearance_um = UM_PER_MM * self.relief.clearance_mm(self.job.machine.back_off_mm);
-        let beta_at = Place::default().and("polar_angle_deg", self.largest_beta_phi_rad.to_degrees());
+        let at = Place::default().and("flank", flank).and("polar_angle_deg", relief.phi_rad.to_degrees());
+        let clearance_um = UM_PER_MM * relief.clearance_mm(self.job.machine.back_off_mm);
+        let [beta_rad, beta_phi_rad] = self.largest_beta_rad();
+        let beta_at = Place::default().and("polar_angle_deg", beta_phi_rad.to_degrees());
         RELIEF.section([
-            SMALLEST_RATIO.of(self.relief.ratio).at(at.clone()),
+            SMALLEST_RATIO.of(relief.ratio).at(at.clone()),
             SMALLEST_CLEARANCE.of(clearance_um).at(at),
-            LARGEST_BETA.of(self.largest_beta_rad.to_degrees()).at(beta_at),
+            LARGEST_BETA.of(beta_rad.to_degrees()).at(beta_at),
         ])
     }
 }
@@ -193,7 +208,7 @@ impl AxesOfOperation for OperationAxes<'_> {
             return Vec::new();
         }
         match &self.retraction {
-            None => self.relief.warning(self.name(), self.job.machine.back_off_mm).into_iter().collect(),
+            None => self.relief().warning(self.name(), self.job.machine.back_off_mm).into_iter().collect(),
             Some(motion) => retraction::warnings(self, motion),
         }
     }

@@ -15,6 +15,7 @@ use crate::process::shaping::{findings, foreseen};
 use crate::steps::axes;
 use crate::steps::check_curve::{self, gear_words};
 use crate::steps::inspection;
+use crate::steps::parts::Stages;
 use gearcut_core::error::Result;
 
 /// Prints everything; what must be known before cutting.
@@ -39,7 +40,7 @@ pub fn print(sheet: &mut Sheet, job: &ShapingJob) -> Result<Vec<Notice>> {
     }
     returns::print(sheet, job, &operations)?;
     // Before the cost: a cut does it as well.
-    let foreseen = foreseen::foresee(job, &operations)?;
+    let foreseen = foreseen::foresee(job, &operations, Stages::ALL)?;
     cost::print(sheet, job, &facts)?;
     foreseen::print(sheet, job);
     Ok(foreseen.warnings)

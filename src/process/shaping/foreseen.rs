@@ -6,16 +6,16 @@
 use super::axes_report::OperationAxes;
 use super::{ShapingJob, findings, warnings};
 use crate::output::text::Sheet;
-use crate::steps::foreseen::{Foreseen, OF_WINDOWS, print_unknown};
-use crate::texture;
+use crate::steps::foreseen::{Foreseen, OF_WINDOWS, print_unknown, windows};
+use crate::steps::parts::Stages;
 use gearcut_core::error::Result;
 
 /// Windows and warnings of a job.
 ///
 /// # Errors
 /// A window that lies on no flank, too large a blank field, a back-off so large that the retraction leads to no pose.
-pub fn foresee(job: &ShapingJob, motion: &[OperationAxes]) -> Result<Foreseen> {
-    let windows = texture::windows(job)?;
+pub fn foresee(job: &ShapingJob, motion: &[OperationAxes], wanted: Stages) -> Result<Foreseen> {
+    let windows = windows(job, wanted)?;
     job.planar().blank_grid()?;
     let ring = findings::ring::of_job(job, findings::program::not_of_the_gear(job, motion).as_deref());
     let own = warnings::before(job, motion, ring.as_ref())?;

@@ -10,7 +10,7 @@ use crate::process::shaping::measure::gear_report::{RootReport, root_stock};
 use crate::process::shaping::measure::{GearReport, flank_report, gear_report};
 use crate::steps::cut_flanks::{CutFlank, FlankQueue, cut_flanks};
 use crate::steps::gear_maps::GearMaps;
-use crate::steps::parts::Parts;
+use crate::steps::parts::{Parts, Stage, Stages};
 use crate::steps::pictures::flank::PicturedFlanks;
 use crate::steps::planar::{CutField, cut_fields};
 use crate::steps::{FlankFiles, Work, needs_maps, needs_surfaces};
@@ -48,13 +48,13 @@ pub struct CutGear {
 /// Geometry, the backend, files. Ctrl-C is no error: what is finished is returned.
 pub fn cut_gear(
     job: &ShapingJob,
+    wanted: Stages,
     backend: &dyn Backend,
-    progress: &Progress,
-    interrupt: &Interrupt,
+    (progress, interrupt): (&Progress, &Interrupt),
     folder: Option<FlankFiles<'_>>,
 ) -> Result<CutGear> {
     let started = Instant::now();
-    let chips = follow_chips(job, progress, interrupt)?;
+    let chips = follow_chips(job, wanted.has(Stage::Chips), progress, interrupt)?;
     let parts = folder.map_or(Parts::all(), |(.., parts)| parts);
     let are_shown = needs_maps(parts) || needs_surfaces(job, parts);
     let cut_all = |flanks: &FlankQueue<Field, FlankReport>| {
@@ -81,7 +81,12 @@ pub fn cut_gear(
         last_chips_on_map(job, field, &maps.chip_places(layers, field.rows()))
     };
     let cut = cut_flanks(job, progress, interrupt, folder, cut_all, chips_of)?;
-    let (root_reports, roots) = cut_roots(job, backend, needs_surfaces(job, parts) && !cut.work.interrupted)?;
+    let root_surfaces = needs_surfaces(job, parts) && !cut.work.interrupted;
+    let (root_reports, roots) = if root_surfaces || wanted.has(Stage::Roots) {
+        cut_roots(job, backend, root_surfaces)?
+    } else {
+        (Vec::new(), Vec::new())
+    };
     let report = gear_report::measure(job, cut.reports, root_reports);
     let work = Work { elapsed: started.elapsed(), ..cut.work };
     Ok(CutGear { report, chips, maps: cut.maps, surfaces: cut.surfaces, pictured: cut.pictured, roots, work })
@@ -112,10 +117,11 @@ fn cut_roots(job: &ShapingJob, backend: &dyn Backend, surfaces: bool) -> Result<
     Ok((reports, surfaces.into_iter().flatten().collect()))
 }
 
-/// All strokes in order of time, space by space.
-fn follow_chips(job: &ShapingJob, progress: &Progress, interrupt: &Interrupt) -> Result<ChipLedger> {
-    let step = progress.step("chips", u64::from(job.scene.gear.teeth), "tooth spaces");
-    let chips = ChipLedger::new(job, &|| {
+/// All strokes in order of time, space by space; the ledger has no chips unless they are `wanted`.
+fn follow_chips(job: &ShapingJob, wanted: bool, progress: &Progress, interrupt: &Interrupt) -> Result<ChipLedger> {
+    let teeth = if wanted { job.scene.gear.teeth } else { 0 };
+    let step = progress.step("chips", u64::from(teeth), "tooth spaces");
+    let chips = ChipLedger::of_spaces(job, 1..=teeth, &|| {
         step.advance(1);
         !interrupt.is_raised()
     });

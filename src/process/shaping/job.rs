@@ -141,19 +141,29 @@ impl ShapingJob {
     /// # Errors
     /// Geometry that cannot be cut: see the parts.
     pub fn new(scene: Scene) -> Result<Self> {
-        Self::like(scene, None)
+        Self::without_targets(scene)?.with_own_targets()
     }
 
-    /// Makes another scene ready, one with other errors. Targets of teeth take most of that time, and no error moves
-    /// them: where both scenes generate the same gear they are taken over.
+    /// Makes another scene ready. Targets of teeth take most of that time, and no error moves them: where both scenes
+    /// generate the same gear they are taken over.
     ///
     /// # Errors
     /// As for [`Self::new`].
-    pub fn with_errors_of(&self, scene: Scene) -> Result<Self> {
-        Self::like(scene, Some(self))
+    pub fn sharing_targets(&self, scene: Scene) -> Result<Self> {
+        let job = Self::without_targets(scene)?;
+        if self.generates(&job) { Ok(Self { targets: self.targets.clone(), ..job }) } else { job.with_own_targets() }
     }
 
-    fn like(scene: Scene, other: Option<&Self>) -> Result<Self> {
+    fn with_own_targets(self) -> Result<Self> {
+        let targets = ToothTarget::of_all(self.target_generation(), &self.blank, self.scene.gear.teeth)?;
+        Ok(Self { targets, ..self })
+    }
+
+    /// The machine and its strokes, and no tooth: enough for the axes.
+    ///
+    /// # Errors
+    /// As for [`Self::new`], targets apart.
+    pub(super) fn without_targets(scene: Scene) -> Result<Self> {
         let gear = &scene.gear;
         let Some(shaping) = Shaping::of(&scene) else {
             let way_out = "write [tool.shaper_cutter] for shaping";
@@ -244,11 +254,6 @@ impl ShapingJob {
             });
         }
         rim_holds(gear.rim_mm, &blank, &cutter, &operations)?;
-        let finishing = operations.last().expect("a checked scene has at least one operation");
-        let targets = match other.filter(|other| other.generates(gear, finishing, &cutter)) {
-            Some(other) => other.targets.clone(),
-            None => ToothTarget::of_all(&finishing.generation, &blank, gear.teeth)?,
-        };
         Ok(Self {
             machine,
             material,
@@ -259,18 +264,18 @@ impl ShapingJob {
             cutter,
             blank,
             operations,
-            targets,
+            targets: Vec::new(),
             scene,
         })
     }
 
-    /// Whether the target is that of this gear, finishing operation and cutter: they have the same numbers in all that
-    /// a [`Generation`] and a blank are made of.
-    fn generates(&self, gear: &Gear, finishing: &PreparedOperation, cutter: &ShaperCutter) -> bool {
-        let PreparedOperation { spec, .. } = self.finishing();
-        self.scene.gear == *gear
-            && (spec.linkage, spec.offset_mm) == (finishing.spec.linkage, finishing.spec.offset_mm)
-            && self.cutter.generates_as(cutter)
+    /// Whether the target is that of another job, too: gear, finishing operation and cutter have the same numbers in
+    /// all that a [`Generation`] and a blank are made of.
+    fn generates(&self, other: &Self) -> bool {
+        let [own, others] = [self, other].map(|job| &job.finishing().spec);
+        self.scene.gear == other.scene.gear
+            && (own.linkage, own.offset_mm) == (others.linkage, others.offset_mm)
+            && self.cutter.generates_as(&other.cutter)
     }
 
     /// The same gear with its strokes displaced, operation by operation and stroke by stroke; return strokes, which

@@ -43,6 +43,8 @@ pub mod undercut;
 pub mod warnings;
 
 use super::Process;
+use crate::steps::axes;
+use axes_report::OperationAxes;
 
 pub use cutter::ShaperCutter;
 pub use gear::{CutGear, cut_gear};
@@ -54,4 +56,5 @@ pub static PROCESS: Process = Process {
     notices: notices::NOTICES,
     quantities: quantities::QUANTITIES,
     prepare: |scene| Ok(Box::new(prepared::PreparedShaping::new(ShapingJob::new(scene.clone())?))),
+    axis_peaks: |scene| Ok(axes::found(scene, &OperationAxes::of_job(&ShapingJob::without_targets(scene.clone())?))),
 };

@@ -8,13 +8,14 @@ use super::chips::deflections;
 use super::foreseen::foresee;
 use super::section::CutSection;
 use super::{ShapingJob, check, run};
-use crate::findings::{Findings, Notice};
+use crate::findings::Notice;
 use crate::interrupt::Interrupt;
 use crate::job::GearJob;
 use crate::output::folder::OutputFolder;
 use crate::output::text::Sheet;
 use crate::process::{CutDone, ProcessJob};
 use crate::scene::Scene;
+use crate::steps::parts::Stages;
 use crate::steps::{Tools, axes};
 use gearcut_core::error::{Error, Result};
 use std::sync::OnceLock;
@@ -69,18 +70,12 @@ impl ProcessJob for PreparedShaping {
     }
 
     fn with_errors_of(&self, scene: &Scene) -> Result<Box<dyn ProcessJob>> {
-        Ok(Box::new(Self::new(self.rigid.with_errors_of(scene.clone())?)))
-    }
-
-    fn axis_peaks(&self) -> Result<Findings> {
-        let motion = OperationAxes::of_job(&self.rigid);
-        let foreseen = foresee(&self.rigid, &motion)?;
-        Ok(axes::found(&self.rigid.scene, &motion, foreseen.warnings))
+        Ok(Box::new(Self::new(self.rigid.sharing_targets(scene.clone())?)))
     }
 
     fn axes(&self, folder: &OutputFolder, interrupt: &Interrupt, sheet: &mut Sheet) -> Result<Vec<Notice>> {
         let motion = OperationAxes::of_job(&self.rigid);
-        let foreseen = foresee(&self.rigid, &motion)?;
+        let foreseen = foresee(&self.rigid, &motion, Stages::ALL)?;
         axes::command(&motion, foreseen.warnings, folder, interrupt, sheet)
     }
 }

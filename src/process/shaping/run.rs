@@ -17,7 +17,7 @@ use crate::process::shaping::stage_costs::STAGE_COSTS;
 use crate::steps::attempts::Attempts;
 use crate::steps::inspection::Inspected;
 use crate::steps::inspection::headline::quality;
-use crate::steps::parts::Part;
+use crate::steps::parts::{Part, Stage};
 use crate::steps::planar::blank_findings;
 use crate::steps::report::{RunWords, deviations};
 use crate::steps::{Tools, Work, conclusion, meshes, stages, summary, write_meshes_and_pictures};
@@ -33,19 +33,18 @@ pub(super) fn run(job: &ShapingJob, tools: &Tools, frames: Option<u32>) -> Resul
     let Tools { resolved, backend, backend_why, progress, interrupt, folder, parts, stages: wanted, notes } = *tools;
     progress.plan(stages::plan(job, parts, frames, &STAGE_COSTS));
     let motion = OperationAxes::of_job(job);
-    let foreseen = foresee(job, &motion)?;
-    let mut gear = cut_gear(job, backend, progress, interrupt, Some((folder, notes, parts)))?;
+    let foreseen = foresee(job, &motion, wanted)?;
+    let mut gear = cut_gear(job, wanted, backend, (progress, interrupt), Some((folder, notes, parts)))?;
     if gear.report.flanks.is_empty() {
         return Err(Error::Interrupted);
     }
     let mut attempts = Attempts::new(progress);
-    let windows = if wanted.texture { foreseen.windows.as_slice() } else { &[] };
-    let textures = texture::measure(job, windows, backend, progress, interrupt);
+    let textures = texture::measure(job, &foreseen.windows, backend, progress, interrupt);
     let textures = attempts.of("texture", textures)?.unwrap_or_default();
-    let cut_blank = wanted.blank && !gear.work.interrupted;
+    let cut_blank = wanted.has(Stage::Blank) && !gear.work.interrupted;
     let blank = if cut_blank { blank::cut(job, backend, progress, interrupt) } else { Ok(None) };
     let blank = attempts.of("whole blank", blank)?;
-    let mut interrupted = wanted.blank && matches!(blank, Some(None));
+    let mut interrupted = wanted.has(Stage::Blank) && matches!(blank, Some(None));
     let whole = blank.flatten();
     let mut sections = findings::sections(job, &gear.report, &gear.chips, &motion)?;
     let inspected = Inspected::new(job, &gear.report.flanks, &gear.report.inspection)?;

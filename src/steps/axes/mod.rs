@@ -100,13 +100,14 @@ pub fn warnings<O: AxesOfOperation>(operations: &[O]) -> Vec<Notice> {
     operations.iter().flat_map(of).collect()
 }
 
-/// What is found of the axes alone: peaks of every operation under the paths that a cut has them at, and the smallest
-/// margin in the headline.
-pub fn found<O: AxesOfOperation>(scene: &Scene, operations: &[O], warnings: Vec<Notice>) -> Findings {
+/// What is found of the axes alone: peaks of every operation under the paths that a cut has them at, the smallest
+/// margin in the headline, and exceeded limits as notices.
+pub fn found<O: AxesOfOperation>(scene: &Scene, operations: &[O]) -> Findings {
     let sections = operations.iter().map(|of| Section::new(of.name(), of.linkage_words()).part(findings(of)));
     let all = OPERATIONS.section([]).parts(sections);
     let margin = AXIS_MARGIN.of_or(margin(operations), NO_LIMITS);
-    Findings::new(scene.process_name(), &scene.name, true, [margin], warnings, vec![all])
+    let exceeded: Vec<Notice> = operations.iter().flat_map(peaks::exceeded).collect();
+    Findings::new(scene.process_name(), &scene.name, true, [margin], exceeded, vec![all])
 }
 
 /// Writes tables and charts of the motion into the folder's `axes/`.

@@ -352,7 +352,8 @@ fn scatter_finds_the_pitch_of_an_eccentric_helical_gear() {
     let settings: Vec<String> = settings.map(str::to_owned).to_vec();
     let scene = process::load(Path::new("scenes/hobbing/circular_spur.toml"), &settings).expect("a scene").scene;
     let flank = FlankWish { tooth: 1, side: Side::Left };
-    let values = measure(&scene, flank, &Cpu::default()).expect("a gear");
+    let job = process::prepare(&scene).expect("a gear");
+    let values = measure(&scene, job.as_ref(), flank, &Cpu::default()).expect("a gear");
     let of = |key: &str| {
         let number = NUMBERS.iter().position(|number| number.key == key).expect("a number");
         values[number].expect("a value")

@@ -5,6 +5,7 @@ use gearcut::interrupt::Interrupt;
 use gearcut::output::progress::{Progress, ProgressMode};
 use gearcut::process::load;
 use gearcut::process::shaping::{ShapingJob, cut_gear};
+use gearcut::steps::parts::Stages;
 use gearcut::texture::windows;
 use std::path::Path;
 
@@ -26,7 +27,7 @@ fn the_fillet_of_roughing_rules_no_stock() {
     const OFFSET_MM: f64 = 2.0;
     let job = job(&["operation.rough.offset_mm=2.0"]);
     let progress = Progress::new(ProgressMode::Quiet);
-    let gear = cut_gear(&job, &Cpu::default(), &progress, &Interrupt::default(), None).expect("a gear");
+    let gear = cut_gear(&job, Stages::ALL, &Cpu::default(), (&progress, &Interrupt::default()), None).expect("a gear");
     let alpha = job.scene.gear.pressure_angle_rad;
     let center_mm = job.curve.perimeter_mm() / std::f64::consts::TAU + job.cutter.pitch_radius_mm;
     let working = (center_mm * alpha.cos() / (center_mm + OFFSET_MM)).acos();

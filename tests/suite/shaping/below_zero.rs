@@ -9,6 +9,7 @@ use gearcut::process::shaping::axes_report::OperationAxes;
 use gearcut::process::shaping::measure::below_finished::below_finished;
 use gearcut::process::shaping::measure::unevenness::{CrossedSurface, allowances, crossings};
 use gearcut::process::shaping::{ShapingJob, cut_gear, warnings};
+use gearcut::steps::parts::Stages;
 use std::path::Path;
 
 fn job(scene: &str, settings: &[&str]) -> ShapingJob {
@@ -29,7 +30,7 @@ fn a_roughing_deeper_than_finishing_is_negative_by_the_closed_form() {
     let job = job(ROUND, &[&COARSE[..], &["operation.rough.offset_mm=-0.2"]].concat());
     let alpha = job.scene.gear.pressure_angle_rad;
     let progress = Progress::new(ProgressMode::Quiet);
-    let gear = cut_gear(&job, &Cpu::default(), &progress, &Interrupt::default(), None).expect("a gear");
+    let gear = cut_gear(&job, Stages::ALL, &Cpu::default(), (&progress, &Interrupt::default()), None).expect("a gear");
     let allowance = &gear.report.allowances[0];
     let center_mm = job.curve.perimeter_mm() / std::f64::consts::TAU + job.cutter.pitch_radius_mm;
     let working = (center_mm * alpha.cos() / (center_mm - DEEPER_MM)).acos();

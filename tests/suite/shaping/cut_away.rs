@@ -10,6 +10,7 @@ use gearcut::process::load;
 use gearcut::process::shaping::axes_report::OperationAxes;
 use gearcut::process::shaping::gcode::{AxisProgram, Knot};
 use gearcut::process::shaping::{ShapingJob, cut_gear, findings};
+use gearcut::steps::parts::Stages;
 use std::path::Path;
 
 const COARSE: [&str; 4] = [
@@ -41,7 +42,8 @@ fn headlines_of_a_gear_that_is_cut_away_are_not_those_of_the_scene() {
         let offset = format!("operation.rough.offset_mm={offset_mm}");
         let job = job(&[&offset]);
         let progress = Progress::new(ProgressMode::Quiet);
-        let gear = cut_gear(&job, &Cpu::default(), &progress, &Interrupt::default(), None).expect("a gear");
+        let gear =
+            cut_gear(&job, Stages::ALL, &Cpu::default(), (&progress, &Interrupt::default()), None).expect("a gear");
         let lost = gear.report.flanks.iter().filter(|flank| flank.own.is_lost).count();
         let motion = OperationAxes::of_job(&job);
         let headline = findings::headline(&job, &gear, &motion);
@@ -66,7 +68,8 @@ fn headlines_of_a_gear_that_is_cut_away_are_not_those_of_the_scene() {
 fn the_thickness_says_of_how_many_teeth_it_is() {
     let job = job(&[]);
     let progress = Progress::new(ProgressMode::Quiet);
-    let mut gear = cut_gear(&job, &Cpu::default(), &progress, &Interrupt::default(), None).expect("a gear");
+    let mut gear =
+        cut_gear(&job, Stages::ALL, &Cpu::default(), (&progress, &Interrupt::default()), None).expect("a gear");
     gear.report.flanks[4].own.is_lost = true;
     gear.report.inspection.thickness[2] = None;
     let headline = findings::headline(&job, &gear, &OperationAxes::of_job(&job));

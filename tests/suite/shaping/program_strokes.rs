@@ -129,7 +129,7 @@ fn an_excursion_between_two_strokes_is_told() {
     let own = own();
     let end = dwell(&own, 1.0) + "M5\nM30\n";
     let job = job(&[]).expect("a gear");
-    let clearance_mm = OperationAxes::new(&job, 1).relief.clearance_mm(job.machine.back_off_mm);
+    let clearance_mm = OperationAxes::new(&job, 1).relief().clearance_mm(job.machine.back_off_mm);
     assert!(clearance_mm > 0.1, "{clearance_mm} mm");
     for (by, expected) in [
         ([0.0, 0.0], None),

@@ -9,6 +9,7 @@ use gearcut::output::progress::{Progress, ProgressMode};
 use gearcut::process::load;
 use gearcut::process::shaping::measure::GearReport;
 use gearcut::process::shaping::{ShapingJob, cut_gear, warnings};
+use gearcut::steps::parts::Stages;
 
 /// A scene, cut; what its flanks, not its blank, say.
 fn cut(scene: &str, settings: &[&str]) -> (GearReport, Vec<Notice>) {
@@ -19,7 +20,7 @@ fn cut(scene: &str, settings: &[&str]) -> (GearReport, Vec<Notice>) {
     let scene = load(&path, &settings).unwrap_or_else(|problems| panic!("{problems}"));
     let job = ShapingJob::new(scene.scene).expect("a gear");
     let progress = Progress::new(ProgressMode::Quiet);
-    let gear = cut_gear(&job, &Cpu::default(), &progress, &Interrupt::default(), None).expect("a gear");
+    let gear = cut_gear(&job, Stages::ALL, &Cpu::default(), (&progress, &Interrupt::default()), None).expect("a gear");
     let told = warnings::after(&job, &gear.report, &gear.chips, &gear.work, None);
     (gear.report, told)
 }

@@ -33,32 +33,30 @@ pub(super) fn print(axes: &OperationAxes, sheet: &mut Sheet) {
         sheet.line("circular feed", format!("{feed} mm per double stroke, mean over the pitch curve"));
     });
     sheet.line("time", duration_text(schedule.time_s(schedule.count() as f64)));
-    let round = axes.largest_beta_rad < ROUND_BETA_RAD;
-    let beta_place = if round {
-        "everywhere".to_owned()
-    } else {
-        format!("at polar angle {:.2} deg", axes.largest_beta_phi_rad.to_degrees())
-    };
-    let beta_deg = axes.largest_beta_rad.to_degrees();
+    let ([beta_rad, beta_phi_rad], relief) = (axes.largest_beta_rad(), axes.relief());
+    let round = beta_rad < ROUND_BETA_RAD;
+    let beta_place =
+        if round { "everywhere".to_owned() } else { format!("at polar angle {:.2} deg", beta_phi_rad.to_degrees()) };
+    let beta_deg = beta_rad.to_degrees();
     sheet.details(|sheet| {
         sheet.line("largest beta", format!("{beta_deg:.2} deg {beta_place} (line of centres against the normal)"));
     });
-    let flank = match axes.relief.flank {
+    let flank = match relief.flank {
         ReliefFlank::Left => "left",
         ReliefFlank::Right => "right",
     };
     let relief_place = if round {
         "everywhere".to_owned()
     } else {
-        format!("on the {flank} flank at polar angle {:.2} deg", axes.relief.phi_rad.to_degrees())
+        format!("on the {flank} flank at polar angle {:.2} deg", relief.phi_rad.to_degrees())
     };
     sheet.line(
         "smallest relief",
         format!(
             "{} um to first order for {} mm back-off {relief_place}, {:.0} % of a circular gear's",
-            significant(UM_PER_MM * axes.relief.clearance_mm(back_off_mm), 3),
+            significant(UM_PER_MM * relief.clearance_mm(back_off_mm), 3),
             plain(back_off_mm),
-            100.0 * axes.relief.ratio,
+            100.0 * relief.ratio,
         ),
     );
 }

@@ -9,6 +9,7 @@ use crate::process::shaping::scene::model::Infeed;
 use gearcut_core::cut::LEAST_CHIP_MM;
 use glam::DVec2;
 use rayon::prelude::*;
+use std::ops::RangeInclusive;
 
 /// Most rows of a map over strokes: more cannot be told apart in a picture, and files stay small.
 const MOST_ROWS: usize = 2000;
@@ -60,11 +61,20 @@ pub(super) struct SpaceChips {
 impl ChipLedger {
     /// Follows all strokes of a job; `advance` is called after every space and says whether to go on. `None`: stopped.
     pub fn new(job: &ShapingJob, advance: &(dyn Fn() -> bool + Sync)) -> Option<Self> {
+        Self::of_spaces(job, 1..=job.scene.gear.teeth, advance)
+    }
+
+    /// The same with the chips of these spaces alone.
+    pub fn of_spaces(
+        job: &ShapingJob,
+        spaces: RangeInclusive<u32>,
+        advance: &(dyn Fn() -> bool + Sync),
+    ) -> Option<Self> {
         let spacing_mm = job.chip_spacing_mm;
         let polygon = EdgePolygon::new(job.cutter.edge(), spacing_mm);
         let forces = ElementForce::along_edge(&job.material, job.cutter_spec.rake_angle_rad, &polygon.stations);
         let contours_mm = contours(job);
-        let spaces: Vec<Option<SpaceChips>> = (1..=job.scene.gear.teeth)
+        let spaces: Vec<Option<SpaceChips>> = spaces
             .into_par_iter()
             .map(|space| {
                 let chips = chips_of(&Space::new(job, &polygon, &contours_mm, space, 0.0), &forces);

@@ -88,7 +88,7 @@ fn own(job: &ShapingJob, gear: &CutGear, motion: &[OperationAxes]) -> [Entry; 9]
     let ends = |flank: &FlankReport| [flank.own.form.end, flank.own.tip.end];
     let undercut = flanks.iter().filter(|flank| ends(flank).contains(&FlankEnd::Undercut)).count();
     let pointed = flanks.iter().filter(|flank| flank.own.tip.end == FlankEnd::PointedTip).count().div_ceil(2);
-    let relief = motion.iter().map(|operation| operation.relief.ratio).reduce(f64::min);
+    let relief = motion.iter().map(|operation| operation.relief().ratio).reduce(f64::min);
     let unevenness =
         report.allowances.last().and_then(|a| summarise(a.strokes.iter().map(ToothAllowance::unevenness_mean_percent)));
     let uneven = if job.operations.len() < 2 { SINGLE } else { NO_ALLOWANCE };

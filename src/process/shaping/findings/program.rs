@@ -104,7 +104,7 @@ fn told(job: &ShapingJob, motion: &OperationAxes, judgement: &Judgement) -> Vec<
         warnings.push(off.notice().fault_where(gouges(distance_mm)));
     }
     // Between strokes the cutter is drawn back: the nearest flank is this far away.
-    let clearance_mm = motion.relief.clearance_mm(job.machine.back_off_mm).max(0.0);
+    let clearance_mm = motion.relief().clearance_mm(job.machine.back_off_mm).max(0.0);
     let scraping_mm = judgement.between_mm - clearance_mm;
     if scraping_mm > asked_mm {
         let between = ProgramBetween {

@@ -34,21 +34,32 @@ pub struct BelowFinished {
     pub height_mm: f64,
 }
 
-/// Operations before the last that cut below what it leaves, in order.
+/// Operations before the last that cut below what it leaves, in order. Where the pitch curve repeats after a number of
+/// teeth, so do the envelopes, and only the teeth of one period are looked at: on a circle one.
 pub fn below_finished(job: &ShapingJob) -> Vec<BelowFinished> {
     (0..job.operations.len() - 1).filter_map(|operation| of_operation(job, operation)).collect()
 }
 
 fn of_operation(job: &ShapingJob, operation: usize) -> Option<BelowFinished> {
+    let teeth = job.scene.gear.teeth;
+    let period = job.curve.period_teeth(teeth);
     let flanks: Vec<_> = flanks_of(job)
         .into_par_iter()
+        .filter(|(tooth, _)| *tooth <= period)
         .filter_map(|(tooth, side)| {
             let [depth_mm, height_mm] = deepest_mm(job, operation, tooth, side)?;
             (depth_mm > LEAST_MM).then_some((tooth, side, depth_mm, height_mm))
         })
         .collect();
     let &(tooth, side, depth_mm, height_mm) = flanks.iter().max_by(|a, b| a.2.total_cmp(&b.2))?;
-    Some(BelowFinished { operation, flanks: flanks.len(), depth_mm, tooth, side, height_mm })
+    Some(BelowFinished {
+        operation,
+        flanks: flanks.len() * (teeth / period) as usize,
+        depth_mm,
+        tooth,
+        side,
+        height_mm,
+    })
 }
 
 /// Largest depth on a flank and its height over the pitch curve, mm; none where the operation generates no flank there.

@@ -1,0 +1,90 @@
+//! What studies leave out changes nothing of what they keep: bit for bit, whatever is kept.
+
+use gearcut::backend::{BackendWish, OnFailure, choose};
+use gearcut::findings::{Findings, Quantity};
+use gearcut::process;
+use gearcut::run::Run;
+use gearcut::steps::parts::{Stage, Stages};
+use std::collections::BTreeMap;
+use std::path::Path;
+
+/// All quantities by their paths.
+fn quantities(found: &Findings) -> BTreeMap<String, Quantity> {
+    let headline = found.headline.iter().map(|entry| (entry.key.clone(), entry.quantity.clone()));
+    let mut all: BTreeMap<_, _> = headline.collect();
+    found.walk(&mut |path, section| {
+        all.extend(section.entries.iter().map(|entry| (format!("{path}.{}", entry.key), entry.quantity.clone())));
+    });
+    all
+}
+
+/// Every quantity of a gear, with its own stages alone, is that of the whole run; what other stages find is missing.
+fn compare(scene: &str, settings: &[&str], stages: &[Stage]) {
+    let settings: Vec<String> = settings.iter().map(|&setting| setting.to_owned()).collect();
+    let scene = process::load_draft(Path::new(scene), &settings).expect("a scene");
+    let choice = choose(BackendWish::Cpu, OnFailure::Stop).expect("the processor");
+    let found = |stages: Stages| {
+        let prepared = process::prepare(&scene.scene).expect("a gear");
+        quantities(&Run::new(&scene, prepared.as_ref(), &choice).stages(stages).found().expect("findings"))
+    };
+    let whole = found(Stages::ALL);
+    let mut missing = 0;
+    let mut compared = 0;
+    let sets: Vec<Stages> = whole.keys().map(|path| Stages::of_paths(std::slice::from_ref(path))).collect();
+    let alone = Stages::of_paths(&[]);
+    for &stage in stages {
+        assert!(sets.iter().any(|set| set.has(stage)), "no quantity needs {stage:?}");
+    }
+    let mut distinct = vec![alone];
+    for set in sets {
+        if !distinct.contains(&set) {
+            distinct.push(set);
+        }
+    }
+    assert_eq!(distinct.len(), 1 + stages.len());
+    for set in distinct {
+        let few = found(set);
+        for (path, quantity) in &whole {
+            if set.find(path) {
+                assert_eq!(few.get(path), Some(quantity), "{path}");
+                compared += 1;
+            } else {
+                assert!(!few.contains_key(path), "{path}");
+                missing += 1;
+            }
+        }
+    }
+    println!("{}: {compared} compared, {missing} missing, {} in all", scene.scene.name, whole.len());
+    assert!(compared > 500 && missing > 50, "{compared}, {missing}");
+}
+
+#[test]
+fn of_a_shaped_gear() {
+    let small = ["gear.face_width_mm=4", "gear.teeth=12", "gear.profile_shift_coefficient=0.4"];
+    let all = [Stage::Texture, Stage::Blank, Stage::Chips, Stage::Roots];
+    compare("scenes/shaping/circular_m3_z24.toml", &small, &all);
+}
+
+/// A machine that yields has sections of its own that follow from chips.
+#[test]
+fn of_a_machine_that_yields() {
+    let all = [Stage::Texture, Stage::Blank, Stage::Chips, Stage::Roots];
+    compare("scenes/shaping/deflection.toml", &["gear.face_width_mm=4"], &all);
+}
+
+/// The axes alone have the peaks that a cut has.
+#[test]
+fn of_axes() {
+    for scene in ["shaping/elliptical_normal", "hobbing/machine_errors", "bevel/machine_errors"] {
+        let scene = process::load_draft(Path::new(&format!("scenes/{scene}.toml")), &[]).expect("a scene");
+        let choice = choose(BackendWish::Cpu, OnFailure::Stop).expect("the processor");
+        let prepared = process::prepare(&scene.scene).expect("a gear");
+        let run = Run::new(&scene, prepared.as_ref(), &choice).stages(Stages::of_paths(&[]));
+        let cut = quantities(&run.found().expect("findings"));
+        let axes = quantities(&process::axis_peaks(&scene.scene).expect("peaks"));
+        assert!(axes.len() > 10, "{}", scene.scene.name);
+        for (path, quantity) in axes {
+            assert_eq!(cut.get(&path), Some(&quantity), "{}: {path}", scene.scene.name);
+        }
+    }
+}
