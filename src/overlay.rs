@@ -15,7 +15,7 @@ use crate::findings::quantities::surfaces::{
 };
 use crate::findings::{Notice, Section};
 use crate::measure::topography::align::{self, Aligned, SurfaceMarks};
-use crate::measure::topography::{Arguments, Chain, Evaluation, Parameter, Surface};
+use crate::measure::topography::{Arguments, Chain, Evaluation, Parameter, Surface, TextureError};
 use crate::output::atomic::file_error;
 use crate::output::folder::OutputFolder;
 use crate::output::grid::{MapAxis, MapGrid};
@@ -46,9 +46,9 @@ pub struct SurfaceComparison {
     pub chain: Vec<String>,
     evaluations: [Evaluation; 2],
     difference: Surface,
-    marks: [Result<SurfaceMarks, String>; 2],
+    marks: [Result<SurfaceMarks, TextureError>; 2],
     /// Phase of the first's marks on the second, deg.
-    phase_deg: Result<f64, String>,
+    phase_deg: Result<f64, TextureError>,
 }
 
 /// A parameter of both.
@@ -77,7 +77,7 @@ impl SurfaceComparison {
     ///
     /// # Errors
     /// In words: surfaces that cannot be laid over each other, or a chain that the shared points do not allow.
-    pub fn new(names: [String; 2], [first, second]: [&Surface; 2], chain: &Chain) -> Result<Self, String> {
+    pub fn new(names: [String; 2], [first, second]: [&Surface; 2], chain: &Chain) -> Result<Self, TextureError> {
         let aligned = align::aligned(first, second)?;
         let difference = align::difference(&aligned)?;
         let (a, words) = chain.apply(&aligned.first)?;

@@ -40,7 +40,7 @@ use crate::findings::Notice;
 use crate::findings::notices::{FewMarks, FewPoints, Holes, NotEvaluated};
 use crate::interrupt::Interrupt;
 use crate::job::{GearJob, RAY_DEPTH_MODULES};
-use crate::measure::topography::{Arguments, Evaluation, Surface};
+use crate::measure::topography::{Arguments, Evaluation, Surface, TextureError};
 use crate::output::folder::OutputFolder;
 use crate::output::progress::Progress;
 use gearcut_core::cut::Backend;
@@ -76,7 +76,7 @@ pub struct WindowTexture {
     /// Points of a whole mark, mean over those between the first and the last edge; none where there is no whole one.
     pub points_per_mark: [Option<f64>; 2],
     /// What was evaluated, or why nothing could be.
-    pub evaluated: Result<Evaluated, String>,
+    pub evaluated: Result<Evaluated, TextureError>,
     /// Lines along profile and tooth; none of windows that are cut for their surface alone.
     pub traces: Vec<Traced>,
     /// The measured surface over this one, if the scene names one; none of windows that are cut for their surface
@@ -151,7 +151,7 @@ impl WindowTexture {
             notes.push(WindowNote::Holes(holes));
         }
         if let Err(reason) = &self.evaluated {
-            notes.push(WindowNote::NotEvaluated(reason.clone()));
+            notes.push(WindowNote::NotEvaluated(reason.to_string()));
         }
         notes
     }
@@ -275,7 +275,7 @@ fn heights_um(job: &dyn GearJob, layer: &Layer) -> Vec<f64> {
     .collect()
 }
 
-fn evaluate(heights: &Surface, window: &Window) -> Result<Evaluated, String> {
+fn evaluate(heights: &Surface, window: &Window) -> Result<Evaluated, TextureError> {
     let (surface, chain) = window.chain.apply(heights)?;
     let evaluation = Evaluation::of(&surface, &Arguments::default());
     Ok(Evaluated { surface, chain, evaluation })

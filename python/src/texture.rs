@@ -27,7 +27,7 @@ pub fn texture(
     let heights = heights_um.as_array();
     let (ny, nx) = heights.dim();
     let surface = Surface::new(nx, ny, spacing_um.0, spacing_um.1, heights.iter().copied().collect());
-    evaluated(py, &surface.map_err(PyValueError::new_err)?, chain)
+    evaluated(py, &surface.map_err(|error| PyValueError::new_err(error.to_string()))?, chain)
 }
 
 /// The same of a file of surfaces; some formats carry no spacing.

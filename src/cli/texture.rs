@@ -9,7 +9,7 @@ use gearcut::Refusal;
 use gearcut::findings::Entry;
 use gearcut::interrupt::Interrupt;
 use gearcut::measure::topography::height_steps::coarse_step_um;
-use gearcut::measure::topography::{Arguments, Chain, Evaluation, Parameter, ProfileTrace, Surface};
+use gearcut::measure::topography::{Arguments, Chain, Evaluation, Parameter, ProfileTrace, Surface, TextureError};
 use gearcut::output::surface_files::{SurfaceFile, write_surface};
 use gearcut::output::text::{Sheet, plain, significant};
 use serde_json::{Value, json};
@@ -46,7 +46,7 @@ pub fn run(arguments: &TextureArguments) -> Result<(), Failure> {
         robust: arguments.robust,
         crop_um: arguments.crop_um,
     };
-    let unsuited = |problem: String| {
+    let unsuited = |problem: TextureError| {
         Refusal::new(
             "gearcut texture",
             format!("{}: {problem}", arguments.file.display()),

@@ -56,7 +56,7 @@ impl From<&Parameter> for Entry {
     fn from(of: &Parameter) -> Self {
         let (value, why) = match &of.value {
             Ok(value) => (Datum::from(*value), "the computation gave no finite number".to_owned()),
-            Err(why) => (Datum::Undefined, why.clone()),
+            Err(why) => (Datum::Undefined, why.to_string()),
         };
         let quantity = Quantity::new(value, Some(of.unit.into()), of.definition.clone().into(), why.into());
         Self { key: of.symbol.clone(), title: of.symbol.clone(), level: Level::Detail, quantity }

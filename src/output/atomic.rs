@@ -31,7 +31,7 @@ pub fn file_error(error: gearcut_texture::Error) -> Error {
     use gearcut_texture::Error as Texture;
     match error {
         Texture::Io { action, path, source } => Error::Io { action, path, source },
-        Texture::Unwritable { path, reason } => Error::Output { path, reason },
-        Texture::Unreadable { path, reason } => Error::Unreadable { path, reason },
+        Texture::Unwritable { path, fault } => Error::Output { path, reason: fault.to_string() },
+        Texture::Unreadable { path, fault, .. } => Error::Unreadable { path, reason: fault.to_string() },
     }
 }

@@ -111,7 +111,7 @@ fn window(texture: &WindowTexture, stem: &str) -> Section {
             .entries([CHAIN.of(evaluated.chain.join("; "))])
             .part(parameters(&evaluated.evaluation))
             .part(material_ratio(&evaluated.evaluation)),
-        Err(reason) => section.entries([CHAIN.none(reason.clone())]),
+        Err(why) => section.entries([CHAIN.none(why.to_string())]),
     };
     section.parts(texture.overlaid.as_ref().map(laid_over::section))
 }

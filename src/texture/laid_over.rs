@@ -17,12 +17,12 @@ use crate::findings::notices::NotLaidOver;
 use crate::findings::quantities::surfaces::{CORRELATION, OVERLAY};
 use crate::findings::{Notice, Section};
 use crate::job::GearJob;
-use crate::measure::topography::Surface;
+use crate::measure::topography::{Surface, TextureError};
 use crate::output::folder::OutputFolder;
 use crate::overlay::SurfaceComparison;
 
 /// A measured surface laid over what was cut, or why that cannot be.
-pub type Overlaid = Result<SurfaceComparison, String>;
+pub type Overlaid = Result<SurfaceComparison, TextureError>;
 
 /// `measured` laid over the heights that were cut in its window.
 pub(super) fn laid_over(
@@ -31,7 +31,7 @@ pub(super) fn laid_over(
     measured: &MeasuredSurface,
     cut: Option<&Surface>,
 ) -> Overlaid {
-    let cut = cut.ok_or("the window has no heights")?;
+    let cut = cut.ok_or(TextureError::NothingMeasured)?;
     let path = &measured.path;
     let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
     SurfaceComparison::new([words(job, window), name], [cut, &measured.surface], &window.chain)
@@ -41,7 +41,7 @@ pub(super) fn laid_over(
 pub(super) fn section(overlaid: &Overlaid) -> Section {
     match overlaid {
         Ok(comparison) => comparison.section(),
-        Err(why) => OVERLAY.section([CORRELATION.none(why.clone())]),
+        Err(why) => OVERLAY.section([CORRELATION.none(why.to_string())]),
     }
 }
 

@@ -56,14 +56,14 @@ fn section(window: &Window, stem: &str, traced: &Traced, limits: &DrawnLimits) -
     let profiles = match &traced.profiles {
         Ok(profiles) => profiles,
         Err(why) => {
-            return section.entries([&RA, &RZ, &CUTOFF, &CHAIN_OF_LINES].map(|row| row.none(why.clone())));
+            return section.entries([&RA, &RZ, &CUTOFF, &CHAIN_OF_LINES].map(|row| row.none(why.to_string())));
         }
     };
     let mean = |of: ParameterRange| {
         let row = [&RA, &RZ].into_iter().find(|row| row.key == of.mean.symbol);
         match (row, &of.mean.value) {
             (Some(row), Ok(um)) => row.of(*um),
-            (Some(row), Err(why)) => row.none(why.clone()),
+            (Some(row), Err(why)) => row.none(why.to_string()),
             (None, _) => Entry::from(&of.mean).remarked("; mean of the lines"),
         }
     };

@@ -10,7 +10,7 @@
 use super::{Window, heights_um};
 use crate::job::GearJob;
 use crate::measure::topography::profile_chain::{CutOff, ProfileChain, Profiles};
-use crate::measure::topography::{Parameter, ProfileTrace, Surface, parameters::of_profiles};
+use crate::measure::topography::{Parameter, ProfileTrace, Surface, TextureError, parameters::of_profiles};
 use gearcut_core::cut::Backend;
 use gearcut_core::error::Result;
 use gearcut_core::units::UM_PER_MM;
@@ -60,7 +60,7 @@ pub struct Traced {
     /// Where they are in the other direction, mm: from the form point, or from the middle of the face.
     pub places_mm: Vec<f64>,
     /// Their parameters, or why there are none.
-    pub profiles: std::result::Result<Profiles, String>,
+    pub profiles: std::result::Result<Profiles, TextureError>,
 }
 
 /// A parameter over the lines: mean and largest, um.
@@ -114,7 +114,7 @@ fn along(job: &dyn GearJob, backend: &dyn Backend, window: &Window, direction: D
     };
     let traces = (0..LINES)
         .map(|i| ProfileTrace::new(line(i), step_mm * UM_PER_MM))
-        .collect::<std::result::Result<Vec<_>, String>>();
+        .collect::<std::result::Result<Vec<_>, TextureError>>();
     let profiles = traces.and_then(|traces| chain(job, window).evaluate(&traces));
     Ok(Traced { direction, places_mm, profiles })
 }
@@ -128,7 +128,7 @@ pub fn of_surface(
     window: &Window,
     surface: &Surface,
     direction: Direction,
-) -> std::result::Result<Vec<Parameter>, String> {
+) -> std::result::Result<Vec<Parameter>, TextureError> {
     let all = if direction == Direction::Tooth { surface.ny() } else { surface.nx() };
     let traces = (0..LINES).map(|i| (2 * i + 1) * all / (2 * LINES)).map(|place| match direction {
         Direction::Tooth => ProfileTrace::row(surface, place),

@@ -18,6 +18,7 @@
 mod cells;
 mod marks;
 
+use crate::error::TextureError;
 use rayon::prelude::*;
 
 use super::form::{self, Form};
@@ -81,7 +82,7 @@ pub fn fits_better(correlation: f64, than: f64) -> bool {
 ///
 /// # Errors
 /// Surfaces too small or too empty to be compared, or that overlap nowhere.
-pub fn aligned(first: &Surface, second: &Surface) -> Result<Aligned, String> {
+pub fn aligned(first: &Surface, second: &Surface) -> Result<Aligned, TextureError> {
     let (a, _) = form::remove(first, Form::Plane)?;
     let (b, _) = form::remove(second, Form::Plane)?;
     let cell = [0, 1].map(|k| {
@@ -103,7 +104,7 @@ pub fn aligned(first: &Surface, second: &Surface) -> Result<Aligned, String> {
     let left: Vec<f64> = shifts.par_iter().map(|&shift| left_over(&a, &b, shift)).collect();
     let best = (0..shifts.len()).min_by(|&a, &b| left[a].total_cmp(&left[b]));
     let shift_um = best.map(|best| shifts[best]);
-    let shift_um = shift_um.ok_or("the surfaces share too few measured points to be laid over each other")?;
+    let shift_um = shift_um.ok_or(TextureError::TooLittleInCommon)?;
     // The points of the first that lie on the second.
     let range = |k: usize| {
         let (step, count) = [(a.dx_um(), a.nx()), (a.dy_um(), a.ny())][k];
@@ -114,7 +115,7 @@ pub fn aligned(first: &Surface, second: &Surface) -> Result<Aligned, String> {
     };
     let [(x0, x1), (y0, y1)] = [range(0), range(1)];
     if x1 < x0 as f64 + 1.0 || y1 < y0 as f64 + 1.0 {
-        return Err("the surfaces do not overlap".to_owned());
+        return Err(TextureError::NoOverlap);
     }
     let (nx, ny) = (x1 as usize - x0 + 1, y1 as usize - y0 + 1);
     let on_points = |of: &(dyn Fn(usize, usize) -> f64 + Sync)| {
@@ -145,13 +146,13 @@ pub fn aligned(first: &Surface, second: &Surface) -> Result<Aligned, String> {
 ///
 /// # Errors
 /// No point that both have.
-pub fn difference(aligned: &Aligned) -> Result<Surface, String> {
+pub fn difference(aligned: &Aligned) -> Result<Surface, TextureError> {
     let (a, b) = (&aligned.first, &aligned.second);
     let heights = a.heights_um().iter().zip(b.heights_um()).map(|(a, b)| b - a).collect();
     Surface::new(a.nx(), a.ny(), a.dx_um(), a.dy_um(), heights)
 }
 
-fn mirror(surface: &Surface, [x, y]: Mirrored) -> Result<Surface, String> {
+fn mirror(surface: &Surface, [x, y]: Mirrored) -> Result<Surface, TextureError> {
     let axes = [(x, MirrorAxis::X), (y, MirrorAxis::Y)].into_iter().filter(|(wanted, _)| *wanted);
     axes.into_iter().try_fold(surface.clone(), |surface, (_, axis)| {
         Ok(Preparation { mirror: Some(axis), ..Preparation::default() }.apply(&surface)?.0)
@@ -300,7 +301,7 @@ fn levelled(first: &Surface, second: &Surface) -> (Surface, [f64; 3]) {
 }
 
 /// Correlation of the heights of both, planes off.
-fn correlation_of(first: &Surface, second: &Surface) -> Result<f64, String> {
+fn correlation_of(first: &Surface, second: &Surface) -> Result<f64, TextureError> {
     let (a, b) = (form::remove(first, Form::Plane)?.0, form::remove(second, Form::Plane)?.0);
     let sums = a.heights_um().iter().zip(b.heights_um()).filter(|(p, q)| !p.is_nan() && !q.is_nan());
     let [pp, qq, pq] = sums.fold([0.0; 3], |[pp, qq, pq], (p, q)| [pp + p * p, qq + q * q, pq + p * q]);

@@ -4,6 +4,7 @@
 //! then a margin of every side. ISO 25178-3 wants a filter's edges away from the evaluated area; the local planes of
 //! the filters here make that margin a choice.
 
+use crate::error::TextureError;
 use serde::Serialize;
 
 use super::form::{self, Form};
@@ -35,18 +36,15 @@ impl Chain {
     ///
     /// # Errors
     /// A step that the surface does not allow.
-    pub fn apply(&self, surface: &Surface) -> Result<(Surface, Vec<String>), String> {
+    pub fn apply(&self, surface: &Surface) -> Result<(Surface, Vec<String>), TextureError> {
         if let (Some(s), Some(l)) = (self.s_filter_um, self.l_filter_um)
             && s >= l
         {
-            return Err(format!("the S-filter ({s} um) must be shorter than the L-filter ({l} um)"));
+            return Err(TextureError::FiltersCross { short: "S-filter", short_um: s, long: "L-filter", long_um: l });
         }
         let longest_um = 1e3 * surface.size_mm()[0].max(surface.size_mm()[1]);
         if let Some(l) = self.l_filter_um.filter(|l| *l > longest_um * (1.0 + 1e-9)) {
-            return Err(format!(
-                "the L-filter ({l} um) is longer than the surface ({longest_um:.1} um): ISO 25178-3 wants an area at \
-                 least as long, and such a filter only takes a plane off; take a shorter one, or none"
-            ));
+            return Err(TextureError::LongFilter { index_um: l, longest_um });
         }
         let (mut surface, note) = form::remove(surface, self.form)?;
         let mut words = vec![match note {
@@ -104,7 +102,7 @@ mod tests {
         let surface = Surface::new(101, 21, 4.0, 4.0, heights).expect("a grid");
         let of = |l: f64| Chain { l_filter_um: Some(l), ..Chain::of_form(Form::Plane) }.apply(&surface);
         let refused = of(50_000.0).expect_err("too long");
-        assert!(refused.contains("50000 um) is longer than the surface (400.0 um)"), "{refused}");
+        assert!(refused.to_string().contains("50000 um) is longer than the surface (400.0 um)"), "{refused}");
         let (_, words) = of(200.0).expect("a filter");
         assert!(words[2].contains("only 80.0 um long along y"), "{words:?}");
         let (_, words) = of(80.0).expect("a filter");

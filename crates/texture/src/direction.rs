@@ -11,13 +11,12 @@
 //! Road not taken: giving each value to the class of its own direction. On a long window hundreds of frequencies along
 //! it have the very same one, its axis, and their noise adds up there until it outweighs any wave.
 
+use crate::error::TextureError;
 use rayon::prelude::*;
 
 use super::spectrum::PowerSpectrum;
 use super::surface::Surface;
 
-/// Reason where no wave is left.
-pub(crate) const NO_WAVES: &str = "the spectrum is empty";
 /// Classes in a degree.
 const PER_DEG: f64 = 2.0;
 /// Classes within 45 deg of an axis on both sides.
@@ -153,7 +152,7 @@ impl Fan<'_> {
 ///
 /// # Errors
 /// No wave at all.
-pub(crate) fn direction_deg(spectrum: &PowerSpectrum, surface: &Surface) -> Result<f64, String> {
+pub(crate) fn direction_deg(spectrum: &PowerSpectrum, surface: &Surface) -> Result<f64, TextureError> {
     let (half, ny) = (surface.nx() / 2 + 1, spectrum.ny);
     let [x, y] = [surface.nx() as f64 * surface.dx_um(), ny as f64 * surface.dy_um()].map(|length_um| 1.0 / length_um);
     let reach = 0.5 / surface.dx_um().max(surface.dy_um());
@@ -171,7 +170,7 @@ pub(crate) fn direction_deg(spectrum: &PowerSpectrum, surface: &Surface) -> Resu
             }
         }
     }
-    best.1.map(|(fan, class)| fan.mean_deg([tangents[class], tangents[class + 1]])).ok_or_else(|| NO_WAVES.to_owned())
+    best.1.map(|(fan, class)| fan.mean_deg([tangents[class], tangents[class + 1]])).ok_or(TextureError::NoWaves)
 }
 
 #[cfg(test)]

@@ -9,6 +9,8 @@
 //! Road not taken: going along the line and giving what is too small to what came before. The spacing then depends on
 //! the direction of the trace (P. J. Scott, Meas. Sci. Technol. 17 (2006) 559).
 
+use crate::error::TextureError;
+
 /// Height that a hill or dale needs to count, as a share of Rz (ISO 4287:1997, 4.3.1; a default of ISO 21920-3).
 const HEIGHT_SHARE: f64 = 0.1;
 /// Width that it needs, as a share of a section.
@@ -26,7 +28,7 @@ struct Lobe {
 ///
 /// # Errors
 /// No whole element.
-pub(crate) fn spacing(z: &[f64], spacing_um: f64, section_points: f64, rz: f64) -> Result<f64, String> {
+pub(crate) fn spacing(z: &[f64], spacing_um: f64, section_points: f64, rz: f64) -> Result<f64, TextureError> {
     let (least_height, least_width) = (HEIGHT_SHARE * rz, WIDTH_SHARE * section_points);
     let runs = runs(z);
     let counting: Vec<&Lobe> =
@@ -40,7 +42,7 @@ pub(crate) fn spacing(z: &[f64], spacing_um: f64, section_points: f64, rz: f64) 
     let elements = up.len().saturating_sub(1) + down.len().saturating_sub(1);
     let length: f64 = [up, down].iter().filter_map(|borders| Some(borders.last()? - borders.first()?)).sum();
     if elements == 0 {
-        return Err("the line holds no whole profile element".to_owned());
+        return Err(TextureError::NoElement);
     }
     Ok(length / elements as f64 * spacing_um)
 }

@@ -6,6 +6,7 @@
 
 use super::surface::Surface;
 use super::watershed::{Hill, hills};
+use crate::error::TextureError;
 
 /// Share of Sz by which a hill must rise.
 pub const PRUNING: f64 = 0.05;
@@ -16,30 +17,30 @@ const FIVE: usize = 5;
 #[derive(Debug, Clone, PartialEq)]
 pub struct Features {
     /// Density of peaks, 1/um^2.
-    pub spd: Result<f64, String>,
+    pub spd: Result<f64, TextureError>,
     /// Mean curvature of the peaks, 1/um.
-    pub spc: Result<f64, String>,
+    pub spc: Result<f64, TextureError>,
     /// Mean area of hills, um^2.
-    pub sha: Result<f64, String>,
+    pub sha: Result<f64, TextureError>,
     /// Density of pits, 1/um^2.
-    pub svd: Result<f64, String>,
+    pub svd: Result<f64, TextureError>,
     /// Mean curvature of the pits, 1/um.
-    pub svc: Result<f64, String>,
+    pub svc: Result<f64, TextureError>,
     /// Mean area of dales, um^2.
-    pub sda: Result<f64, String>,
+    pub sda: Result<f64, TextureError>,
     /// Mean height of the five highest peaks over the mean, um.
-    pub s5p: Result<f64, String>,
+    pub s5p: Result<f64, TextureError>,
     /// Mean depth of the five deepest pits, um.
-    pub s5v: Result<f64, String>,
+    pub s5v: Result<f64, TextureError>,
     /// S5p + S5v, um.
-    pub s10z: Result<f64, String>,
+    pub s10z: Result<f64, TextureError>,
 }
 
 impl Features {
     /// Of a surface; `sz_um` is its height.
     pub fn of(surface: &Surface, sz_um: f64) -> Self {
         if sz_um == 0.0 {
-            let none = || Err("the surface is flat".to_owned());
+            let none = || Err(TextureError::FlatSurface);
             return Self {
                 spd: none(),
                 spc: none(),
@@ -59,15 +60,16 @@ impl Features {
         let measured = surface.heights_um().len() - surface.holes();
         let point_um2 = surface.dx_um() * surface.dy_um();
         let area_um2 = measured as f64 * point_um2;
-        let mean = |values: Vec<f64>, what: &str| match values.len() {
-            0 => Err(format!("no {what} lies wholly inside the window")),
+        let mean = |values: Vec<f64>, what: &'static str| match values.len() {
+            0 => Err(TextureError::NoFeature { what }),
             count => Ok(values.iter().sum::<f64>() / count as f64),
         };
-        let curvatures = |hills: &[Hill], sign: f64, what: &str| {
+        let curvatures = |hills: &[Hill], sign: f64, what: &'static str| {
             mean(hills.iter().map(|hill| sign * curvature(surface, hill.peak)).filter(|c| !c.is_nan()).collect(), what)
         };
-        let area =
-            |hills: &[Hill], what: &str| mean(hills.iter().map(|hill| hill.points as f64 * point_um2).collect(), what);
+        let area = |hills: &[Hill], what: &'static str| {
+            mean(hills.iter().map(|hill| hill.points as f64 * point_um2).collect(), what)
+        };
         let mean_um = surface.mean_um();
         let over = |hill: &Hill| surface.heights_um()[hill.peak] - mean_um;
         let s5p = five(peaks.iter().map(over).collect(), "peaks");
@@ -99,12 +101,9 @@ fn curvature(surface: &Surface, peak: usize) -> f64 {
 }
 
 /// Mean of the five largest.
-fn five(mut heights_um: Vec<f64>, what: &str) -> Result<f64, String> {
+fn five(mut heights_um: Vec<f64>, what: &'static str) -> Result<f64, TextureError> {
     if heights_um.len() < FIVE {
-        return Err(format!(
-            "only {} significant {what} lie wholly inside the window, five are needed",
-            heights_um.len()
-        ));
+        return Err(TextureError::FewFeatures { found: heights_um.len(), what });
     }
     heights_um.sort_unstable_by(|a, b| b.total_cmp(a));
     Ok(heights_um[..FIVE].iter().sum::<f64>() / FIVE as f64)
@@ -123,7 +122,7 @@ mod tests {
         let at = |i: usize| 0.7 * (TAU * (i % nx) as f64 / 16.0).cos() * (TAU * (i / nx) as f64 / 12.0).cos();
         let egg = Surface::new(nx, ny, dx, dy, (0..nx * ny).map(at).collect()).expect("a grid");
         let found = Features::of(&egg, 1.4);
-        let near = |value: &Result<f64, String>, closed: f64, share: f64| {
+        let near = |value: &Result<f64, TextureError>, closed: f64, share: f64| {
             let value = *value.as_ref().expect("defined");
             assert!((value / closed - 1.0).abs() < share, "{value} is not {closed}");
         };

@@ -9,6 +9,7 @@
 //! Road not taken: associating a nominal involute. Normal deviations from a target flank have it taken off already.
 
 use super::surface::Surface;
+use crate::error::TextureError;
 use serde::Serialize;
 
 /// Form to take off.
@@ -44,7 +45,7 @@ const LARGEST_SPAN: f64 = 0.95;
 ///
 /// # Errors
 /// Too few points to determine the form.
-pub fn remove(surface: &Surface, form: Form) -> Result<(Surface, Option<String>), String> {
+pub fn remove(surface: &Surface, form: Form) -> Result<(Surface, Option<String>), TextureError> {
     let terms = match form {
         Form::None => return Ok((surface.clone(), None)),
         Form::Plane => 3,
@@ -93,7 +94,7 @@ fn basis(x: f64, y: f64) -> [f64; 6] {
 struct FittedPolynomial([f64; 6]);
 
 impl FittedPolynomial {
-    fn new(surface: &Surface, frame: &UnitCoordinates, terms: usize) -> Result<Self, String> {
+    fn new(surface: &Surface, frame: &UnitCoordinates, terms: usize) -> Result<Self, TextureError> {
         let sums: [f64; 27] = surface.sum_rows(|row, heights| {
             let y = frame.y(row);
             let mut sums = [0.0; 27];
@@ -121,9 +122,7 @@ impl FittedPolynomial {
             }
             matrix[i][6] = sums[21 + i];
         }
-        solve(&mut matrix, terms)
-            .map(Self)
-            .ok_or_else(|| "the measured points do not determine the form: use a simpler one".to_owned())
+        solve(&mut matrix, terms).map(Self).ok_or(TextureError::FormUndetermined)
     }
 
     fn at(&self, x: f64, y: f64) -> f64 {
@@ -194,7 +193,7 @@ struct Cylinder {
 }
 
 impl Cylinder {
-    fn refined(surface: &Surface, frame: &UnitCoordinates, fit: &FittedPolynomial) -> Result<Self, String> {
+    fn refined(surface: &Surface, frame: &UnitCoordinates, fit: &FittedPolynomial) -> Result<Self, TextureError> {
         let [hx, hy] = frame.half_um;
         let c = fit.0;
         // Principal curvatures of the polynomial in um.
@@ -204,7 +203,7 @@ impl Cylinder {
         let (curvature, angle) =
             if mean >= 0.0 { (mean + half, major) } else { (mean - half, major + std::f64::consts::FRAC_PI_2) };
         let mut best = Self { curvature, angle }.held_upright(frame);
-        let misfit = |cylinder: Self| -> Result<f64, String> {
+        let misfit = |cylinder: Self| -> Result<f64, TextureError> {
             let taken = cylinder.subtracted(surface, frame);
             let left = FittedPolynomial::new(&taken, frame, 6)?.residual(&taken, frame);
             Ok(left.sum_rows(|_, row| [row.iter().filter(|z| !z.is_nan()).map(|z| z * z).sum()])[0])
@@ -217,11 +216,11 @@ impl Cylinder {
         let mut rounds = 0;
         while rounds < LEAST_ROUNDS || angle_step > SETTLED_RAD {
             if rounds == MOST_ROUNDS {
-                return Err(format!(
-                    "no cylinder fits: after {MOST_ROUNDS} rounds the search still goes by {angle_step:e} rad and \
-                     {curvature_step:e} 1/um, at {} rad and {:e} 1/um; take form = \"poly2\"",
-                    best.angle, best.curvature
-                ));
+                return Err(TextureError::NoCylinder {
+                    rounds: MOST_ROUNDS as usize,
+                    step: [angle_step, curvature_step],
+                    at: [best.angle, best.curvature],
+                });
             }
             rounds += 1;
             let trials = [

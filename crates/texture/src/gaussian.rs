@@ -15,6 +15,7 @@
 //! The sums over neighbourhoods are convolutions with `s`, `x s`, `y s` and so on, all separable; lines go through the
 //! Fourier transform, so that the time does not grow with L.
 
+use crate::error::TextureError;
 use rayon::prelude::*;
 use realfft::num_complex::Complex;
 use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
@@ -40,7 +41,7 @@ const SETTLED: f64 = 1e-4;
 ///
 /// # Errors
 /// A nesting index under two points, which no grid can filter.
-pub fn low_pass(surface: &Surface, index_um: f64) -> Result<Surface, String> {
+pub fn low_pass(surface: &Surface, index_um: f64) -> Result<Surface, TextureError> {
     let filter = Filter::new(surface, index_um)?;
     let weights = measured(surface);
     Ok(surface.with_heights(filter.apply(surface, weights.as_deref())))
@@ -50,7 +51,7 @@ pub fn low_pass(surface: &Surface, index_um: f64) -> Result<Surface, String> {
 ///
 /// # Errors
 /// As [`low_pass`], and a filter that does not settle.
-pub fn robust_low_pass(surface: &Surface, index_um: f64) -> Result<(Surface, usize), String> {
+pub fn robust_low_pass(surface: &Surface, index_um: f64) -> Result<(Surface, usize), TextureError> {
     let filter = Filter::new(surface, index_um)?;
     let first = filter.apply(surface, measured(surface).as_deref());
     let apply = |weights: &[f64]| filter.apply(surface, Some(weights));
@@ -65,7 +66,7 @@ pub(crate) fn settled(
     heights_um: &[f64],
     first_um: Vec<f64>,
     filter: impl Fn(&[f64]) -> Vec<f64>,
-) -> Result<(Vec<f64>, usize), String> {
+) -> Result<(Vec<f64>, usize), TextureError> {
     let mut mean = first_um;
     let dust = DUST * heights_um.iter().fold(0.0, |most: f64, z| if z.abs() > most { z.abs() } else { most });
     let mut before = f64::INFINITY;
@@ -82,10 +83,7 @@ pub(crate) fn settled(
         let weights: Vec<f64> = residuals.par_iter().map(biweight).collect();
         mean = filter(&weights);
     }
-    Err(format!(
-        "the robust filter of {index_um} um does not settle: after {ROUNDS} rounds c = {before:e} um still changes by \
-         {change:e} of itself; take robust = false, or another nesting index"
-    ))
+    Err(TextureError::UnsettledFilter { index_um, rounds: ROUNDS, c_um: before, change })
 }
 
 /// 1 where there is a height, 0 in holes; `None` without holes.
@@ -105,13 +103,10 @@ struct Filter {
 }
 
 impl Filter {
-    fn new(surface: &Surface, index_um: f64) -> Result<Self, String> {
+    fn new(surface: &Surface, index_um: f64) -> Result<Self, TextureError> {
         let coarsest_um = surface.dx_um().max(surface.dy_um());
         if !index_um.is_finite() || index_um < 2.0 * coarsest_um {
-            return Err(format!(
-                "a filter of {index_um} um on points {coarsest_um} um apart: \
-                 nothing shorter than two points can be told apart"
-            ));
+            return Err(TextureError::ShortFilter { index_um, spacing_um: coarsest_um });
         }
         Ok(Self {
             x: LineKernels::new(surface.nx(), surface.dx_um(), index_um),

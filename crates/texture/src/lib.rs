@@ -9,8 +9,8 @@
 //!
 //! The modules, from the ground up; each uses only those above it in this list:
 //!
-//! - `error`: errors as values, with the file and the reason
 //! - `text`: words out of a file, fit to print
+//! - `error`: errors as values, with the file and the reason
 //! - `disk_steps`: the steps on the disk by which files come to be, where tests may refuse them
 //! - [`atomic`]: files that are complete or absent
 //! - [`surface`]: heights on a grid with holes
@@ -67,7 +67,7 @@
 //! let amplitude_um = 0.5 * 2_f64.powf(-10.0 * 10.0 * (100.0_f64.powi(-2) + 163.0_f64.powi(-2)));
 //! assert!((sa / (2.0 / PI * amplitude_um) - 1.0).abs() < 0.01);
 //! assert!((sk / (1.775 * amplitude_um) - 1.0).abs() < 0.01);
-//! # Ok::<(), String>(())
+//! # Ok::<(), gearcut_texture::TextureError>(())
 //! ```
 //!
 //! Roughness along a line, by the chain of profiles: 0.8 mm leaves 1 - 2^-(0.8/4)^2 = 2.7 % of a wave of 4 mm, and all
@@ -85,16 +85,16 @@
 //! let ra = &of_profiles(&profiles, &[])[0].mean;
 //! println!("{}\n{} {:.3} um", profiles.words.join("\n"), ra.symbol, ra.value.clone()?);
 //! assert!((ra.value.clone()? / (2.0 / PI * 0.5) - 1.0).abs() < 0.01);
-//! # Ok::<(), String>(())
+//! # Ok::<(), gearcut_texture::TextureError>(())
 //! ```
 //!
 //! A file instead of heights: [`files::read_surface`]; `examples/read_x3p.rs` evaluates one.
 //!
 //! # Errors
 //!
-//! Files that cannot be used are an [`Error`] that names them. What a surface or a step does not allow is a sentence
-//! (`Result<_, String>`), and so is the reason of a parameter that does not exist. Heights beyond
-//! [`surface::LARGEST_HEIGHT_UM`] are refused, so that no sum overflows.
+//! Files that cannot be used are an [`Error`] that names them, with a [`FileFault`]. What a surface or a step does not
+//! allow is a [`TextureError`], and so is the reason of a parameter that does not exist; printed it is a sentence with
+//! a way out. Heights beyond [`surface::LARGEST_HEIGHT_UM`] are refused, so that no sum overflows.
 //!
 //! # Holes
 //!
@@ -135,7 +135,7 @@ pub mod trace;
 mod watershed;
 
 pub use chain::Chain;
-pub use error::{Error, Result};
+pub use error::{Error, FileFault, Result, TextureError};
 pub use form::Form;
 pub use parameters::{Arguments, Evaluation, Parameter};
 pub use profile::Profile;

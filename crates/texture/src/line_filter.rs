@@ -7,6 +7,7 @@
 //! the very end. The robust form weights points down that lie far off, as the areal one does.
 
 use super::gaussian::{LineKernels, settled};
+use crate::error::TextureError;
 
 /// Waves longer than the cut-off; with `robust`, also the number of rounds.
 ///
@@ -17,12 +18,9 @@ pub fn low_pass(
     spacing_um: f64,
     cutoff_um: f64,
     robust: bool,
-) -> Result<(Vec<f64>, Option<usize>), String> {
+) -> Result<(Vec<f64>, Option<usize>), TextureError> {
     if !(cutoff_um.is_finite() && cutoff_um >= 2.0 * spacing_um) {
-        return Err(format!(
-            "a filter of {cutoff_um} um on points {spacing_um} um apart: nothing shorter than two points can be told \
-             apart"
-        ));
+        return Err(TextureError::ShortFilter { index_um: cutoff_um, spacing_um });
     }
     let kernels = LineKernels::new(heights_um.len(), spacing_um, cutoff_um);
     let ones = vec![1.0; heights_um.len()];
@@ -104,6 +102,8 @@ mod tests {
 
     #[test]
     fn a_cutoff_below_two_points_is_refused() {
-        assert!(low_pass(&[0.0; 100], 8.0, 15.0, false).expect_err("too short").contains("points 8 um apart"));
+        assert!(
+            low_pass(&[0.0; 100], 8.0, 15.0, false).expect_err("too short").to_string().contains("points 8 um apart")
+        );
     }
 }

@@ -6,6 +6,7 @@
 //! by its height, slope and curvature in the middle of the line, found by Gauss-Newton from the parabola: a tilted arc
 //! is no parabola and no untilted arc with a tilt beside it.
 
+use crate::error::TextureError;
 use serde::Serialize;
 
 /// Form to take off a line.
@@ -40,7 +41,7 @@ impl LineForm {
     ///
     /// # Errors
     /// An arc that fits no circle.
-    pub fn removed(self, heights_um: &[f64], spacing_um: f64) -> Result<Vec<f64>, String> {
+    pub fn removed(self, heights_um: &[f64], spacing_um: f64) -> Result<Vec<f64>, TextureError> {
         match self {
             Self::None => Ok(without_polynomial(heights_um, 0)),
             Self::Line => Ok(without_polynomial(heights_um, 1)),
@@ -93,7 +94,7 @@ fn arc(u: f64, slope: f64, curvature: f64) -> f64 {
     2.0 * c / (cos + (cos * cos - 2.0 * curvature * c).sqrt())
 }
 
-fn without_arc(heights_um: &[f64], spacing_um: f64) -> Result<Vec<f64>, String> {
+fn without_arc(heights_um: &[f64], spacing_um: f64) -> Result<Vec<f64>, TextureError> {
     let half_um = 0.5 * spacing_um * (heights_um.len() - 1) as f64;
     let u: Vec<f64> = places(heights_um.len()).iter().map(|x| x * half_um).collect();
     let left = |[height, slope, curvature]: [f64; 3]| -> Vec<f64> {
@@ -115,7 +116,7 @@ fn without_arc(heights_um: &[f64], spacing_um: f64) -> Result<Vec<f64>, String> 
         let next: [f64; 3] = std::array::from_fn(|k| found[k] + change[k]);
         let after = left(next);
         if after.iter().any(|z| z.is_nan()) {
-            return Err("no arc of a circle fits the line: take a polynomial as its form".to_owned());
+            return Err(TextureError::NoArc);
         }
         let settled = (0..3).all(|k| change[k].abs() <= 1e-6 * steps[k]);
         (found, rest) = (next, after);
@@ -123,7 +124,7 @@ fn without_arc(heights_um: &[f64], spacing_um: f64) -> Result<Vec<f64>, String> 
             return Ok(rest);
         }
     }
-    Err(format!("the arc of the line does not settle in {STEPS} steps: take a polynomial as its form"))
+    Err(TextureError::UnsettledArc { steps: STEPS })
 }
 
 /// Coefficients of `columns` in the least-squares fit of `values`, by columns at right angles to each other.

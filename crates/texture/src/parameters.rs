@@ -12,6 +12,7 @@ use super::profile_chain::{ProfileKind, Profiles};
 use super::ratio::MaterialRatio;
 use super::spatial::Spatial;
 use super::surface::Surface;
+use crate::error::TextureError;
 
 /// Ratios p at which Smc, Vm and Vv are always given, per cent.
 pub const RATIOS_PERCENT: [f64; 3] = [10.0, 50.0, 80.0];
@@ -22,7 +23,7 @@ pub struct Parameter {
     /// Symbol of the standard, such as `Sq` or `Smc(10)`.
     pub symbol: String,
     /// The value, or why there is none.
-    pub value: Result<f64, String>,
+    pub value: Result<f64, TextureError>,
     /// Its unit.
     pub unit: &'static str,
     /// What it is.
@@ -85,10 +86,10 @@ impl Evaluation {
 pub fn of_profile(kind: ProfileKind, profile: &Profile, heights_um: &[f64]) -> Vec<Parameter> {
     let mut list = List::default();
     let (family, letter) = ("profile", kind.letter());
-    let mut add = |symbol: &str, value: Result<f64, String>, unit: &'static str, definition: &str| {
+    let mut add = |symbol: &str, value: Result<f64, TextureError>, unit: &'static str, definition: &str| {
         list.add(family, format!("{letter}{symbol}"), value, unit, definition);
     };
-    let moment = |value: f64| if value.is_nan() { Err("the line is flat".to_owned()) } else { Ok(value) };
+    let moment = |value: f64| if value.is_nan() { Err(TextureError::FlatLine) } else { Ok(value) };
     add("a", Ok(profile.a), "um", "arithmetical mean height of the profile");
     add("q", Ok(profile.q), "um", "root mean square height of the profile");
     if kind != ProfileKind::Primary {
@@ -166,13 +167,12 @@ impl List {
         &mut self,
         family: &'static str,
         symbol: impl Into<String>,
-        value: Result<f64, String>,
+        value: Result<f64, TextureError>,
         unit: &'static str,
         definition: impl Into<String>,
     ) {
-        let value = value.and_then(|value| {
-            if value.is_finite() { Ok(value) } else { Err("too few neighbouring points were measured".to_owned()) }
-        });
+        let value =
+            value.and_then(|value| if value.is_finite() { Ok(value) } else { Err(TextureError::FewNeighbours) });
         self.0.push(Parameter { symbol: symbol.into(), value, unit, definition: definition.into(), family });
     }
 
@@ -181,7 +181,7 @@ impl List {
     }
 
     fn moment(&mut self, family: &'static str, symbol: &str, value: f64, definition: &str) {
-        let value = if value.is_nan() { Err("the surface is flat".to_owned()) } else { Ok(value) };
+        let value = if value.is_nan() { Err(TextureError::FlatSurface) } else { Ok(value) };
         self.add(family, symbol, value, "1", definition);
     }
 
@@ -237,7 +237,7 @@ impl List {
 
     fn core(&mut self, c: &Core, flat: bool) {
         let family = "core";
-        let guarded = |value: f64| if flat { Err("the surface is flat".to_owned()) } else { Ok(value) };
+        let guarded = |value: f64| if flat { Err(TextureError::FlatSurface) } else { Ok(value) };
         self.um(
             family,
             "Sk",
@@ -276,7 +276,7 @@ impl List {
         );
     }
 
-    fn strata(&mut self, found: Result<Probability, String>) {
+    fn strata(&mut self, found: Result<Probability, TextureError>) {
         let way = "material probability curve, hyperbola whose asymptotes' angle is halved three times (ISO 13565-3)";
         for (symbol, value, unit, what) in [
             ("Spq", found.clone().map(|of| of.spq), "um", "root mean square height of the plateau"),

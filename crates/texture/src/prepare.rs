@@ -15,6 +15,7 @@
 //! Road not taken: fitting outliers and holes after the form is off. What is left out must not depend on what is made
 //! of the rest.
 
+use crate::error::{TextureError, rectangle_words};
 use rayon::prelude::*;
 
 use super::form::{self, Form};
@@ -76,13 +77,13 @@ impl Preparation {
     ///
     /// # Errors
     /// A step that leaves nothing, a rectangle beside the map, more holes than are filled, a lay that does not exist.
-    pub fn apply(&self, surface: &Surface) -> Result<(Surface, Vec<String>), String> {
+    pub fn apply(&self, surface: &Surface) -> Result<(Surface, Vec<String>), TextureError> {
         let mut words = Vec::new();
         let mut surface = surface.clone();
         for rectangle in &self.masks_um {
             let before = surface.holes();
             surface = masked(&surface, rectangle)?;
-            words.push(format!("mask: {} points left out in {}", surface.holes() - before, said(rectangle)));
+            words.push(format!("mask: {} points left out in {}", surface.holes() - before, rectangle_words(rectangle)));
         }
         if let Some(sigmas) = self.outliers {
             let (kept, count, limit_um) = without_outliers(&surface, sigmas)?;
@@ -106,7 +107,7 @@ impl Preparation {
         }
         if let Some(rectangle) = &self.crop_um {
             surface = cropped(&surface, rectangle)?;
-            words.push(format!("crop: to {}", said(rectangle)));
+            words.push(format!("crop: to {}", rectangle_words(rectangle)));
         }
         if let Some(turn) = self.rotate {
             let degrees = match turn {
@@ -115,7 +116,7 @@ impl Preparation {
                 Turn::Lay => {
                     let (level, _) = form::remove(&surface, Form::Plane)?;
                     let std = Spatial::of(&level, false).std;
-                    90.0 - std.map_err(|why| format!("no lay to turn to: {why}"))?
+                    90.0 - std.map_err(|why| TextureError::NoLay(why.into()))?
                 }
             };
             surface = rotated(&surface, degrees)?;
@@ -125,12 +126,8 @@ impl Preparation {
     }
 }
 
-fn said([[x0, x1], [y0, y1]]: &RectangleUm) -> String {
-    format!("x {x0} to {x1} um, y {y0} to {y1} um")
-}
-
 /// Indices from the first to behind the last point in a rectangle.
-fn indices(surface: &Surface, rectangle: &RectangleUm) -> Result<[std::ops::Range<usize>; 2], String> {
+fn indices(surface: &Surface, rectangle: &RectangleUm) -> Result<[std::ops::Range<usize>; 2], TextureError> {
     let range = |[from, to]: [f64; 2], step: f64, count: usize| {
         let (from, to) = ((from / step - 1e-9).ceil().max(0.0), (to / step + 1e-9).floor());
         // A negative end is 0 as a whole number, and would hold the first point.
@@ -139,13 +136,13 @@ fn indices(surface: &Surface, rectangle: &RectangleUm) -> Result<[std::ops::Rang
     let [x, y] =
         [range(rectangle[0], surface.dx_um(), surface.nx()), range(rectangle[1], surface.dy_um(), surface.ny())];
     if x.is_empty() || y.is_empty() {
-        let [w, h] = surface.size_mm().map(|side| side * 1e3);
-        return Err(format!("no point in {}: the map reaches from 0 to {w} um and from 0 to {h} um", said(rectangle)));
+        let size_um = surface.size_mm().map(|side| side * 1e3);
+        return Err(TextureError::EmptyRectangle { rectangle_um: *rectangle, size_um });
     }
     Ok([x, y])
 }
 
-fn masked(surface: &Surface, rectangle: &RectangleUm) -> Result<Surface, String> {
+fn masked(surface: &Surface, rectangle: &RectangleUm) -> Result<Surface, TextureError> {
     let [x, y] = indices(surface, rectangle)?;
     let mut heights = surface.heights_um().to_vec();
     for row in y {
@@ -154,7 +151,7 @@ fn masked(surface: &Surface, rectangle: &RectangleUm) -> Result<Surface, String>
     Surface::new(surface.nx(), surface.ny(), surface.dx_um(), surface.dy_um(), heights)
 }
 
-fn cropped(surface: &Surface, rectangle: &RectangleUm) -> Result<Surface, String> {
+fn cropped(surface: &Surface, rectangle: &RectangleUm) -> Result<Surface, TextureError> {
     let [x, y] = indices(surface, rectangle)?;
     let heights = y.clone().flat_map(|row| surface.row(row)[x.clone()].to_vec()).collect();
     Surface::new(x.len(), y.len(), surface.dx_um(), surface.dy_um(), heights)
@@ -177,7 +174,7 @@ fn median(values: &mut [f64]) -> f64 {
 }
 
 /// The surface without outliers, their number, and the distance that makes one.
-fn without_outliers(surface: &Surface, sigmas: f64) -> Result<(Surface, usize, f64), String> {
+fn without_outliers(surface: &Surface, sigmas: f64) -> Result<(Surface, usize, f64), TextureError> {
     let (nx, ny) = (surface.nx(), surface.ny());
     let differences: Vec<f64> = (0..ny)
         .into_par_iter()
@@ -209,16 +206,12 @@ fn without_outliers(surface: &Surface, sigmas: f64) -> Result<(Surface, usize, f
 }
 
 /// The surface without holes, and how many there were.
-fn filled(surface: &Surface) -> Result<(Surface, usize), String> {
+fn filled(surface: &Surface) -> Result<(Surface, usize), TextureError> {
     let (nx, ny) = (surface.nx(), surface.ny());
     let holes: Vec<usize> = (0..nx * ny).filter(|&i| surface.heights_um()[i].is_nan()).collect();
     let share = holes.len() as f64 / (nx * ny) as f64;
     if share > MOST_FILLED {
-        return Err(format!(
-            "{:.0} % of the points are holes; up to {:.0} % are filled",
-            100.0 * share,
-            100.0 * MOST_FILLED
-        ));
+        return Err(TextureError::TooManyHoles { percent: 100.0 * share, most_percent: 100.0 * MOST_FILLED });
     }
     let mut heights = surface.heights_um().to_vec();
     let mean = surface.mean_um();
@@ -252,7 +245,7 @@ fn filled(surface: &Surface) -> Result<(Surface, usize), String> {
 }
 
 /// Turned about its middle.
-fn rotated(surface: &Surface, degrees: f64) -> Result<Surface, String> {
+fn rotated(surface: &Surface, degrees: f64) -> Result<Surface, TextureError> {
     let (nx, ny, dx, dy) = (surface.nx(), surface.ny(), surface.dx_um(), surface.dy_um());
     let quarters = (degrees / 90.0).round();
     if (degrees - 90.0 * quarters).abs() < 1e-9 {

@@ -17,6 +17,7 @@
 //! are the flatter part (feed marks are hills on a plain), there are no two strata.
 
 use super::ratio::MaterialRatio;
+use crate::error::TextureError;
 use std::f64::consts::TAU;
 
 /// Standard deviations on either side.
@@ -49,21 +50,20 @@ impl Probability {
     ///
     /// # Errors
     /// Too few heights, or no two strata.
-    pub fn of(curve: &MaterialRatio) -> Result<Self, String> {
+    pub fn of(curve: &MaterialRatio) -> Result<Self, TextureError> {
         let samples = samples(curve);
         if samples.len() < 2 * FEWEST {
-            return Err(format!("{} heights are too few for a material probability curve", curve.len()));
+            return Err(TextureError::ShortProbability { heights: curve.len() });
         }
-        let one = || "the material probability curve is that of one stratum, no plateau over dales".to_owned();
-        let ends = straight_parts(&samples).ok_or_else(one)?;
+        let ends = straight_parts(&samples).ok_or(TextureError::OneStratum)?;
         let plateau: Vec<[f64; 2]> = samples.iter().copied().filter(|[s, _]| *s <= ends[0]).collect();
         let dales: Vec<[f64; 2]> = samples.iter().copied().filter(|[s, _]| *s >= ends[1]).collect();
         if plateau.len().min(dales.len()) < FEWEST {
-            return Err(one());
+            return Err(TextureError::OneStratum);
         }
         let ([p0, p1], [d0, d1]) = (line(&plateau), line(&dales));
         if d1 > p1 * (1.0 + DIFFER) {
-            return Err(one());
+            return Err(TextureError::OneStratum);
         }
         let meet = (d0 - p0) / (p1 - d1);
         Ok(Self { spq: -p1, svq: -d1, smq: 100.0 * normal(meet) })
@@ -177,7 +177,7 @@ mod tests {
         })
     }
 
-    fn of(heights: impl Iterator<Item = f64>) -> Result<Probability, String> {
+    fn of(heights: impl Iterator<Item = f64>) -> Result<Probability, TextureError> {
         Probability::of(&MaterialRatio::of_heights(&heights.collect::<Vec<_>>()))
     }
 
@@ -223,10 +223,10 @@ mod tests {
     #[test]
     fn one_stratum_and_hills_on_a_plain_have_no_numbers() {
         let one = of(deviations(100_000)).expect_err("normal heights");
-        assert!(one.contains("one stratum"), "{one}");
+        assert!(one.to_string().contains("one stratum"), "{one}");
         let marks = (0..100_000).map(|i| (f64::from(i) / 50_000.0 - 1.0).powi(2));
         assert!(of(marks).is_err(), "feed marks");
         assert!(of(std::iter::repeat_n(1.0, 5000)).is_err(), "a flat surface");
-        assert!(of((0..11).map(f64::from)).expect_err("few").contains("too few"));
+        assert!(of((0..11).map(f64::from)).expect_err("few").to_string().contains("too few"));
     }
 }

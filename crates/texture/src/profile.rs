@@ -14,6 +14,7 @@
 use super::core::Core;
 use super::elements::spacing;
 use super::ratio::MaterialRatio;
+use crate::error::TextureError;
 use std::collections::VecDeque;
 
 /// Profile parameters; heights in um, ratios in per cent.
@@ -40,7 +41,7 @@ pub struct Profile {
     /// Root mean square slope, 1.
     pub dq: f64,
     /// Mean spacing of profile elements, um, or why there is none.
-    pub sm: Result<f64, String>,
+    pub sm: Result<f64, TextureError>,
     /// Core: Rk, Rpk, Rvk, Rmrk1, Rmrk2.
     pub core: Core,
     /// Material ratio curve about the reference line.

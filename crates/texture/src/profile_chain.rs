@@ -14,6 +14,8 @@
 mod cut_off;
 mod sections;
 
+use crate::error::TextureError;
+use crate::text::short;
 use serde::Serialize;
 
 use super::line_filter::low_pass;
@@ -126,7 +128,7 @@ pub struct Profiles {
     /// Evaluation length of the first line, um.
     pub evaluation_um: f64,
     /// Parameters of each line, or why it has none.
-    pub lines: Vec<Result<Profile, String>>,
+    pub lines: Vec<Result<Profile, TextureError>>,
 }
 
 impl ProfileChain {
@@ -135,19 +137,19 @@ impl ProfileChain {
     /// # Errors
     /// No line at all, lines of which none can be used, a cut-off or sections that do not suit them, or a filter that
     /// does not settle.
-    pub fn evaluate(&self, traces: &[ProfileTrace]) -> Result<Profiles, String> {
-        let spacing_um = traces.first().ok_or("there is no line to evaluate")?.spacing_um();
+    pub fn evaluate(&self, traces: &[ProfileTrace]) -> Result<Profiles, TextureError> {
+        let spacing_um = traces.first().ok_or(TextureError::NoLine)?.spacing_um();
         if traces.iter().any(|trace| (trace.spacing_um() / spacing_um - 1.0).abs() > 1e-9) {
-            return Err("lines of one evaluation must have equal spacing".to_owned());
+            return Err(TextureError::UnequalSpacing);
         }
-        let bridged: Vec<Result<Bridged, String>> =
+        let bridged: Vec<Result<Bridged, TextureError>> =
             traces.iter().map(|trace| trace.bridged(self.bridge_um.unwrap_or(BRIDGE * trace.length_um()))).collect();
         let good: Vec<&Bridged> = bridged.iter().flatten().collect();
         let Some(shortest) = good.iter().map(|line| line.heights_um.len()).min() else {
-            return Err(bridged.into_iter().find_map(Result::err).unwrap_or_default());
+            return Err(bridged.into_iter().find_map(Result::err).unwrap_or(TextureError::NoLine));
         };
         let length_um = spacing_um * (shortest - 1) as f64;
-        let leveled: Vec<Result<Vec<f64>, String>> = bridged
+        let leveled: Vec<Result<Vec<f64>, TextureError>> = bridged
             .iter()
             .map(|line| self.form.removed(&line.as_ref().map_err(Clone::clone)?.heights_um, spacing_um))
             .collect();
@@ -166,9 +168,9 @@ impl ProfileChain {
             let part = layout.part(&filtered);
             Ok(Profile::of(part, spacing_um, layout.sections))
         });
-        let lines: Vec<Result<Profile, String>> = lines.collect();
+        let lines: Vec<Result<Profile, TextureError>> = lines.collect();
         if lines.iter().all(Result::is_err) {
-            return Err(lines.into_iter().find_map(Result::err).unwrap_or_default());
+            return Err(lines.into_iter().find_map(Result::err).unwrap_or(TextureError::NoLine));
         }
         let steps = layout.steps.map_or(shortest - 1 - 2 * layout.run_in, |steps| steps * layout.sections);
         let evaluation_um = steps as f64 * spacing_um;
@@ -196,7 +198,7 @@ impl ProfileChain {
         s_um: Option<f64>,
         cutoff_um: Option<f64>,
         spacing_um: f64,
-    ) -> Result<(Vec<f64>, Option<usize>), String> {
+    ) -> Result<(Vec<f64>, Option<usize>), TextureError> {
         if let Some(s_um) = s_um {
             line = low_pass(&line, spacing_um, s_um, false)?.0;
         }
@@ -209,7 +211,7 @@ impl ProfileChain {
     }
 
     /// Nesting index of the S-filter, and words on it.
-    fn short(&self, cutoff_um: Option<f64>, spacing_um: f64) -> Result<(Option<f64>, String), String> {
+    fn short(&self, cutoff_um: Option<f64>, spacing_um: f64) -> Result<(Option<f64>, String), TextureError> {
         let gaussian = |um: f64| (Some(um), format!("Gaussian, ISO 16610-21, {um} um"));
         let found = match self.s_filter {
             ShortFilter::None => (None, "none".to_owned()),
@@ -227,7 +229,7 @@ impl ProfileChain {
         };
         match (found.0, cutoff_um) {
             (Some(s), Some(l)) if s >= l => {
-                Err(format!("the profile S-filter ({s} um) must be shorter than the cut-off ({l} um)"))
+                Err(TextureError::FiltersCross { short: "profile S-filter", short_um: s, long: "cut-off", long_um: l })
             }
             _ => Ok(found),
         }
@@ -250,12 +252,6 @@ fn holes(lines: &[&Bridged]) -> String {
         (_, 0) => bridged,
         _ => format!("{bridged}; {ends}"),
     }
-}
-
-/// A length to four decimals, without trailing zeros.
-fn short(value: f64) -> String {
-    let text = format!("{value:.4}");
-    text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
 #[cfg(test)]

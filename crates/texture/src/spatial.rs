@@ -8,9 +8,10 @@
 //! Std is in `direction`. Ssw is the wavelength of the largest Fourier component of the window, as fine as
 //! whole waves in the window can tell.
 
-use super::direction::{NO_WAVES, direction_deg};
+use super::direction::direction_deg;
 use super::spectrum::{PowerSpectrum, Products, power, products};
 use super::surface::Surface;
+use crate::error::TextureError;
 use rayon::prelude::*;
 
 /// Share of the value at lag 0 to which the autocorrelation decays.
@@ -20,20 +21,20 @@ const DECAY: f64 = 0.2;
 #[derive(Debug, Clone, PartialEq)]
 pub struct Spatial {
     /// Autocorrelation length, um.
-    pub sal: Result<f64, String>,
+    pub sal: Result<f64, TextureError>,
     /// Texture aspect ratio.
-    pub str: Result<f64, String>,
+    pub str: Result<f64, TextureError>,
     /// Direction of the dominant wave vector, deg, 0 to 180.
-    pub std: Result<f64, String>,
+    pub std: Result<f64, TextureError>,
     /// Wavelength of the largest component, um.
-    pub ssw: Result<f64, String>,
+    pub ssw: Result<f64, TextureError>,
 }
 
 impl Spatial {
     /// Of a surface about its mean; `flat` when its heights do not differ.
     pub fn of(surface: &Surface, flat: bool) -> Self {
         if flat {
-            let none = || Err("the surface is flat".to_owned());
+            let none = || Err(TextureError::FlatSurface);
             return Self { sal: none(), str: none(), std: none(), ssw: none() };
         }
         let (sal, str) = correlation_lengths(surface);
@@ -46,7 +47,7 @@ impl Spatial {
 }
 
 /// Sal, um, and Str of a surface that is not flat.
-pub fn correlation_lengths(surface: &Surface) -> (Result<f64, String>, Result<f64, String>) {
+pub fn correlation_lengths(surface: &Surface) -> (Result<f64, TextureError>, Result<f64, TextureError>) {
     let mut found = products(surface, surface.mean_um());
     if surface.holes() == 0 {
         divide_by_overlap(&mut found);
@@ -65,7 +66,7 @@ pub fn correlation_lengths(surface: &Surface) -> (Result<f64, String>, Result<f6
 ///
 /// # Errors
 /// Holes.
-pub fn std_deg(surface: &Surface) -> Result<f64, String> {
+pub fn std_deg(surface: &Surface) -> Result<f64, TextureError> {
     direction_deg(&spectrum(surface)?, surface)
 }
 
@@ -73,14 +74,14 @@ pub fn std_deg(surface: &Surface) -> Result<f64, String> {
 ///
 /// # Errors
 /// Holes.
-pub fn ssw_um(surface: &Surface) -> Result<f64, String> {
+pub fn ssw_um(surface: &Surface) -> Result<f64, TextureError> {
     wavelength_um(&spectrum(surface)?, surface)
 }
 
-fn spectrum(surface: &Surface) -> Result<PowerSpectrum, String> {
+fn spectrum(surface: &Surface) -> Result<PowerSpectrum, TextureError> {
     match surface.holes() {
         0 => Ok(power(surface)),
-        holes => Err(format!("the map has {holes} holes, and a Fourier spectrum needs every point; crop them away")),
+        holes => Err(TextureError::HolesInSpectrum { holes }),
     }
 }
 
@@ -120,7 +121,7 @@ impl Correlation<'_> {
 const SIDES: [Lag; 4] = [(1, 0), (0, 1), (-1, 0), (0, -1)];
 
 /// Sal and Str.
-fn decay(products: &Products, [dx, dy]: [f64; 2]) -> (Result<f64, String>, Result<f64, String>) {
+fn decay(products: &Products, [dx, dy]: [f64; 2]) -> (Result<f64, TextureError>, Result<f64, TextureError>) {
     let origin = products.sums[products.nx - 1];
     let field = Correlation { products, threshold: DECAY * origin };
     let mut inside = vec![false; products.sums.len()];
@@ -178,15 +179,9 @@ fn decay(products: &Products, [dx, dy]: [f64; 2]) -> (Result<f64, String>, Resul
         }
     }
     if shortest.is_infinite() {
-        let why = "the autocorrelation does not fall to 0.2 inside the window: it is too small for the texture";
-        return (Err(why.to_owned()), Err(why.to_owned()));
+        return (Err(TextureError::NoDecay), Err(TextureError::NoDecay));
     }
-    let str = if open {
-        Err("the autocorrelation does not fall to 0.2 inside the window in every direction, as along feed marks"
-            .to_owned())
-    } else {
-        Ok(shortest / longest)
-    };
+    let str = if open { Err(TextureError::OpenDecay) } else { Ok(shortest / longest) };
     (Ok(shortest), str)
 }
 
@@ -207,12 +202,12 @@ fn frequency(spectrum: &PowerSpectrum, surface: &Surface, index: usize) -> [f64;
 }
 
 /// Ssw. The mean has no power: it was taken off.
-fn wavelength_um(spectrum: &PowerSpectrum, surface: &Surface) -> Result<f64, String> {
+fn wavelength_um(spectrum: &PowerSpectrum, surface: &Surface) -> Result<f64, TextureError> {
     let waves = spectrum.power.par_iter().enumerate().skip(1);
     // Opposite frequencies on fx = 0 are equal but for rounding; the first of equals wins on any number of threads.
     let largest = waves.reduce(|| (0, &0.0), |a, b| if b.1 > a.1 || (b.1 == a.1 && b.0 < a.0) { b } else { a });
     if *largest.1 == 0.0 {
-        return Err(NO_WAVES.to_owned());
+        return Err(TextureError::NoWaves);
     }
     let [x, y] = frequency(spectrum, surface, largest.0);
     Ok(1.0 / x.hypot(y))

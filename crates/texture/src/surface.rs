@@ -4,6 +4,7 @@
 //! measured. Sums over a surface are taken row by row and folded in the order of the rows, so that the number of
 //! threads never changes a digit.
 
+use crate::error::TextureError;
 use rayon::prelude::*;
 
 /// Largest height, um, over and under zero: 1 m. Fourth powers of heights and squares of slopes, summed, stay far
@@ -28,21 +29,19 @@ impl Surface {
     /// # Errors
     /// Fewer than two points along a side, a spacing out of [`SPACINGS_UM`], heights that do not fill the grid or lie
     /// beyond [`LARGEST_HEIGHT_UM`], or no height at all.
-    pub fn new(nx: usize, ny: usize, dx_um: f64, dy_um: f64, mut heights_um: Vec<f64>) -> Result<Self, String> {
+    pub fn new(nx: usize, ny: usize, dx_um: f64, dy_um: f64, mut heights_um: Vec<f64>) -> Result<Self, TextureError> {
         if nx < 2 || ny < 2 {
-            return Err(format!("a surface needs at least 2 x 2 points, not {nx} x {ny}"));
+            return Err(TextureError::SmallGrid { nx, ny });
         }
         if !(dx_um > 0.0 && dy_um > 0.0 && dx_um.is_finite() && dy_um.is_finite()) {
-            return Err(format!("the spacing must be positive, not {dx_um} x {dy_um} um"));
+            return Err(TextureError::NoSpacing { dx_um, dy_um });
         }
         let [least, most] = SPACINGS_UM;
-        if let Some(spacing) = [dx_um, dy_um].into_iter().find(|spacing| !(least..=most).contains(spacing)) {
-            return Err(format!(
-                "a spacing of {spacing:e} um is out of range, {least:e} to {most:e} um: is it in another unit?"
-            ));
+        if let Some(spacing_um) = [dx_um, dy_um].into_iter().find(|spacing| !(least..=most).contains(spacing)) {
+            return Err(TextureError::SpacingOutOfRange { spacing_um, range_um: SPACINGS_UM });
         }
         if nx.checked_mul(ny) != Some(heights_um.len()) {
-            return Err(format!("{} heights do not fill a grid of {nx} x {ny}", heights_um.len()));
+            return Err(TextureError::UnfilledGrid { heights: heights_um.len(), nx, ny });
         }
         for height in &mut heights_um {
             if !height.is_finite() {
@@ -50,10 +49,9 @@ impl Surface {
             }
         }
         if heights_um.iter().all(|h| h.is_nan()) {
-            return Err("no point of the surface was measured".to_owned());
+            return Err(TextureError::NothingMeasured);
         }
-        check_heights(&heights_um)
-            .map_err(|(i, reason)| format!("the height of point {} in row {} {reason}", i % nx + 1, i / nx + 1))?;
+        check_heights(&heights_um, |i| (i % nx, Some(i / nx + 1)))?;
         Ok(Self { nx, ny, dx_um, dy_um, heights_um })
     }
 
@@ -140,16 +138,12 @@ impl Surface {
     ///
     /// # Errors
     /// Nothing, or a single line, would be left.
-    pub fn cropped(&self, margin_um: f64) -> Result<Self, String> {
+    pub fn cropped(&self, margin_um: f64) -> Result<Self, TextureError> {
         let points = |spacing_um: f64| (margin_um / spacing_um - 1e-9).ceil().max(0.0) as usize;
         let (cx, cy) = (points(self.dx_um), points(self.dy_um));
         let leaves_none = |count: usize, cut: usize| count < cut.saturating_mul(2).saturating_add(2);
         if leaves_none(self.nx, cx) || leaves_none(self.ny, cy) {
-            return Err(format!(
-                "cropping {margin_um} um on every side leaves nothing of {:.3} x {:.3} mm",
-                self.size_mm()[0],
-                self.size_mm()[1]
-            ));
+            return Err(TextureError::NothingLeft { margin_um, size_mm: self.size_mm() });
         }
         let (nx, ny) = (self.nx - 2 * cx, self.ny - 2 * cy);
         let heights = (cy..cy + ny).flat_map(|y| self.row(y)[cx..cx + nx].iter().copied()).collect();
@@ -157,23 +151,19 @@ impl Surface {
     }
 }
 
-/// The first height that is too large to be evaluated: its index, and why.
-pub(crate) fn check_heights(heights_um: &[f64]) -> Result<(), (usize, String)> {
-    match heights_um.iter().position(|z| z.abs() > LARGEST_HEIGHT_UM) {
-        None => Ok(()),
-        Some(index) => {
-            let height = heights_um[index];
-            // What f64 cannot hold in um came in as its largest number.
-            let is = if height.abs() < f64::MAX { format!("{height:e} um") } else { "more than any number".to_owned() };
-            Err((
-                index,
-                format!(
-                    "is {is}, beyond +-{LARGEST_HEIGHT_UM:e} um (1 m), where squares and sums overflow: \
-                     give heights in the right unit, and leave out points that were not measured"
-                ),
-            ))
-        }
-    }
+/// Refuses heights that are too large to be evaluated; `place` gives column and row of an index.
+pub(crate) fn check_heights(
+    heights_um: &[f64],
+    place: impl FnOnce(usize) -> (usize, Option<usize>),
+) -> Result<(), TextureError> {
+    let Some(index) = heights_um.iter().position(|z| z.abs() > LARGEST_HEIGHT_UM) else { return Ok(()) };
+    let (column, row) = place(index);
+    Err(TextureError::HeightOutOfRange {
+        point: column + 1,
+        row,
+        height_um: heights_um[index],
+        most_um: LARGEST_HEIGHT_UM,
+    })
 }
 
 #[cfg(test)]
@@ -186,7 +176,7 @@ mod tests {
             [(1, 5, 1.0, 5, "2 x 2"), (2, 2, 0.0, 4, "spacing"), (2, 2, 1.0, 5, "do not fill")]
         {
             let reason = Surface::new(nx, ny, dx, 1.0, vec![0.0; count]).expect_err("refused");
-            assert!(reason.contains(word), "{reason}");
+            assert!(reason.to_string().contains(word), "{reason}");
         }
         assert!(Surface::new(2, 2, 1.0, 1.0, vec![f64::INFINITY; 4]).is_err());
         for (dx, height, word) in [
@@ -196,7 +186,7 @@ mod tests {
             (1.0, -f64::MAX, "more than any number"),
         ] {
             let reason = Surface::new(2, 2, dx, 1.0, vec![0.0, height, 0.0, 0.0]).expect_err("refused");
-            assert!(reason.contains(word), "{reason}");
+            assert!(reason.to_string().contains(word), "{reason}");
         }
         assert!(Surface::new(2, 2, 1e-6, 1e6, vec![0.0, 1e6, -1e6, 0.0]).is_ok());
     }

@@ -16,6 +16,12 @@ pub(crate) fn reason(text: &str) -> String {
     shortened(&lines.join("\n"), MESSAGE)
 }
 
+/// A length to four decimals, without trailing zeros.
+pub(crate) fn short(value: f64) -> String {
+    let text = format!("{value:.4}");
+    text.trim_end_matches('0').trim_end_matches('.').to_owned()
+}
+
 fn printable(text: &str, most: usize) -> String {
     let plain: String =
         text.chars().take(most + 1).map(|c| if c.is_control() { char::REPLACEMENT_CHARACTER } else { c }).collect();

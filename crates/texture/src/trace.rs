@@ -8,6 +8,7 @@
 //! slope across a hole is, and a filter then needs weights for what a bridge says in a word.
 
 use super::surface::{SPACINGS_UM, Surface, check_heights};
+use crate::error::TextureError;
 
 /// Fewest points of a line.
 const FEWEST: usize = 10;
@@ -40,15 +41,15 @@ impl ProfileTrace {
     /// # Errors
     /// A spacing out of [`SPACINGS_UM`], fewer than ten heights, or heights beyond
     /// [`crate::surface::LARGEST_HEIGHT_UM`].
-    pub fn new(mut heights_um: Vec<f64>, spacing_um: f64) -> Result<Self, String> {
+    pub fn new(mut heights_um: Vec<f64>, spacing_um: f64) -> Result<Self, TextureError> {
         let [least, most] = SPACINGS_UM;
         if !(least..=most).contains(&spacing_um) {
-            return Err(format!("a spacing of {spacing_um:e} um is out of range, {least:e} to {most:e} um"));
+            return Err(TextureError::SpacingOutOfRange { spacing_um, range_um: SPACINGS_UM });
         }
         for height in heights_um.iter_mut().filter(|z| z.is_infinite()) {
             *height = f64::NAN;
         }
-        check_heights(&heights_um).map_err(|(i, reason)| format!("the height of point {} {reason}", i + 1))?;
+        check_heights(&heights_um, |i| (i, None))?;
         Self { heights_um, spacing_um }.checked()
     }
 
@@ -56,7 +57,7 @@ impl ProfileTrace {
     ///
     /// # Errors
     /// Fewer than ten points.
-    pub fn row(surface: &Surface, y: usize) -> Result<Self, String> {
+    pub fn row(surface: &Surface, y: usize) -> Result<Self, TextureError> {
         Self { heights_um: surface.row(y).to_vec(), spacing_um: surface.dx_um() }.checked()
     }
 
@@ -64,14 +65,14 @@ impl ProfileTrace {
     ///
     /// # Errors
     /// Fewer than ten points.
-    pub fn column(surface: &Surface, x: usize) -> Result<Self, String> {
+    pub fn column(surface: &Surface, x: usize) -> Result<Self, TextureError> {
         Self { heights_um: surface.column(x), spacing_um: surface.dy_um() }.checked()
     }
 
-    fn checked(self) -> Result<Self, String> {
+    fn checked(self) -> Result<Self, TextureError> {
         match self.heights_um.len() {
             FEWEST.. => Ok(self),
-            few => Err(format!("a line of {few} points is too short: {FEWEST} at least are needed")),
+            few => Err(TextureError::ShortLine { points: few, fewest: FEWEST }),
         }
     }
 
@@ -95,10 +96,10 @@ impl ProfileTrace {
     ///
     /// # Errors
     /// A longer hole, or fewer than ten measured points.
-    pub fn bridged(&self, longest_um: f64) -> Result<Bridged, String> {
+    pub fn bridged(&self, longest_um: f64) -> Result<Bridged, TextureError> {
         let measured: Vec<usize> = (0..self.heights_um.len()).filter(|&i| !self.heights_um[i].is_nan()).collect();
         let (&[first, .., last], FEWEST..) = (measured.as_slice(), measured.len()) else {
-            return Err(format!("only {} points of the line were measured, {FEWEST} are needed", measured.len()));
+            return Err(TextureError::HardlyMeasured { points: measured.len(), fewest: FEWEST });
         };
         let mut line = Bridged {
             heights_um: self.heights_um[first..=last].to_vec(),
@@ -111,12 +112,8 @@ impl ProfileTrace {
             let (before, after) = (pair[0], pair[1]);
             let length_um = self.spacing_um * (after - before) as f64;
             if after - before > 2 && length_um > longest_um * (1.0 + 1e-9) {
-                return Err(format!(
-                    "the line has a hole of {} points, {length_um:.4} um long, {:.4} um from its start, and holes are \
-                     bridged up to {longest_um:.4} um",
-                    after - before - 1,
-                    self.spacing_um * before as f64
-                ));
+                let (points, start_um) = (after - before - 1, self.spacing_um * before as f64);
+                return Err(TextureError::LongHole { points, length_um, start_um, longest_um });
             }
             let (low, high) = (self.heights_um[before], self.heights_um[after]);
             for i in before + 1..after {
@@ -146,7 +143,7 @@ mod tests {
         assert_eq!(line.heights_um, (2..19).map(f64::from).collect::<Vec<_>>());
         assert_eq!((line.points, line.holes, line.longest_um, line.cut_off), (4, 2, 8.0, 3));
         let refused = trace.bridged(7.9).expect_err("too long");
-        assert!(refused.contains("3 points, 8.0000 um long, 16.0000 um from its start"), "{refused}");
+        assert!(refused.to_string().contains("3 points, 8.0000 um long, 16.0000 um from its start"), "{refused}");
         let single =
             ProfileTrace::new((0..12).map(|i| if i == 4 { f64::NAN } else { 1.0 }).collect(), 2.0).expect("a line");
         assert_eq!(single.bridged(0.0).expect("one missing point is bridged always").points, 1);
@@ -154,10 +151,10 @@ mod tests {
 
     #[test]
     fn lines_are_checked() {
-        assert!(ProfileTrace::new(vec![0.0; 9], 1.0).expect_err("short").contains("9 points"));
-        assert!(ProfileTrace::new(vec![0.0; 20], 0.0).expect_err("spacing").contains("spacing"));
-        assert!(ProfileTrace::new(vec![2e6; 20], 1.0).expect_err("too high").contains("point 1"));
+        assert!(ProfileTrace::new(vec![0.0; 9], 1.0).expect_err("short").to_string().contains("9 points"));
+        assert!(ProfileTrace::new(vec![0.0; 20], 0.0).expect_err("spacing").to_string().contains("spacing"));
+        assert!(ProfileTrace::new(vec![2e6; 20], 1.0).expect_err("too high").to_string().contains("point 1"));
         let empty = ProfileTrace::new(vec![f64::NAN; 20], 1.0).expect("holes alone");
-        assert!(empty.bridged(100.0).expect_err("nothing measured").contains("only 0 points"));
+        assert!(empty.bridged(100.0).expect_err("nothing measured").to_string().contains("only 0 points"));
     }
 }

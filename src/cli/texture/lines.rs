@@ -8,7 +8,7 @@ use gearcut::Refusal;
 use gearcut::measure::topography::line_form::LineForm;
 use gearcut::measure::topography::parameters::{ParameterRange, of_profiles};
 use gearcut::measure::topography::profile_chain::{CutOff, ProfileChain, ProfileKind, Profiles, ShortFilter};
-use gearcut::measure::topography::{ProfileTrace, Surface};
+use gearcut::measure::topography::{ProfileTrace, Surface, TextureError};
 use gearcut::output::text::{Sheet, plain};
 use serde_json::{Value, json};
 
@@ -19,7 +19,7 @@ use super::{by_symbol, number, row, table};
 pub(super) struct Lines {
     title: String,
     places_um: Vec<f64>,
-    found: Result<(Profiles, Vec<ParameterRange>), String>,
+    found: Result<(Profiles, Vec<ParameterRange>), TextureError>,
     limits: Vec<(&'static str, f64)>,
 }
 
@@ -71,7 +71,7 @@ pub(super) fn evaluated(arguments: &TextureArguments, surface: &Surface) -> Resu
     let lines_at = |title: String, across: char, indices: &[usize]| {
         let trace =
             |&i: &usize| if across == 'y' { ProfileTrace::row(surface, i) } else { ProfileTrace::column(surface, i) };
-        let traces = indices.iter().map(trace).collect::<Result<Vec<ProfileTrace>, String>>();
+        let traces = indices.iter().map(trace).collect::<Result<Vec<ProfileTrace>, TextureError>>();
         let step_um = if across == 'y' { surface.dy_um() } else { surface.dx_um() };
         let places_um = indices.iter().map(|&i| i as f64 * step_um).collect();
         of_traces(arguments, title, places_um, traces)
@@ -98,7 +98,7 @@ pub(super) fn of_traces(
     arguments: &TextureArguments,
     title: String,
     places_um: Vec<f64>,
-    traces: Result<Vec<ProfileTrace>, String>,
+    traces: Result<Vec<ProfileTrace>, TextureError>,
 ) -> Lines {
     let found = traces.and_then(|traces| chain(arguments).evaluate(&traces)).map(|profiles| {
         let spread = of_profiles(&profiles, &arguments.at_height_um);
@@ -196,7 +196,7 @@ impl Lines {
             Ok(found) => found,
             Err(why) => {
                 document["parameters"] = Value::Null;
-                document["why"] = why.as_str().into();
+                document["why"] = why.to_string().into();
                 return document;
             }
         };
@@ -223,9 +223,9 @@ impl Lines {
     }
 
     /// Lines that have no parameters, and why.
-    fn missing<'a>(&'a self, profiles: &'a Profiles) -> impl Iterator<Item = (f64, &'a str)> {
+    fn missing<'a>(&'a self, profiles: &'a Profiles) -> impl Iterator<Item = (f64, String)> {
         let lines = self.places_um.iter().zip(&profiles.lines);
-        lines.filter_map(|(place_um, line)| Some((*place_um, line.as_ref().err()?.as_str())))
+        lines.filter_map(|(place_um, line)| Some((*place_um, line.as_ref().err()?.to_string())))
     }
 
     /// As words.
@@ -233,7 +233,7 @@ impl Lines {
         sheet.heading(&self.title);
         let (profiles, spread) = match &self.found {
             Ok(found) => found,
-            Err(why) => return sheet.line("none", why),
+            Err(why) => return sheet.line("none", why.to_string()),
         };
         if self.places_um.len() > 1 {
             let places: Vec<String> = self.places_um.iter().map(|um| plain(*um)).collect();

@@ -44,7 +44,7 @@ pub fn reading(arguments: &TextureArguments) -> Result<FileFound, Failure> {
     let (notes, mut remarks) = (measured.notes, measured.remarks);
     match measured.content {
         MeasuredContent::Surface(surface) => {
-            let prepared = preparation.apply(&surface).map_err(|reason| unsuited(&arguments.file, &reason));
+            let prepared = preparation.apply(&surface).map_err(|why| unsuited(&arguments.file, &why.to_string()));
             let (surface, words) = prepared?;
             remarks.extend(words);
             Ok(FileFound::Surface(Reading { surface, notes, remarks, doubts }))

@@ -13,7 +13,7 @@ use super::measured::{MeasuredNumber, MeasuredWish};
 use crate::findings::Notice;
 use crate::influence::notices::{OtherSize, OtherSpacing};
 use crate::job::GearJob;
-use crate::measure::topography::{Arguments, Evaluation, Parameter};
+use crate::measure::topography::{Arguments, Evaluation, Parameter, TextureError};
 use crate::output::atomic::file_error;
 use crate::output::surface_files::{SurfaceFile, read_surface};
 use crate::output::text::significant;
@@ -44,14 +44,15 @@ pub(super) fn read(gear: &dyn GearJob, name: &str, wish: &MeasuredWish) -> Resul
     let file = read_surface(Path::new(path), None).map_err(file_error)?;
     let found = window_of(&named_windows(gear)?, &file, path, window)?;
     let unreadable = |reason: String| Error::Unreadable { path: path.into(), reason };
-    let (surface, _) = found.window.chain.apply(&file.surface).map_err(unreadable)?;
+    let unfit = |why: TextureError| unreadable(why.to_string());
+    let (surface, _) = found.window.chain.apply(&file.surface).map_err(unfit)?;
     let evaluation = Evaluation::of(&surface, &Arguments::default());
     let number = |symbol: &String| {
         let way =
             Direction::BOTH.into_iter().find_map(|way| Some((way, symbol.strip_prefix(way.key())?.strip_prefix('.')?)));
         let (quantity, parameter) = match way {
             Some((way, symbol)) => {
-                let lines = of_surface(gear, &found.window, &file.surface, way).map_err(unreadable)?;
+                let lines = of_surface(gear, &found.window, &file.surface, way).map_err(unfit)?;
                 (format!("{}.{symbol}", roughness_path(&found.path, way)), parameter_of(&lines, symbol)?.clone())
             }
             None => {

@@ -3,6 +3,7 @@
 //! In: a surface. Out: [`SurfaceMarks`]: the wave of largest amplitude that the surface holds at least `FEWEST_WAVES`
 //! times, with a Hann window, its wave vector refined on the points.
 
+use crate::error::TextureError;
 use rayon::prelude::*;
 use rustfft::num_complex::Complex;
 use std::f64::consts::TAU;
@@ -33,7 +34,7 @@ pub struct SurfaceMarks {
 ///
 /// # Errors
 /// A surface without a wave that it holds often enough.
-pub fn marks(surface: &Surface) -> Result<SurfaceMarks, String> {
+pub fn marks(surface: &Surface) -> Result<SurfaceMarks, TextureError> {
     let (level, _) = form::remove(surface, Form::Poly2)?;
     let (lx, ly) = (level.nx() as f64 * level.dx_um(), level.ny() as f64 * level.dy_um());
     let cell = [(lx / COARSE as f64).max(level.dx_um()), (ly / COARSE as f64).max(level.dy_um())];
@@ -59,7 +60,7 @@ pub fn marks(surface: &Surface) -> Result<SurfaceMarks, String> {
         }
     }
     if best.0 == 0.0 {
-        return Err("the surface has no marks".to_owned());
+        return Err(TextureError::NoMarks);
     }
     // Up the hill of the windowed amplitude, by parabolas along both axes.
     let mut frequency = best.1;
@@ -99,7 +100,7 @@ impl SurfaceMarks {
     ///
     /// # Errors
     /// A surface without form.
-    pub fn phase_on_deg(&self, other: &Surface) -> Result<f64, String> {
+    pub fn phase_on_deg(&self, other: &Surface) -> Result<f64, TextureError> {
         let (level, _) = form::remove(other, Form::Poly2)?;
         let phase = wave(&level, self.frequency).arg().to_degrees() - self.phase_deg;
         Ok(phase - 360.0 * (phase / 360.0).round())

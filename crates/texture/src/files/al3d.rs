@@ -12,6 +12,7 @@
 use super::bounds::{kept_number, points};
 use super::content::{MeasuredContent, MeasuredFile};
 use super::raw::{Bytes, Raw};
+use crate::error::FileFault;
 use crate::text::quoted;
 
 /// Before the tags.
@@ -27,18 +28,18 @@ const MOST_TAGS: usize = 1000;
 const HOLE: f32 = 3e15;
 
 /// Reads the depth image.
-pub(super) fn decode(bytes: &[u8]) -> Result<MeasuredFile, String> {
+pub(super) fn decode(bytes: &[u8]) -> Result<MeasuredFile, FileFault> {
     if !bytes.starts_with(START) {
-        return Err("the head of the AL3D file is damaged".to_owned());
+        return Err("the head of the AL3D file is damaged".into());
     }
     let bytes = Bytes(bytes);
-    let tag = |index: usize| -> Result<(String, String), String> {
+    let tag = |index: usize| -> Result<(String, String), FileFault> {
         let raw = bytes.at(START.len() + index * TAG, TAG)?;
         let text = |raw: &[u8]| -> String {
             raw.iter().take_while(|byte| **byte != 0).map(|&byte| char::from(byte)).collect()
         };
         if !raw.ends_with(b"\r\n") {
-            return Err(format!("tag {} of the AL3D file has no line end", index + 1));
+            return Err(format!("tag {} of the AL3D file has no line end", index + 1).into());
         }
         Ok((text(&raw[..NAME]), text(&raw[NAME..TAG - 2]).trim().to_owned()))
     };
@@ -46,9 +47,9 @@ pub(super) fn decode(bytes: &[u8]) -> Result<MeasuredFile, String> {
         ((version, _), (name, count)) if version == "Version" && name == "TagCount" => {
             count.parse().ok().filter(|count| *count <= MOST_TAGS).ok_or_else(|| wrong("TagCount", &count))?
         }
-        _ => return Err("the AL3D file does not begin with Version and TagCount".to_owned()),
+        _ => return Err("the AL3D file does not begin with Version and TagCount".into()),
     };
-    let tags = (2..count + 2).map(tag).collect::<Result<Vec<_>, String>>()?;
+    let tags = (2..count + 2).map(tag).collect::<Result<Vec<_>, FileFault>>()?;
     let said = |name: &str| tags.iter().find(|(known, _)| known == name).map(|(_, value)| value.as_str());
     let value = |name: &str| said(name).ok_or_else(|| format!("the AL3D file has no `{name}`"));
     let whole = |name: &str| value(name)?.parse::<usize>().map_err(|_| wrong(name, said(name).unwrap_or_default()));

@@ -8,11 +8,12 @@
 //! Road not taken: reading pipes. A pipe may wait for ever in silence, and formats with a directory at their end need
 //! all of it anyway; a file costs one more word on the command line.
 
+use crate::error::FileFault;
 use std::fs::{self, File};
 use std::io::Read;
 use std::path::Path;
 
-use crate::text::{self, quoted};
+use crate::text::quoted;
 use crate::{Error, Result};
 
 /// Points that a surface in a file may have.
@@ -36,47 +37,52 @@ pub(super) const MOST_BYTES_OF_NUMBERS: u64 = MOST_POINTS as u64 * BYTES_PER_NUM
 pub(super) const MOST_BYTES_OF_TEXT: u64 = MOST_POINTS as u64 * BYTES_PER_WORD + ROOM_FOR_NOTES;
 
 /// Number of points of a grid that a header declares.
-pub(super) fn points(nx: usize, ny: usize) -> std::result::Result<usize, String> {
+pub(super) fn points(nx: usize, ny: usize) -> std::result::Result<usize, FileFault> {
     nx.checked_mul(ny).filter(|&count| count <= MOST_POINTS).ok_or_else(|| {
-        format!(
+        FileFault::TooLarge(format!(
             "the header declares {nx} x {ny} points, more than {MOST_POINTS}, which take 1 GB of memory while they are \
              evaluated: crop or thin the surface where it was measured"
-        )
+        ))
     })
 }
 
 /// Refuses a map whose header declares too many values.
-pub(super) fn values(nx: usize, ny: usize, channels: usize) -> std::result::Result<(), String> {
+pub(super) fn values(nx: usize, ny: usize, channels: usize) -> std::result::Result<(), FileFault> {
     let count = nx.checked_mul(ny).and_then(|count| count.checked_mul(channels));
     count.filter(|&count| count <= MOST_VALUES).map(drop).ok_or_else(|| {
-        format!(
+        FileFault::TooLarge(format!(
             "the header declares {nx} x {ny} points in {channels} channels, more than {MOST_VALUES} values: write the \
              map on a wider grid"
-        )
+        ))
     })
 }
 
 /// Reads a regular file; `what` finds out from its first bytes what it is and how large it may be.
 pub(super) fn read<T>(
     path: &Path,
-    what: impl FnOnce(&[u8]) -> std::result::Result<(T, u64), String>,
+    what: impl FnOnce(&[u8]) -> std::result::Result<(T, u64), FileFault>,
 ) -> Result<(T, Vec<u8>)> {
-    let refused = |reason: String| Error::Unreadable { path: path.to_owned(), reason };
+    let refused = unreadable(path, None);
     // Before it is opened: opening a pipe waits for its other end.
     let facts = fs::metadata(path).map_err(Error::reading(path))?;
     if !facts.is_file() {
         let is = if facts.is_dir() { "a folder" } else { "a device, pipe or socket" };
-        return Err(refused(format!("it is {is}; surfaces are read from regular files: save it as one first")));
+        return Err(refused(FileFault::NotRead(format!(
+            "it is {is}; surfaces are read from regular files: save it as one first"
+        ))));
     }
     let mut file = File::open(path).map_err(Error::reading(path))?;
     let mut bytes = Vec::new();
     (&mut file).take(HEAD).read_to_end(&mut bytes).map_err(Error::reading(path))?;
-    let (found, most) = what(&bytes).map_err(refused)?;
-    let too_large = || refused(format!("it is larger than the {most} bytes that a surface in this format can have"));
+    let (found, most) = what(&bytes).map_err(&refused)?;
+    let too_large = || {
+        let sentence = format!("it is larger than the {most} bytes that a surface in this format can have");
+        refused(FileFault::TooLarge(sentence))
+    };
     if facts.len() > most {
         return Err(too_large());
     }
-    let no_room = |_| refused(format!("its {} bytes do not fit into memory", facts.len()));
+    let no_room = |_| refused(FileFault::TooLarge(format!("its {} bytes do not fit into memory", facts.len())));
     bytes.try_reserve_exact(facts.len() as usize).map_err(no_room)?;
     // A file may grow while it is read, or not know its length.
     file.take(most - bytes.len() as u64 + 1).read_to_end(&mut bytes).map_err(Error::reading(path))?;
@@ -84,9 +90,8 @@ pub(super) fn read<T>(
 }
 
 /// Why a file cannot be used, fit to print.
-pub(super) fn unreadable(path: &Path) -> impl FnOnce(String) -> Error {
-    let path = path.to_owned();
-    move |reason| Error::Unreadable { path, reason: text::reason(&reason) }
+pub(super) fn unreadable(path: &Path, format: Option<&'static str>) -> impl Fn(FileFault) -> Error {
+    move |fault| Error::Unreadable { path: path.to_owned(), format, fault }
 }
 
 /// `value` made of the number `raw` of a file: a number too large for f64 stays a number, which is refused as a height,
@@ -96,19 +101,19 @@ pub(super) fn kept_number(raw: f64, value: f64) -> f64 {
 }
 
 /// A height written as text; `nan` and `inf` are holes, digits always a number.
-pub(super) fn height(word: &str) -> std::result::Result<f64, String> {
+pub(super) fn height(word: &str) -> std::result::Result<f64, FileFault> {
     let value: f64 = word.parse().map_err(|_| format!("`{}` is not a height", quoted(word)))?;
     let raw = if word.contains(|c: char| c.is_ascii_digit()) { 0.0 } else { value };
     Ok(kept_number(raw, value))
 }
 
 /// A factor from a header.
-pub(super) fn factor(name: &str, value: f64) -> std::result::Result<f64, String> {
+pub(super) fn factor(name: &str, value: f64) -> std::result::Result<f64, FileFault> {
     let usable = value.is_finite() && value != 0.0;
-    usable.then_some(value).ok_or_else(|| format!("{name} is {value}; it must be a number other than 0"))
+    usable.then_some(value).ok_or_else(|| format!("{name} is {value}; it must be a number other than 0").into())
 }
 
 /// A number of points from a header.
-pub(super) fn side(count: i32) -> std::result::Result<usize, String> {
-    usize::try_from(count).map_err(|_| format!("a side of {count} points"))
+pub(super) fn side(count: i32) -> std::result::Result<usize, FileFault> {
+    usize::try_from(count).map_err(|_| format!("a side of {count} points").into())
 }

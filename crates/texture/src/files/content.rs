@@ -5,6 +5,7 @@
 
 use super::units::LengthUnit;
 use super::{SpacingUm, SurfaceFile};
+use crate::error::FileFault;
 use crate::surface::Surface;
 use crate::trace::ProfileTrace;
 
@@ -39,14 +40,14 @@ pub enum MeasuredContent {
 
 impl MeasuredContent {
     /// `nx` x `ny` heights; one line along either axis is a trace.
-    pub(super) fn new(nx: usize, ny: usize, dx_um: f64, dy_um: f64, heights_um: Vec<f64>) -> Result<Self, String> {
+    pub(super) fn new(nx: usize, ny: usize, dx_um: f64, dy_um: f64, heights_um: Vec<f64>) -> Result<Self, FileFault> {
         if nx.checked_mul(ny) != Some(heights_um.len()) {
-            return Err(format!("{} heights do not fill a grid of {nx} x {ny}", heights_um.len()));
+            return Err(format!("{} heights do not fill a grid of {nx} x {ny}", heights_um.len()).into());
         }
         match (nx, ny) {
-            (_, 1) => ProfileTrace::new(heights_um, dx_um).map(Self::Trace),
-            (1, _) => ProfileTrace::new(heights_um, dy_um).map(Self::Trace),
-            _ => Surface::new(nx, ny, dx_um, dy_um, heights_um).map(Self::Surface),
+            (_, 1) => Ok(Self::Trace(ProfileTrace::new(heights_um, dx_um)?)),
+            (1, _) => Ok(Self::Trace(ProfileTrace::new(heights_um, dy_um)?)),
+            _ => Ok(Self::Surface(Surface::new(nx, ny, dx_um, dy_um, heights_um)?)),
         }
     }
 
@@ -79,20 +80,20 @@ impl MeasuredFile {
     }
 
     /// Refuses what is given otherwise than the file says it.
-    pub(super) fn agrees(&self, given: &Given) -> Result<(), String> {
+    pub(super) fn agrees(&self, given: &Given) -> Result<(), FileFault> {
         if given.height_unit.is_some() || given.spacing_unit.is_some() {
-            return Err("the file says the units of its heights and spacings itself: leave --height-unit and \
-                        --spacing-unit out"
-                .to_owned());
+            let sentence = "the file says the units of its heights and spacings itself: leave --height-unit and \
+                            --spacing-unit out";
+            return Err(FileFault::Contradicted(sentence.to_owned()));
         }
         let (x, y) = match &self.content {
             MeasuredContent::Surface(surface) => (surface.dx_um(), surface.dy_um()),
             MeasuredContent::Trace(trace) => (trace.spacing_um(), trace.spacing_um()),
         };
         match given.spacing_um {
-            Some([ax, ay]) if (x - ax).abs() > 1e-6 * ax || (y - ay).abs() > 1e-6 * ay => {
-                Err(format!("the file says its points are {x} x {y} um apart, not {ax} x {ay} um"))
-            }
+            Some([ax, ay]) if (x - ax).abs() > 1e-6 * ax || (y - ay).abs() > 1e-6 * ay => Err(FileFault::Contradicted(
+                format!("the file says its points are {x} x {y} um apart, not {ax} x {ay} um"),
+            )),
             _ => Ok(()),
         }
     }
@@ -116,13 +117,14 @@ impl MeasuredFile {
     ///
     /// # Errors
     /// It is a trace.
-    pub fn into_surface(self) -> Result<SurfaceFile, String> {
+    pub fn into_surface(self) -> Result<SurfaceFile, FileFault> {
         match self.content {
             MeasuredContent::Surface(surface) => Ok(SurfaceFile { surface, notes: self.notes }),
             MeasuredContent::Trace(trace) => Err(format!(
                 "the file holds a profile of {} points, where a surface is needed",
                 trace.heights_um().len()
-            )),
+            )
+            .into()),
         }
     }
 }

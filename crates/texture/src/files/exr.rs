@@ -5,13 +5,14 @@
 use super::bounds::points;
 use super::content::{MeasuredContent, MeasuredFile};
 use super::exr_map::{self, MapChannel, Samples};
+use crate::error::FileFault;
 use crate::surface::Surface;
 use crate::text::quoted;
 
 /// Micrometres in a millimetre.
 const UM_PER_MM: f64 = 1e3;
 
-pub(super) fn decode(bytes: &[u8]) -> Result<MeasuredFile, String> {
+pub(super) fn decode(bytes: &[u8]) -> Result<MeasuredFile, FileFault> {
     let map = exr_map::decode(bytes)?;
     points(map.grid.v.count, map.grid.u.count)?;
     let is_length = |c: &&MapChannel| ["mm", "um"].contains(&c.unit.as_str());
@@ -22,7 +23,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<MeasuredFile, String> {
         .ok_or("no channel of the map is a length in mm or um")?;
     let factor = if channel.unit == "mm" { UM_PER_MM } else { 1.0 };
     let Samples::F32(values) = &channel.samples else {
-        return Err(format!("channel {} holds whole numbers, not heights", quoted(&channel.name)));
+        return Err(format!("channel {} holds whole numbers, not heights", quoted(&channel.name)).into());
     };
     let heights = values.iter().map(|z| f64::from(*z) * factor).collect();
     let (u, v) = (&map.grid.u, &map.grid.v);

@@ -10,11 +10,13 @@
 //! null-terminated name, a null-terminated type, the value's length as i32 (little endian) and the value; then one null
 //! byte.
 
+use crate::error::FileFault;
+
 /// Where the first attribute begins: behind magic number and version.
 const HEADER_START: usize = 8;
 
 /// Sorts the attributes of the first header in place.
-pub(super) fn sort_attributes(file: &mut [u8]) -> Result<(), String> {
+pub(super) fn sort_attributes(file: &mut [u8]) -> Result<(), FileFault> {
     let mut attributes: Vec<&[u8]> = Vec::new();
     let mut rest = file.get(HEADER_START..).ok_or("an EXR file is longer than this")?;
     while rest.first().is_some_and(|&first| first != 0) {

@@ -11,6 +11,8 @@
 //! Road not taken: one EXR with a layer per surface. A viewer would open 84 layers to show one, and a run could not
 //! write one and forget it before the next.
 
+use super::kind::FileKind;
+use crate::error::FileFault;
 use std::collections::HashMap;
 use std::io::Cursor;
 use std::path::Path;
@@ -99,7 +101,7 @@ pub struct ExrMap {
 /// # Errors
 /// Values that do not fill the grid, no channels, header names used twice, and files that cannot be written.
 pub fn write_exr_map(path: &Path, map: &ExrMap) -> Result<()> {
-    let bytes = encode(map).map_err(|reason| Error::Unwritable { path: path.to_owned(), reason })?;
+    let bytes = encode(map).map_err(|fault| Error::Unwritable { path: path.to_owned(), fault })?;
     write_bytes_atomically(path, &bytes)
 }
 
@@ -109,10 +111,10 @@ pub fn write_exr_map(path: &Path, map: &ExrMap) -> Result<()> {
 /// Files that cannot be read, are damaged, or were written by another program.
 pub fn read_exr_map(path: &Path) -> Result<ExrMap> {
     let ((), bytes) = bounds::read(path, |_| Ok(((), MOST_BYTES_OF_MAPS)))?;
-    decode(&bytes).map_err(unreadable(path))
+    decode(&bytes).map_err(unreadable(path, Some(FileKind::Exr.name())))
 }
 
-fn encode(map: &ExrMap) -> std::result::Result<Vec<u8>, String> {
+fn encode(map: &ExrMap) -> std::result::Result<Vec<u8>, FileFault> {
     let mut header = Header::default();
     header.text("program", "gearcut")?;
     header.text("frame", &map.frame)?;
@@ -125,7 +127,7 @@ fn encode(map: &ExrMap) -> std::result::Result<Vec<u8>, String> {
     let mut channels = SmallVec::new();
     for channel in &map.channels {
         if let Some(mismatch) = map.grid.mismatch(channel.samples.count()) {
-            return Err(format!("channel {}: {mismatch}", channel.name));
+            return Err(format!("channel {}: {mismatch}", channel.name).into());
         }
         header.text(&format!("channel.{}.unit", channel.name), &channel.unit)?;
         header.text(&format!("channel.{}.definition", channel.name), &channel.definition)?;
@@ -139,7 +141,7 @@ fn encode(map: &ExrMap) -> std::result::Result<Vec<u8>, String> {
         header.text(name, text)?;
     }
     if channels.is_empty() {
-        return Err("a map needs at least one channel".to_owned());
+        return Err("a map needs at least one channel".into());
     }
     let encoding =
         Encoding { compression: Compression::ZIP16, line_order: LineOrder::Increasing, ..Encoding::UNCOMPRESSED };
@@ -158,14 +160,14 @@ fn encode(map: &ExrMap) -> std::result::Result<Vec<u8>, String> {
 struct Header(HashMap<Text, AttributeValue>);
 
 impl Header {
-    fn text(&mut self, name: &str, text: &str) -> std::result::Result<(), String> {
+    fn text(&mut self, name: &str, text: &str) -> std::result::Result<(), FileFault> {
         self.add(name, AttributeValue::Text(utf8(text)))
     }
 
-    fn add(&mut self, name: &str, value: AttributeValue) -> std::result::Result<(), String> {
+    fn add(&mut self, name: &str, value: AttributeValue) -> std::result::Result<(), FileFault> {
         match self.0.insert(utf8(name), value) {
             None => Ok(()),
-            Some(_) => Err(format!("the header name `{name}` is used twice")),
+            Some(_) => Err(format!("the header name `{name}` is used twice").into()),
         }
     }
 }
@@ -175,7 +177,7 @@ fn utf8(text: &str) -> Text {
     Text::from_bytes_unchecked(SmallVec::from_slice(text.as_bytes()))
 }
 
-pub(super) fn decode(bytes: &[u8]) -> std::result::Result<ExrMap, String> {
+pub(super) fn decode(bytes: &[u8]) -> std::result::Result<ExrMap, FileFault> {
     // The crate takes the memory that the header asks for before it looks at the pixels.
     let headers = exr::meta::MetaData::read_from_buffered(bytes, false).map_err(|error| error.to_string())?.headers;
     for header in &headers {
@@ -195,7 +197,7 @@ pub(super) fn decode(bytes: &[u8]) -> std::result::Result<ExrMap, String> {
     let layer = image.layer_data;
     let mut header = layer.attributes.other;
     if take_text(&mut header, "program").as_deref() != Ok("gearcut") {
-        return Err("gearcut did not write this EXR file".to_owned());
+        return Err("gearcut did not write this EXR file".into());
     }
     let frame = take_text(&mut header, "frame")?;
     let grid =
@@ -206,7 +208,7 @@ pub(super) fn decode(bytes: &[u8]) -> std::result::Result<ExrMap, String> {
         let samples = match channel.sample_data {
             FlatSamples::F32(values) => Samples::F32(values),
             FlatSamples::U32(values) => Samples::U32(values),
-            FlatSamples::F16(_) => return Err(format!("channel {name} has 16-bit values")),
+            FlatSamples::F16(_) => return Err(format!("channel {name} has 16-bit values").into()),
         };
         channels.push(MapChannel {
             unit: take_text(&mut header, &format!("channel.{name}.unit"))?,
@@ -230,10 +232,10 @@ fn take_axis(
     header: &mut HashMap<Text, AttributeValue>,
     key: &str,
     count: usize,
-) -> std::result::Result<MapAxis, String> {
+) -> std::result::Result<MapAxis, FileFault> {
     let mut number = |name: &str| match header.remove(&utf8(&format!("{key}.{name}"))) {
         Some(AttributeValue::F64(value)) => Ok(value),
-        _ => Err(format!("the header has no number `{key}.{name}`")),
+        _ => Err(FileFault::Malformed(format!("the header has no number `{key}.{name}`"))),
     };
     let (start_mm, step_mm) = (number("start_mm")?, number("step_mm")?);
     let name = take_text(header, &format!("{key}.name"))?;
@@ -241,10 +243,10 @@ fn take_axis(
     Ok(MapAxis { name, meaning, start_mm, step_mm, count })
 }
 
-fn take_text(header: &mut HashMap<Text, AttributeValue>, name: &str) -> std::result::Result<String, String> {
+fn take_text(header: &mut HashMap<Text, AttributeValue>, name: &str) -> std::result::Result<String, FileFault> {
     match header.remove(&utf8(name)) {
         Some(AttributeValue::Text(text)) => Ok(from_utf8(&text)),
-        _ => Err(format!("the header has no text `{name}`")),
+        _ => Err(format!("the header has no text `{name}`").into()),
     }
 }
 

@@ -10,6 +10,7 @@ use super::bounds::{kept_number, points, side};
 use super::content::{MeasuredContent, MeasuredFile};
 use super::raw::{Bytes, Raw};
 use super::units::LengthUnit;
+use crate::error::FileFault;
 use crate::text::quoted;
 
 /// One component of an object.
@@ -21,10 +22,10 @@ struct Component<'a> {
 }
 
 /// Reads the first channel of lengths; `use_mask`: what its mask marks are holes.
-pub(super) fn decode(bytes: &[u8], use_mask: bool) -> Result<MeasuredFile, String> {
+pub(super) fn decode(bytes: &[u8], use_mask: bool) -> Result<MeasuredFile, FileFault> {
     let (name, inner, _) = object(&bytes[4.min(bytes.len())..])?;
     if name != "GwyContainer" {
-        return Err(format!("it holds a `{}`, no container of channels", quoted(name)));
+        return Err(format!("it holds a `{}`, no container of channels", quoted(name)).into());
     }
     let components = components(inner)?;
     let number_of = |component: &Component| {
@@ -59,46 +60,48 @@ pub(super) fn decode(bytes: &[u8], use_mask: bool) -> Result<MeasuredFile, Strin
             Err(reason) => problem = format!("channel {number}: {reason}"),
         }
     }
-    Err(problem)
+    Err(problem.into())
 }
 
 /// Components of a field.
-fn of_field(value: &[u8]) -> Result<Vec<Component<'_>>, String> {
+fn of_field(value: &[u8]) -> Result<Vec<Component<'_>>, FileFault> {
     let (name, inner, _) = object(value)?;
     if name != "GwyDataField" {
-        return Err(format!("it is a `{}`, no field of heights", quoted(name)));
+        return Err(format!("it is a `{}`, no field of heights", quoted(name)).into());
     }
     components(inner)
 }
 
 /// Values of a field without units, such as a mask.
-fn values(value: &[u8]) -> Result<Vec<f64>, String> {
+fn values(value: &[u8]) -> Result<Vec<f64>, FileFault> {
     let components = of_field(value)?;
     let data = components.iter().find(|c| c.name == "data" && c.kind == b'D').ok_or("its mask has no `data`")?;
     Raw::F64.values(data.value, data.value.len() / 8)
 }
 
 /// Heights of a field; holes where `mask` is above zero.
-fn field(value: &[u8], mask: Option<&[f64]>) -> Result<MeasuredContent, String> {
+fn field(value: &[u8], mask: Option<&[f64]>) -> Result<MeasuredContent, FileFault> {
     let components = of_field(value)?;
     let find = |name: &str, kind: u8| {
         components.iter().find(|c| c.name == name && c.kind == kind).ok_or_else(|| format!("it has no `{name}`"))
     };
     let count = |name: &str| side(Bytes(find(name, b'i')?.value).i32(0)?);
     let real = |name: &str| Bytes(find(name, b'd')?.value).f64(0);
-    let unit = |name: &str| -> Result<f64, String> {
+    let unit = |name: &str| -> Result<f64, FileFault> {
         let (_, inner, _) = object(find(name, b'o')?.value)?;
         let inner = self::components(inner)?;
         let text = inner.iter().find(|c| c.name == "unitstr").map(|c| String::from_utf8_lossy(c.value).into_owned());
         let text = text.unwrap_or_default();
-        LengthUnit::of(&text).map(LengthUnit::um).ok_or_else(|| format!("`{}` is no unit of length", quoted(&text)))
+        LengthUnit::of(&text)
+            .map(LengthUnit::um)
+            .ok_or_else(|| format!("`{}` is no unit of length", quoted(&text)).into())
     };
     let (nx, ny) = (count("xres")?, count("yres")?);
     let total = points(nx, ny)?;
     let (across, up) = (unit("si_unit_xy")?, unit("si_unit_z")?);
     let heights = Raw::F64.values(find("data", b'D')?.value, total)?;
     if mask.is_some_and(|mask| mask.len() != total) {
-        return Err("its mask has another number of points".to_owned());
+        return Err("its mask has another number of points".into());
     }
     let masked = |i: usize| mask.is_some_and(|mask| mask[i] > 0.0);
     let heights = heights.into_iter().enumerate();
@@ -107,7 +110,7 @@ fn field(value: &[u8], mask: Option<&[f64]>) -> Result<MeasuredContent, String> 
 }
 
 /// Name and inner bytes of the object that `bytes` begin with, and its whole length.
-fn object(bytes: &[u8]) -> Result<(&str, &[u8], usize), String> {
+fn object(bytes: &[u8]) -> Result<(&str, &[u8], usize), FileFault> {
     let (name, start) = word(bytes)?;
     let size = Bytes(bytes).u32(start)? as usize;
     let inner = Bytes(bytes).at(start + 4, size)?;
@@ -115,13 +118,13 @@ fn object(bytes: &[u8]) -> Result<(&str, &[u8], usize), String> {
 }
 
 /// A text that ends with zero, and where what follows begins.
-fn word(bytes: &[u8]) -> Result<(&str, usize), String> {
+fn word(bytes: &[u8]) -> Result<(&str, usize), FileFault> {
     let end = bytes.iter().position(|&b| b == 0).ok_or("a name without an end")?;
     Ok((std::str::from_utf8(&bytes[..end]).map_err(|_| "a name that is no text")?, end + 1))
 }
 
 /// All components of an object.
-fn components(mut bytes: &[u8]) -> Result<Vec<Component<'_>>, String> {
+fn components(mut bytes: &[u8]) -> Result<Vec<Component<'_>>, FileFault> {
     let mut found = Vec::new();
     while !bytes.is_empty() {
         let (name, start) = word(bytes)?;
@@ -136,7 +139,7 @@ fn components(mut bytes: &[u8]) -> Result<Vec<Component<'_>>, String> {
 }
 
 /// Bytes before a value and bytes of it; of an object all its bytes.
-fn extent(kind: u8, rest: &[u8]) -> Result<(usize, usize), String> {
+fn extent(kind: u8, rest: &[u8]) -> Result<(usize, usize), FileFault> {
     let count = || Bytes(rest).u32(0).map(|count| count as usize);
     let sized = |count: usize, size: usize| count.checked_mul(size).ok_or("an array larger than the file".to_owned());
     Ok(match kind {
@@ -156,6 +159,6 @@ fn extent(kind: u8, rest: &[u8]) -> Result<(usize, usize), String> {
             }
             (4, length)
         }
-        other => return Err(format!("a component of type {other:#x}")),
+        other => return Err(format!("a component of type {other:#x}").into()),
     })
 }

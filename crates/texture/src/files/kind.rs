@@ -1,5 +1,6 @@
 //! What a file is: by its first bytes, and by its ending where it is text.
 
+use crate::error::FileFault;
 use std::path::Path;
 
 use super::bounds::{MOST_BYTES_OF_MAPS, MOST_BYTES_OF_NUMBERS, MOST_BYTES_OF_TEXT};
@@ -60,14 +61,14 @@ const INSTRUMENT_ENDINGS: [(&str, &str); 6] = [
 
 impl FileKind {
     /// Of the first bytes of a file.
-    pub(super) fn of(head: &[u8], path: &Path) -> Result<Self, String> {
+    pub(super) fn of(head: &[u8], path: &Path) -> Result<Self, FileFault> {
         let ending = path.extension().map(|e| e.to_string_lossy().to_lowercase()).unwrap_or_default();
         let instrument = INSTRUMENTS.iter().find(|(start, _)| head.starts_with(start)).map(|(_, what)| what);
         let by_ending = || INSTRUMENT_ENDINGS.iter().find(|(known, _)| *known == ending).map(|(_, what)| what);
         if let Some(what) = instrument.or_else(by_ending) {
-            return Err(format!(
+            return Err(FileFault::NotRead(format!(
                 "it is {what}, which is not read: save it as X3P where it was measured, or convert it (docs/howto.md)"
-            ));
+            )));
         }
         // Text may begin with a byte order mark or blank lines.
         let text = head.strip_prefix(b"\xef\xbb\xbf").unwrap_or(head).trim_ascii_start();
@@ -82,7 +83,22 @@ impl FileKind {
             Err(format!(
                 "not an X3P, SDF, SUR, GWY, AL3D, NPY, EXR or text file; text has one of the endings {}",
                 TEXT.join(", ")
-            ))
+            )
+            .into())
+        }
+    }
+
+    /// What the format is called.
+    pub(super) fn name(self) -> &'static str {
+        match self {
+            Self::X3p => "X3P",
+            Self::SdfBinary | Self::SdfAscii => "SDF",
+            Self::Sur => "SUR",
+            Self::Gwy => "GWY",
+            Self::Al3d => "AL3D",
+            Self::Npy => "NPY",
+            Self::Exr => "EXR",
+            Self::Text => "text",
         }
     }
 

@@ -39,6 +39,7 @@ mod text;
 mod units;
 mod x3p;
 
+use crate::error::FileFault;
 use std::fmt::Write as _;
 use std::path::Path;
 
@@ -96,7 +97,7 @@ pub fn write_surface(path: &Path, format: Format, file: &SurfaceFile) -> Result<
         }
         Format::Csv => Ok(text::encode(file).into_bytes()),
     };
-    let bytes = bytes.map_err(|reason| Error::Unwritable { path: path.to_owned(), reason })?;
+    let bytes = bytes.map_err(|fault| Error::Unwritable { path: path.to_owned(), fault })?;
     write_bytes_atomically(path, &bytes)
 }
 
@@ -106,7 +107,7 @@ pub fn write_surface(path: &Path, format: Format, file: &SurfaceFile) -> Result<
 /// # Errors
 /// As [`read`]; also a file that holds a trace.
 pub fn read_surface(path: &Path, spacing_um: Option<SpacingUm>) -> Result<SurfaceFile> {
-    read(path, &Given::spacing(spacing_um))?.into_surface().map_err(unreadable(path))
+    read(path, &Given::spacing(spacing_um))?.into_surface().map_err(unreadable(path, None))
 }
 
 /// Reads a surface or a trace. What is `given` holds where the file does not say it, and must not contradict it where
@@ -117,11 +118,11 @@ pub fn read_surface(path: &Path, spacing_um: Option<SpacingUm>) -> Result<Surfac
 /// formats, hold heights or spacings out of range ([`Surface::new`]), or leave open what is not given.
 pub fn read(path: &Path, given: &Given) -> Result<MeasuredFile> {
     let (kind, bytes) = bounds::read(path, |head| FileKind::of(head, path).map(|kind| (kind, kind.most_bytes())))?;
-    decoded(kind, &bytes, path, given).map_err(unreadable(path))
+    decoded(kind, &bytes, path, given).map_err(unreadable(path, Some(kind.name())))
 }
 
 /// What the bytes of a file of a kind hold; `path` for the file beside it.
-fn decoded(kind: FileKind, bytes: &[u8], path: &Path, given: &Given) -> std::result::Result<MeasuredFile, String> {
+fn decoded(kind: FileKind, bytes: &[u8], path: &Path, given: &Given) -> Result<MeasuredFile, FileFault> {
     let measured = match kind {
         FileKind::X3p => x3p::decode(bytes),
         FileKind::SdfBinary => sdf::decode(bytes),
@@ -134,7 +135,7 @@ fn decoded(kind: FileKind, bytes: &[u8], path: &Path, given: &Given) -> std::res
         FileKind::Text => text::decode(bytes, given),
     }?;
     if given.use_mask && kind != FileKind::Gwy {
-        return Err("the file has no mask of its own: leave --use-mask out".to_owned());
+        return Err("the file has no mask of its own: leave --use-mask out".into());
     }
     // Text and NPY compare what they say themselves: they may say nothing.
     if !matches!(kind, FileKind::Text | FileKind::Npy) {

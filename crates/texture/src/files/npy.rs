@@ -6,6 +6,7 @@
 //!
 //! Road not taken: a crate for the format. Its header is one line; the crates bring a parser of Python literals for it.
 
+use crate::error::FileFault;
 use std::path::{Path, PathBuf};
 
 use serde_json::{Value, json};
@@ -51,26 +52,27 @@ pub(super) fn encode(surface: &Surface) -> Vec<u8> {
 }
 
 /// What the file beside an NPY file says, if there is one.
-pub(super) fn facts_beside(path: &Path) -> Result<Option<Value>, String> {
+pub(super) fn facts_beside(path: &Path) -> Result<Option<Value>, FileFault> {
     let beside = sidecar(path);
     if !beside.exists() {
         return Ok(None);
     }
     let ((), text) = bounds::read(&beside, |_| Ok(((), MOST_FACTS))).map_err(|error| error.to_string())?;
-    serde_json::from_slice(&text).map(Some).map_err(|reason| format!("{}: {reason}", beside.display()))
+    serde_json::from_slice(&text).map(Some).map_err(|reason| format!("{}: {reason}", beside.display()).into())
 }
 
-pub(super) fn decode(bytes: &[u8], facts: Option<&Value>, given: &Given) -> Result<MeasuredFile, String> {
+pub(super) fn decode(bytes: &[u8], facts: Option<&Value>, given: &Given) -> Result<MeasuredFile, FileFault> {
     let unit = facts.map(|f| &f["height_unit"]).filter(|unit| !unit.is_null());
     if let Some(unit) = unit.filter(|unit| **unit != "um") {
         return Err(format!(
             "the file beside it says its heights are in {}; only um are read",
             quoted(&unit.to_string())
-        ));
+        )
+        .into());
     }
     let written = facts.and_then(|f| Some([f["dx_um"].as_f64()?, f["dy_um"].as_f64()?]));
     let Some([dx_um, dy_um]) = written.or(given.spacing_um) else {
-        return Err("an NPY file carries no spacing; give it with --spacing-um".to_owned());
+        return Err(FileFault::Unsaid("an NPY file carries no spacing; give it with --spacing-um".to_owned()));
     };
     let notes = facts.and_then(|f| f["notes"].as_object()).into_iter().flatten();
     let notes = notes.map(|(name, text)| (name.clone(), text.as_str().unwrap_or_default().to_owned())).collect();
@@ -90,7 +92,7 @@ pub(super) fn decode(bytes: &[u8], facts: Option<&Value>, given: &Given) -> Resu
 }
 
 /// Shape and values.
-fn array(bytes: &[u8]) -> Result<([usize; 2], Vec<f64>), String> {
+fn array(bytes: &[u8]) -> Result<([usize; 2], Vec<f64>), FileFault> {
     let short = || "the NPY header is cut off".to_owned();
     let (start, length) = match bytes.get(6).ok_or_else(short)? {
         1 => {
@@ -100,7 +102,7 @@ fn array(bytes: &[u8]) -> Result<([usize; 2], Vec<f64>), String> {
             let raw: [u8; 4] = bytes.get(8..12).ok_or_else(short)?.try_into().map_err(|_| short())?;
             (12, u32::from_le_bytes(raw) as usize)
         }
-        other => return Err(format!("NPY version {other} is not known")),
+        other => return Err(format!("NPY version {other} is not known").into()),
     };
     let header = bytes.get(start..start + length).ok_or_else(short)?;
     let header = std::str::from_utf8(header).map_err(|_| "the NPY header is no text".to_owned())?;
@@ -110,7 +112,7 @@ fn array(bytes: &[u8]) -> Result<([usize; 2], Vec<f64>), String> {
     };
     let descr = after("descr")?.split('\'').nth(1).unwrap_or_default();
     if after("fortran_order")?.starts_with("True") {
-        return Err("the array is in Fortran order; save it with numpy.ascontiguousarray".to_owned());
+        return Err("the array is in Fortran order; save it with numpy.ascontiguousarray".into());
     }
     let shape: Vec<usize> = after("shape")?
         .trim_start_matches('(')
@@ -122,7 +124,7 @@ fn array(bytes: &[u8]) -> Result<([usize; 2], Vec<f64>), String> {
         .map(|part| part.trim().parse().map_err(|_| "the shape in the NPY header is not readable".to_owned()))
         .collect::<Result<_, _>>()?;
     let &[ny, nx] = shape.as_slice() else {
-        return Err(format!("a surface is an array of two axes, not of {}", shape.len()));
+        return Err(format!("a surface is an array of two axes, not of {}", shape.len()).into());
     };
     let (big, kind) = match descr.split_at_checked(1) {
         Some((">", kind)) => (true, kind),
@@ -137,13 +139,14 @@ fn array(bytes: &[u8]) -> Result<([usize; 2], Vec<f64>), String> {
             return Err(format!(
                 "heights of type `{}` are not read; use float64, float32 or signed integers",
                 quoted(other)
-            ));
+            )
+            .into());
         }
     };
     let data = &bytes[start + length..];
     let count = points(nx, ny)?;
     if count * size > data.len() {
-        return Err(format!("the array of {ny} x {nx} is cut off"));
+        return Err(format!("the array of {ny} x {nx} is cut off").into());
     }
     let value = |raw: &[u8]| {
         let mut little = [0; 8];

@@ -1,40 +1,43 @@
 //! Numbers out of bytes, little endian: headers, and heights of every type that the formats have.
 
+use crate::error::FileFault;
+
 /// Reads numbers from bytes, little endian; running out of them is an error that names the place.
 pub(super) struct Bytes<'a>(pub(super) &'a [u8]);
 
 impl<'a> Bytes<'a> {
-    pub(super) fn at(&self, start: usize, length: usize) -> Result<&'a [u8], String> {
+    pub(super) fn at(&self, start: usize, length: usize) -> Result<&'a [u8], FileFault> {
         start.checked_add(length).and_then(|end| self.0.get(start..end)).ok_or_else(|| {
-            format!("the file ends at byte {} before what must be at {start} to {}", self.0.len(), start + length)
+            let (end, until) = (self.0.len(), start + length);
+            format!("the file ends at byte {end} before what must be at {start} to {until}").into()
         })
     }
 
-    pub(super) fn array<const N: usize>(&self, start: usize) -> Result<[u8; N], String> {
+    pub(super) fn array<const N: usize>(&self, start: usize) -> Result<[u8; N], FileFault> {
         Ok(self.at(start, N)?.try_into().expect("a slice of N bytes"))
     }
 
-    pub(super) fn u16(&self, start: usize) -> Result<u16, String> {
+    pub(super) fn u16(&self, start: usize) -> Result<u16, FileFault> {
         Ok(u16::from_le_bytes(self.array(start)?))
     }
 
-    pub(super) fn i16(&self, start: usize) -> Result<i16, String> {
+    pub(super) fn i16(&self, start: usize) -> Result<i16, FileFault> {
         Ok(i16::from_le_bytes(self.array(start)?))
     }
 
-    pub(super) fn i32(&self, start: usize) -> Result<i32, String> {
+    pub(super) fn i32(&self, start: usize) -> Result<i32, FileFault> {
         Ok(i32::from_le_bytes(self.array(start)?))
     }
 
-    pub(super) fn u32(&self, start: usize) -> Result<u32, String> {
+    pub(super) fn u32(&self, start: usize) -> Result<u32, FileFault> {
         Ok(u32::from_le_bytes(self.array(start)?))
     }
 
-    pub(super) fn f32(&self, start: usize) -> Result<f32, String> {
+    pub(super) fn f32(&self, start: usize) -> Result<f32, FileFault> {
         Ok(f32::from_le_bytes(self.array(start)?))
     }
 
-    pub(super) fn f64(&self, start: usize) -> Result<f64, String> {
+    pub(super) fn f64(&self, start: usize) -> Result<f64, FileFault> {
         Ok(f64::from_le_bytes(self.array(start)?))
     }
 }
@@ -63,11 +66,11 @@ impl Raw {
     }
 
     /// Little-endian values; `count` of them must be there.
-    pub(super) fn values(self, bytes: &[u8], count: usize) -> Result<Vec<f64>, String> {
+    pub(super) fn values(self, bytes: &[u8], count: usize) -> Result<Vec<f64>, FileFault> {
         let size = self.bytes();
         let wanted = count.checked_mul(size).ok_or("the size in the header is too large")?;
         if bytes.len() < wanted {
-            return Err(format!("{count} heights need {wanted} bytes, but only {} are there", bytes.len()));
+            return Err(format!("{count} heights need {wanted} bytes, but only {} are there", bytes.len()).into());
         }
         let value = |raw: &[u8]| match (self, raw) {
             (Self::U8, &[a]) => f64::from(a),

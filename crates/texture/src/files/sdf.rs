@@ -10,12 +10,13 @@ use super::bounds::{factor, kept_number, points, side};
 use super::content::{MeasuredContent, MeasuredFile};
 use super::raw::{Bytes, Raw};
 use super::sdf_parts::{MAKER, UNKNOWN_DATE, raw_type, trailer_notes, trailer_text, type_code};
+use crate::error::FileFault;
 use crate::text::quoted;
 
 /// Micrometres in a metre.
 const UM_PER_M: f64 = 1e6;
 
-pub(super) fn encode(file: &SurfaceFile) -> Result<Vec<u8>, String> {
+pub(super) fn encode(file: &SurfaceFile) -> Result<Vec<u8>, FileFault> {
     let surface = &file.surface;
     let side = |count: usize| {
         u16::try_from(count).map_err(|_| format!("an SDF file holds at most 65535 points a side, not {count}"))
@@ -33,18 +34,18 @@ pub(super) fn encode(file: &SurfaceFile) -> Result<Vec<u8>, String> {
     Ok(bytes)
 }
 
-pub(super) fn decode(bytes: &[u8]) -> Result<MeasuredFile, String> {
+pub(super) fn decode(bytes: &[u8]) -> Result<MeasuredFile, FileFault> {
     let all = Bytes(bytes);
     let (nx, ny, rest) = match all.at(0, 8)? {
         b"bISO-1.0" | b"bBCR-1.0" | b"bBCR-0.0" => (usize::from(all.u16(42)?), usize::from(all.u16(44)?), 46),
         b"bISO-2.0" => (side(all.i32(42)?)?, side(all.i32(46)?)?, 50),
-        other => return Err(format!("SDF version `{}` is not known", quoted(&String::from_utf8_lossy(other)))),
+        other => return Err(format!("SDF version `{}` is not known", quoted(&String::from_utf8_lossy(other))).into()),
     };
     let [dx, dy] = [all.f64(rest)?, all.f64(rest + 8)?];
     let scale = factor("the scale of heights", all.f64(rest + 16)?)?;
     let [compression, code, _check]: [u8; 3] = all.array(rest + 32)?;
     if compression != 0 {
-        return Err("compressed SDF files are not read".to_owned());
+        return Err(FileFault::NotRead("compressed SDF files are not read".to_owned()));
     }
     let raw = raw_type(code)?;
     let data = all.at(rest + 35, bytes.len().saturating_sub(rest + 35))?;

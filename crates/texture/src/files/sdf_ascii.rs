@@ -4,6 +4,7 @@
 //! `NaN`, which every reader that was tried takes, where `BAD` fails in one. Both are read, and so are header names in
 //! any case, the BCR dialect, and one row as a trace.
 
+use crate::error::FileFault;
 use std::fmt::Write as _;
 
 use super::SurfaceFile;
@@ -13,11 +14,11 @@ use super::sdf_parts::{MAKER, UNKNOWN_DATE, raw_type, trailer_notes, trailer_tex
 use super::text::characters;
 use crate::text::quoted;
 
-pub(super) fn encode(file: &SurfaceFile) -> Result<Vec<u8>, String> {
+pub(super) fn encode(file: &SurfaceFile) -> Result<Vec<u8>, FileFault> {
     let surface = &file.surface;
     let (nx, ny) = (surface.nx(), surface.ny());
     if nx.max(ny) > usize::from(u16::MAX) {
-        return Err(format!("an SDF file holds at most 65535 points a side, not {}", nx.max(ny)));
+        return Err(format!("an SDF file holds at most 65535 points a side, not {}", nx.max(ny)).into());
     }
     let mut text = format!(
         "aISO-1.0\nManufacID = {MAKER}\nCreateDate = {UNKNOWN_DATE}\nModDate = {UNKNOWN_DATE}\n\
@@ -38,7 +39,7 @@ pub(super) fn encode(file: &SurfaceFile) -> Result<Vec<u8>, String> {
     Ok(text.into_bytes())
 }
 
-pub(super) fn decode(bytes: &[u8]) -> Result<MeasuredFile, String> {
+pub(super) fn decode(bytes: &[u8]) -> Result<MeasuredFile, FileFault> {
     let (text, _) = characters(bytes)?;
     let mut parts = text.splitn(3, '*');
     let (header, data) = (parts.next().unwrap_or_default(), parts.next().ok_or("the header does not end with a star")?);
@@ -69,13 +70,11 @@ pub(super) fn decode(bytes: &[u8]) -> Result<MeasuredFile, String> {
             if word.eq_ignore_ascii_case("bad") || word.eq_ignore_ascii_case("nan") {
                 return Ok(f64::NAN);
             }
-            let value = height(word).map_err(|reason| {
-                let hint = if word.contains(',') { ": SDF has decimal points" } else { "" };
-                reason + hint
-            })?;
+            let hint = if word.contains(',') { ": SDF has decimal points" } else { "" };
+            let value = height(word).map_err(|fault| format!("{fault}{hint}"))?;
             Ok(if Some(value) == mark { f64::NAN } else { kept_number(value, value * (scale * 1e6)) })
         })
-        .collect::<Result<Vec<f64>, String>>()?;
+        .collect::<Result<Vec<f64>, FileFault>>()?;
     let content = MeasuredContent::new(nx, ny, dx * 1e6, dy * 1e6, heights)?;
     Ok(MeasuredFile::new(content, trailer_notes(parts.next().unwrap_or_default())))
 }

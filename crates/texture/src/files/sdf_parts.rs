@@ -2,6 +2,7 @@
 
 use super::raw::Raw;
 use super::{notes_json, notes_of};
+use crate::error::FileFault;
 
 /// Who wrote the file.
 pub(super) const MAKER: &str = "gearcut";
@@ -39,9 +40,9 @@ pub(super) fn type_code(raw: Raw) -> u8 {
 }
 
 /// Type of heights by its number.
-pub(super) fn raw_type(code: u8) -> Result<Raw, String> {
+pub(super) fn raw_type(code: u8) -> Result<Raw, FileFault> {
     [Raw::U8, Raw::U16, Raw::U32, Raw::F32, Raw::I8, Raw::I16, Raw::I32, Raw::F64]
         .into_iter()
         .find(|&raw| type_code(raw) == code)
-        .ok_or_else(|| format!("heights of SDF type {code} are not read"))
+        .ok_or_else(|| FileFault::NotRead(format!("heights of SDF type {code} are not read")))
 }

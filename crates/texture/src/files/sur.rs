@@ -11,6 +11,7 @@ use super::bounds::{factor, points, side};
 use super::content::{MeasuredContent, MeasuredFile};
 use super::raw::{Bytes, Raw};
 use super::units::LengthUnit;
+use crate::error::FileFault;
 use crate::text::quoted;
 use flate2::read::ZlibDecoder;
 use std::io::Read;
@@ -21,7 +22,7 @@ const MICROMETRE: &[u8] = b"\xB5m";
 /// Steps from the middle to the largest height.
 const STEPS: f64 = 1.0e9;
 
-pub(super) fn encode(file: &SurfaceFile) -> Result<Vec<u8>, String> {
+pub(super) fn encode(file: &SurfaceFile) -> Result<Vec<u8>, FileFault> {
     let surface = &file.surface;
     let side = |count: usize| i32::try_from(count).map_err(|_| format!("{count} points a side are too many"));
     let (nx, ny) = (side(surface.nx())?, side(surface.ny())?);
@@ -66,18 +67,19 @@ pub(super) fn encode(file: &SurfaceFile) -> Result<Vec<u8>, String> {
 /// Kinds of objects that are read: a profile, a surface, a series of surfaces.
 const KINDS: [i16; 3] = [1, 2, 6];
 
-pub(super) fn decode(bytes: &[u8]) -> Result<MeasuredFile, String> {
+pub(super) fn decode(bytes: &[u8]) -> Result<MeasuredFile, FileFault> {
     let all = Bytes(bytes);
     let kind = all.i16(18)?;
     if !KINDS.contains(&kind) {
         return Err(format!(
             "the file holds an object of type {kind}; only profiles (1), surfaces (2) and surface series (6) are read"
-        ));
+        )
+        .into());
     }
     let raw = match all.i16(98)? {
         16 => Raw::I16,
         32 => Raw::I32,
-        bits => return Err(format!("heights of {bits} bits are not read")),
+        bits => return Err(FileFault::NotRead(format!("heights of {bits} bits are not read"))),
     };
     let has_holes = all.i16(86)? != 0;
     let low = f64::from(all.i32(100)?);
@@ -90,7 +92,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<MeasuredFile, String> {
     let step = factor("the step of heights", step)?;
     let offset = f64::from(all.f32(474)?);
     if !offset.is_finite() {
-        return Err(format!("the offset of heights is {offset}"));
+        return Err(format!("the offset of heights is {offset}").into());
     }
     let start = HEADER + usize::from(all.u16(334)?) + usize::from(all.u16(336)?);
     let data = all.at(start, bytes.len().saturating_sub(start))?;
@@ -123,7 +125,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<MeasuredFile, String> {
 
 /// The streams of a compressed file, together of `most` bytes: their number, the sizes of each in full and deflated,
 /// then the streams.
-fn inflate(data: &[u8], most: usize) -> Result<Vec<u8>, String> {
+fn inflate(data: &[u8], most: usize) -> Result<Vec<u8>, FileFault> {
     let all = Bytes(data);
     let count = all.u32(0)?;
     let mut start = usize::try_from(count).ok().and_then(|n| n.checked_mul(8)?.checked_add(4)).unwrap_or(usize::MAX);
@@ -133,7 +135,7 @@ fn inflate(data: &[u8], most: usize) -> Result<Vec<u8>, String> {
     for stream in 0..count as usize {
         let (full, deflated) = (all.u32(4 + 8 * stream)? as usize, all.u32(8 + 8 * stream)? as usize);
         if full > most - out.len() {
-            return Err(format!("its streams inflate to more than the {most} bytes of its points"));
+            return Err(format!("its streams inflate to more than the {most} bytes of its points").into());
         }
         let before = out.len();
         let packed = all.at(start, deflated)?;
@@ -141,7 +143,7 @@ fn inflate(data: &[u8], most: usize) -> Result<Vec<u8>, String> {
         let inflated = ZlibDecoder::new(packed).take(limit).read_to_end(&mut out);
         inflated.map_err(|reason| format!("its compressed heights are damaged: {reason}"))?;
         if out.len() - before != full {
-            return Err(format!("stream {} does not inflate to the {full} bytes of its header", stream + 1));
+            return Err(format!("stream {} does not inflate to the {full} bytes of its header", stream + 1).into());
         }
         start += deflated;
     }
@@ -149,12 +151,12 @@ fn inflate(data: &[u8], most: usize) -> Result<Vec<u8>, String> {
 }
 
 /// Micrometres in a unit of 16 bytes, whatever alphabet its micro sign is from.
-fn micrometres(unit: &[u8]) -> Result<f64, String> {
+fn micrometres(unit: &[u8]) -> Result<f64, FileFault> {
     let end = unit.iter().position(|&b| b == 0).unwrap_or(unit.len());
     let name = unit[..end].trim_ascii();
     // 0xE6 is the micro sign of old DOS programs; other single bytes are Latin-1.
     let latin = || name.iter().map(|&b| if b == 0xe6 { '\u{b5}' } else { char::from(b) }).collect();
     let name = std::str::from_utf8(name).map_or_else(|_| latin(), str::to_owned);
     let found = LengthUnit::of(&name).map(LengthUnit::um);
-    found.ok_or_else(|| format!("the unit `{}` is not a length", quoted(&name)))
+    found.ok_or_else(|| format!("the unit `{}` is not a length", quoted(&name)).into())
 }

@@ -9,6 +9,7 @@
 //! in their names; records in UTF-8, UTF-16 and Latin-1. A checksum of `data.bin` where one of `main.xml` should be is
 //! accepted, because a common writer puts it there.
 
+use crate::error::FileFault;
 use std::fmt::{Display, Write as _};
 use std::io::{Cursor, Read, Write};
 
@@ -43,7 +44,7 @@ const UM_PER_M: f64 = 1e6;
 /// that are 3 % smaller.
 const LEVEL: i64 = 4;
 
-pub(super) fn encode(file: &SurfaceFile) -> Result<Vec<u8>, String> {
+pub(super) fn encode(file: &SurfaceFile) -> Result<Vec<u8>, FileFault> {
     let heights = file.surface.heights_um().iter();
     let data: Vec<u8> = heights.flat_map(|z| (z / UM_PER_M).to_le_bytes()).collect();
     let main = main_xml(file, &hex(&data).to_uppercase());
@@ -136,7 +137,7 @@ fn hex(bytes: &[u8]) -> String {
     })
 }
 
-pub(super) fn decode(bytes: &[u8]) -> Result<MeasuredFile, String> {
+pub(super) fn decode(bytes: &[u8]) -> Result<MeasuredFile, FileFault> {
     let mut archive = Archive::open(bytes)?;
     let main = archive.entry(MAIN, MOST_MAIN)?;
     let (text, encoding) = characters(&main).map_err(|reason| format!("{MAIN}: {reason}"))?;
@@ -144,18 +145,18 @@ pub(super) fn decode(bytes: &[u8]) -> Result<MeasuredFile, String> {
     let record = XmlRecord(document.root_element());
     let feature = record.text("Record1/FeatureType")?;
     if !["SUR", "PRF"].contains(&feature) {
-        return Err(format!("the file holds `{}`, neither a surface (SUR) nor a profile (PRF)", quoted(feature)));
+        return Err(format!("the file holds `{}`, neither a surface (SUR) nor a profile (PRF)", quoted(feature)).into());
     }
     let (nx, ny, nz) = (record.size("SizeX")?, record.size("SizeY")?, record.size("SizeZ")?);
     if nz != 1 {
-        return Err(format!("the file holds {nz} layers; only one is read"));
+        return Err(format!("the file holds {nz} layers; only one is read").into());
     }
     let raw = match record.text("Record1/Axes/CZ/DataType")? {
         "D" => Raw::F64,
         "F" => Raw::F32,
         "L" => Raw::I32,
         "I" => Raw::I16,
-        other => return Err(format!("heights of type `{}` are not read", quoted(other))),
+        other => return Err(FileFault::NotRead(format!("heights of type `{}` are not read", quoted(other)))),
     };
     let count = points(nx, ny)?;
     // The place of the heights: a file of the archive, or the record itself.
@@ -170,7 +171,9 @@ pub(super) fn decode(bytes: &[u8]) -> Result<MeasuredFile, String> {
         && !checksum.is_empty()
         && !checksum.eq_ignore_ascii_case(&hex(&data))
     {
-        return Err(format!("{} does not have the checksum that {MAIN} gives: the file is damaged", quoted(link)));
+        return Err(
+            format!("{} does not have the checksum that {MAIN} gives: the file is damaged", quoted(link)).into()
+        );
     }
     let numbers = match link {
         Some(_) => raw.values(&data, count)?,
@@ -193,10 +196,10 @@ pub(super) fn decode(bytes: &[u8]) -> Result<MeasuredFile, String> {
             }
         }
     }
-    let spacing = |axis: &str| -> Result<f64, String> {
+    let spacing = |axis: &str| -> Result<f64, FileFault> {
         match record.text(&format!("Record1/Axes/{axis}/AxisType"))? {
             "I" => Ok(record.number(&format!("Record1/Axes/{axis}/Increment"))? * UM_PER_M),
-            other => Err(format!("axis {axis} is of type `{}`; only regular grids (I) are read", quoted(other))),
+            other => Err(format!("axis {axis} is of type `{}`; only regular grids (I) are read", quoted(other)).into()),
         }
     };
     let dx = spacing("CX")?;
@@ -209,12 +212,12 @@ pub(super) fn decode(bytes: &[u8]) -> Result<MeasuredFile, String> {
     Ok(measured)
 }
 
-fn check_main(checksum: &[u8], main: &[u8], data: &[u8]) -> Result<(), String> {
+fn check_main(checksum: &[u8], main: &[u8], data: &[u8]) -> Result<(), FileFault> {
     let given = String::from_utf8_lossy(checksum).split_whitespace().next().unwrap_or_default().to_lowercase();
     if given == hex(main) || given == hex(data) {
         return Ok(());
     }
-    Err(format!("{MAIN} does not have the checksum in {CHECKSUM}: the file is damaged"))
+    Err(format!("{MAIN} does not have the checksum in {CHECKSUM}: the file is damaged").into())
 }
 
 /// The zip, whose files may all be in one folder.
@@ -227,7 +230,7 @@ struct Archive<'a> {
 }
 
 impl<'a> Archive<'a> {
-    fn open(bytes: &'a [u8]) -> Result<Self, String> {
+    fn open(bytes: &'a [u8]) -> Result<Self, FileFault> {
         let zip = ZipArchive::new(Cursor::new(bytes)).map_err(|reason| reason.to_string())?;
         let names: Vec<String> = zip.file_names().filter_map(|name| Some(name.ok()?.into_owned())).collect();
         let plain: Vec<String> = names.iter().map(|name| slashed(name)).collect();
@@ -236,8 +239,8 @@ impl<'a> Archive<'a> {
             // Several: that of the archive itself counts.
             _ if plain.iter().any(|name| name == MAIN) => String::new(),
             (Some(only), None) => only[..only.len() - MAIN.len()].to_owned(),
-            (None, _) => return Err(format!("the archive has no {MAIN}: it is a zip, but no X3P")),
-            _ => return Err(format!("the archive has several {MAIN}: keep one")),
+            (None, _) => return Err(format!("the archive has no {MAIN}: it is a zip, but no X3P").into()),
+            _ => return Err(format!("the archive has several {MAIN}: keep one").into()),
         };
         Ok(Self { zip, names, folder })
     }
@@ -256,11 +259,13 @@ impl<'a> Archive<'a> {
 
     /// One file of the archive, of `most` bytes at most: what its directory says is looked at before it is inflated,
     /// and what comes out is counted.
-    fn entry(&mut self, name: &str, most: usize) -> Result<Vec<u8>, String> {
+    fn entry(&mut self, name: &str, most: usize) -> Result<Vec<u8>, FileFault> {
         let failed = |reason: &dyn Display| format!("{}: {reason}", quoted(name));
         let found = self.name(name).ok_or_else(|| failed(&"the archive has no such file"))?.clone();
         let file = self.zip.by_name(&found).map_err(|reason| failed(&reason))?;
-        let too_large = || failed(&format!("it inflates to more than the {most} bytes that the record gives it"));
+        let too_large = || {
+            FileFault::TooLarge(failed(&format!("it inflates to more than the {most} bytes that the record gives it")))
+        };
         if file.size() > most as u64 {
             return Err(too_large());
         }
@@ -280,7 +285,7 @@ struct XmlRecord<'a>(roxmltree::Node<'a, 'a>);
 
 impl<'a> XmlRecord<'a> {
     /// Text at a path of element names.
-    fn text(&self, path: &str) -> Result<&'a str, String> {
+    fn text(&self, path: &str) -> Result<&'a str, FileFault> {
         let mut node = self.0;
         for name in path.split('/') {
             node = node
@@ -291,18 +296,18 @@ impl<'a> XmlRecord<'a> {
         Ok(node.text().unwrap_or_default().trim())
     }
 
-    fn number(&self, path: &str) -> Result<f64, String> {
+    fn number(&self, path: &str) -> Result<f64, FileFault> {
         let text = self.text(path)?;
-        text.parse().map_err(|_| format!("{path} in {MAIN} is `{}`, not a number", quoted(text)))
+        text.parse().map_err(|_| format!("{path} in {MAIN} is `{}`, not a number", quoted(text)).into())
     }
 
-    fn size(&self, name: &str) -> Result<usize, String> {
+    fn size(&self, name: &str) -> Result<usize, FileFault> {
         let text = self.text(&format!("Record3/MatrixDimension/{name}"))?;
-        text.parse().map_err(|_| format!("{name} in {MAIN} is `{}`, not a count", quoted(text)))
+        text.parse().map_err(|_| format!("{name} in {MAIN} is `{}`, not a count", quoted(text)).into())
     }
 
     /// `count` heights that are text in the record; an empty one is a hole.
-    fn list(&self, count: usize) -> Result<Vec<f64>, String> {
+    fn list(&self, count: usize) -> Result<Vec<f64>, FileFault> {
         let list = self.0.descendants().find(|node| node.tag_name().name() == "DataList");
         let list =
             list.ok_or_else(|| format!("{MAIN} has neither Record3/DataLink nor Record3/DataList: no heights"))?;
@@ -313,15 +318,15 @@ impl<'a> XmlRecord<'a> {
             if hole {
                 Ok(f64::NAN)
             } else {
-                height(text).map_err(|reason| format!("Datum {} in {MAIN}: {reason}", i + 1))
+                height(text).map_err(|fault| FileFault::Malformed(format!("Datum {} in {MAIN}: {fault}", i + 1)))
             }
         };
         // One more than there should be is enough to see that they do not fit.
-        let values = data.take(count + 1).enumerate().map(value).collect::<Result<Vec<f64>, String>>()?;
+        let values = data.take(count + 1).enumerate().map(value).collect::<Result<Vec<f64>, FileFault>>()?;
         if values.len() == count {
             Ok(values)
         } else {
-            Err(format!("{count} points, but not as many heights in {MAIN}"))
+            Err(format!("{count} points, but not as many heights in {MAIN}").into())
         }
     }
 

@@ -8,9 +8,11 @@
 //! Road not taken: trying cut-offs until Ra falls into the class of its own cut-off. On a surface of long waves alone
 //! each shorter cut-off takes more away, and the search ends at 0.08 mm with nothing left.
 
-use super::{CutOff, ProfileChain, short};
+use super::{CutOff, ProfileChain};
+use crate::error::TextureError;
 use crate::line_filter::low_pass;
 use crate::setting_class::{CLASSES, SettingClass};
+use crate::text::short;
 
 /// Cut-off that Ra is estimated with, um.
 pub(super) const ESTIMATE_UM: f64 = 800.0;
@@ -26,16 +28,14 @@ impl ProfileChain {
     /// Cut-off for lines after their form.
     pub(super) fn chosen(
         &self,
-        leveled: &[Result<Vec<f64>, String>],
+        leveled: &[Result<Vec<f64>, TextureError>],
         spacing_um: f64,
         length_um: f64,
-    ) -> Result<ChosenCutOff, String> {
+    ) -> Result<ChosenCutOff, TextureError> {
         let (wanted, of) = match self.cutoff {
             CutOff::Um(um) if um < POINTS * spacing_um => {
-                return Err(format!(
-                    "a cut-off of {um} um on points {} um apart: {POINTS} points at least make a section",
-                    short(spacing_um)
-                ));
+                let cut_off = format!("a cut-off of {um} um on points {} um apart:", short(spacing_um));
+                return Err(TextureError::ShortCutOff { cut_off, fewest: POINTS, of_class: false });
             }
             CutOff::Um(um) => return Ok(ChosenCutOff { um, words: format!("cut-off {um} um") }),
             CutOff::OfRaLimit(ra) => (SettingClass::of_ra(ra), format!("for a limit of Ra {ra} um")),
@@ -48,11 +48,10 @@ impl ProfileChain {
         let class = &CLASSES[wanted];
         let classed = format!("{} of ISO 21920-3 {of}", class.name);
         let few = || {
-            format!(
-                "points {} um apart are too few for a cut-off of {} um ({classed}): {POINTS} at least make a section",
-                short(spacing_um),
-                class.cutoff_um
-            )
+            let (spacing_um, cutoff_um) = (short(spacing_um), class.cutoff_um);
+            let cut_off =
+                format!("points {spacing_um} um apart are too few for a cut-off of {cutoff_um} um ({classed}):");
+            TextureError::ShortCutOff { cut_off, fewest: POINTS, of_class: true }
         };
         // Enough points first; then the longest that the line has room for, or the shortest.
         let possible: Vec<&SettingClass> =
@@ -76,14 +75,14 @@ impl ProfileChain {
 }
 
 /// Mean Ra over the whole of the lines with the cut-off of the middle class, um.
-fn estimated_ra(leveled: &[Result<Vec<f64>, String>], spacing_um: f64) -> Result<f64, String> {
+fn estimated_ra(leveled: &[Result<Vec<f64>, TextureError>], spacing_um: f64) -> Result<f64, TextureError> {
     let mut ra = Vec::new();
     for line in leveled.iter().flatten() {
         let waves = low_pass(line, spacing_um, ESTIMATE_UM, false)?.0;
         ra.push(line.iter().zip(&waves).map(|(z, w)| (z - w).abs()).sum::<f64>() / line.len() as f64);
     }
     match ra.len() {
-        0 => Err(leveled.iter().find_map(|line| line.clone().err()).unwrap_or_default()),
+        0 => Err(leveled.iter().find_map(|line| line.clone().err()).unwrap_or(TextureError::NoLine)),
         count => Ok(ra.iter().sum::<f64>() / count as f64),
     }
 }

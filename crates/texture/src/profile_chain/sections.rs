@@ -4,7 +4,9 @@
 //! cut-off in the middle, half a cut-off of run-in at both ends; a line without room for them has fewer, which share
 //! what the run-in leaves of it.
 
-use super::{ProfileChain, short};
+use super::ProfileChain;
+use crate::error::TextureError;
+use crate::text::short;
 
 /// Sections of ISO 21920-3.
 const SECTIONS: usize = 5;
@@ -26,7 +28,12 @@ impl ProfileChain {
         self.sections.unwrap_or(SECTIONS) as f64 * section_um + 2.0 * self.run_in_um.unwrap_or(0.5 * cutoff_um)
     }
 
-    pub(super) fn layout(&self, cutoff_um: Option<f64>, spacing_um: f64, length_um: f64) -> Result<Layout, String> {
+    pub(super) fn layout(
+        &self,
+        cutoff_um: Option<f64>,
+        spacing_um: f64,
+        length_um: f64,
+    ) -> Result<Layout, TextureError> {
         let Some(cutoff_um) = cutoff_um else {
             return Ok(Layout { sections: 1, steps: None, run_in_um: 0.0, run_in: 0 });
         };
@@ -40,19 +47,15 @@ impl ProfileChain {
             return Ok(Layout { sections: wanted, steps, run_in_um, run_in });
         }
         if room == 0 || self.sections.is_some() {
-            return Err(format!(
-                "the line is {} mm long; a cut-off of {cutoff_um} um needs {} mm for {} of {} um and a run-in of {} um \
-                 at both ends: take a shorter cut-off, less of both, or a longer line",
-                short(1e-3 * length_um),
-                short(1e-3 * (self.sections.unwrap_or(1) as f64 * section_um + 2.0 * run_in_um)),
-                if wanted == 1 || self.sections.is_none() {
-                    "a section".to_owned()
-                } else {
-                    format!("{wanted} sections")
-                },
-                short(section_um),
-                short(run_in_um)
-            ));
+            let sections = self.sections.unwrap_or(1);
+            return Err(TextureError::NoRoom {
+                length_mm: 1e-3 * length_um,
+                cutoff_um,
+                needed_mm: 1e-3 * (sections as f64 * section_um + 2.0 * run_in_um),
+                sections,
+                section_um,
+                run_in_um,
+            });
         }
         Ok(Layout { sections: room, steps: None, run_in_um, run_in })
     }

@@ -95,7 +95,7 @@ fn a_missing_point_costs_nothing() {
     heights[140..160].fill(f64::NAN);
     let holed = ProfileTrace::new(heights, 0.5).expect("a line");
     let refused = ProfileChain::default().evaluate(std::slice::from_ref(&holed)).expect_err("a long hole");
-    assert!(refused.contains("bridged up to 1.9950 um"), "{refused}");
+    assert!(refused.to_string().contains("bridged up to 1.9950 um"), "{refused}");
     // Beside a good line the holed one is the only one without parameters.
     let both = ProfileChain::default().evaluate(&[holed, trace(400, 0.5, at)]).expect("one good line");
     assert!(both.lines[0].is_err() && both.lines[1].is_ok());
@@ -104,7 +104,7 @@ fn a_missing_point_costs_nothing() {
 #[test]
 fn what_does_not_suit_the_line_says_why() {
     let line = trace(501, 8.0, |x| wave(x, 100.0));
-    let refused = |chain: ProfileChain| chain.evaluate(std::slice::from_ref(&line)).expect_err("unsuited");
+    let refused = |chain: ProfileChain| chain.evaluate(std::slice::from_ref(&line)).expect_err("unsuited").to_string();
     let of = |cutoff| ProfileChain { cutoff, ..ProfileChain::default() };
     assert!(refused(of(CutOff::Um(5000.0))).contains("4 mm long; a cut-off of 5000 um needs 10 mm for a section"));
     assert!(refused(of(CutOff::Um(70.0))).contains("10 points at least"));
@@ -114,7 +114,7 @@ fn what_does_not_suit_the_line_says_why() {
     assert!(refused(crossed).contains("must be shorter"));
     let coarse = trace(50, 400.0, |x| wave(x, 4000.0));
     let few = of(CutOff::OfRaLimit(0.8)).evaluate(&[coarse]).expect_err("coarse");
-    assert!(few.contains("points 400 um apart are too few for a cut-off of 800 um"), "{few}");
+    assert!(few.to_string().contains("points 400 um apart are too few for a cut-off of 800 um"), "{few}");
     assert!(ProfileChain::default().evaluate(&[]).is_err());
 }
 

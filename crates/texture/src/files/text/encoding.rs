@@ -3,11 +3,13 @@
 //! Byte order marks decide; without one, zeros in every second byte are UTF-16. Bytes that are no UTF-8 are Latin-1 if
 //! none of them is a control character: then every letter is right for Western Europe, and numbers in any case.
 
+use crate::error::FileFault;
+
 /// Bytes at the start by which UTF-16 without a mark is known.
 const LOOKED_AT: usize = 256;
 
 /// The text, and its encoding where that is not UTF-8.
-pub(crate) fn characters(bytes: &[u8]) -> Result<(String, Option<&'static str>), String> {
+pub(crate) fn characters(bytes: &[u8]) -> Result<(String, Option<&'static str>), FileFault> {
     let (text, encoding) = if let Some(rest) = bytes.strip_prefix(b"\xef\xbb\xbf") {
         (std::str::from_utf8(rest).map_err(|_| "the file is no text: its UTF-8 is damaged")?.to_owned(), None)
     } else if let Some(rest) = bytes.strip_prefix(b"\xff\xfe") {
@@ -26,7 +28,7 @@ pub(crate) fn characters(bytes: &[u8]) -> Result<(String, Option<&'static str>),
     let strange = |c: char| c == '\0' || (encoding.is_some() && c.is_control() && !matches!(c, '\t' | '\r' | '\n'));
     if let Some(place) = text.find(strange) {
         let line = text[..place].matches('\n').count() + 1;
-        return Err(format!("the file is no text: line {line} has a control character"));
+        return Err(format!("the file is no text: line {line} has a control character").into());
     }
     // Line ends of old Macintosh programs.
     let text = if text.contains('\r') && !text.contains('\n') { text.replace('\r', "\n") } else { text };
@@ -39,9 +41,9 @@ fn zeros(bytes: &[u8], first: usize) -> bool {
     pairs.len() >= 2 && pairs.into_iter().all(|pair| pair[first] == 0 && pair[1 - first] != 0)
 }
 
-fn utf16(bytes: &[u8], unit: fn([u8; 2]) -> u16) -> Result<String, String> {
+fn utf16(bytes: &[u8], unit: fn([u8; 2]) -> u16) -> Result<String, FileFault> {
     let units = bytes.chunks_exact(2).map(|pair| unit([pair[0], pair[1]]));
-    let damaged = || "the file is no text: its UTF-16 is damaged".to_owned();
+    let damaged = || "the file is no text: its UTF-16 is damaged".into();
     if bytes.len() % 2 == 1 {
         return Err(damaged());
     }

@@ -11,6 +11,7 @@
 
 use super::super::notes_of;
 use super::super::units::LengthUnit;
+use crate::error::FileFault;
 use crate::text::quoted;
 
 /// A length with its unit, where it has one.
@@ -143,7 +144,7 @@ const OF_HEIGHTS: [&str; 5] = ["z", "height", "heights", "value", "data"];
 
 impl TextHeader {
     /// Takes in one line above the table, its comment sign taken off.
-    pub(super) fn line(&mut self, line: &str, number: usize) -> Result<Understood, String> {
+    pub(super) fn line(&mut self, line: &str, number: usize) -> Result<Understood, FileFault> {
         let (key, value) = parted(line);
         let (words, key_unit) = key_words(&key);
         let about = |k: &str| words.split(' ').any(|word| word == k);
@@ -153,7 +154,7 @@ impl TextHeader {
             self.unknown(line, number);
             return Ok(Understood::No);
         };
-        let at = |reason: String| format!("line {number}: `{}`: {reason}", quoted(line.trim()));
+        let at = |reason: String| FileFault::Malformed(format!("line {number}: `{}`: {reason}", quoted(line.trim())));
         let unit_of =
             |name: &str| LengthUnit::of(name).ok_or_else(|| at(format!("`{}` is no unit of length", quoted(name))));
         match role {
@@ -165,9 +166,9 @@ impl TextHeader {
             }
             LineRole::Channel => self.channel = true,
             LineRole::Notes => self.notes = notes_of(line.split_once('=').map_or("", |(_, json)| json)),
-            LineRole::HeightUnit => self.set_height_unit(unit_of(&value)?).map_err(at)?,
+            LineRole::HeightUnit => self.set_height_unit(unit_of(&value)?).map_err(|fault| at(fault.to_string()))?,
             LineRole::AnyUnit => match LengthUnit::of(&value) {
-                Some(unit) => self.set_height_unit(unit).map_err(at)?,
+                Some(unit) => self.set_height_unit(unit).map_err(|fault| at(fault.to_string()))?,
                 None => {
                     self.unknown(line, number);
                     return Ok(Understood::No);
@@ -223,9 +224,9 @@ impl TextHeader {
         }
     }
 
-    fn set_height_unit(&mut self, unit: LengthUnit) -> Result<(), String> {
+    fn set_height_unit(&mut self, unit: LengthUnit) -> Result<(), FileFault> {
         match self.height_unit.replace(unit) {
-            Some(before) if before != unit => Err(format!("heights are in {before} by a line above it")),
+            Some(before) if before != unit => Err(format!("heights are in {before} by a line above it").into()),
             _ => Ok(()),
         }
     }
@@ -285,7 +286,7 @@ pub(super) fn number_of(text: &str) -> Option<(f64, f64)> {
 }
 
 /// `20.00 um`, or a bare number whose unit the key has.
-fn length(text: &str, key_unit: Option<LengthUnit>, line: usize) -> Result<Length, String> {
+fn length(text: &str, key_unit: Option<LengthUnit>, line: usize) -> Result<Length, FileFault> {
     let end = text.find(|c: char| !(c.is_ascii_digit() || "+-.,eE".contains(c))).unwrap_or(text.len());
     let no_length = || format!("`{}` is no length", quoted(text));
     let (value, half_digit) = number_of(text[..end].trim_end_matches([',', ';'])).ok_or_else(no_length)?;
@@ -294,7 +295,7 @@ fn length(text: &str, key_unit: Option<LengthUnit>, line: usize) -> Result<Lengt
         name => {
             let unit = LengthUnit::of(name).ok_or_else(no_length)?;
             if key_unit.is_some_and(|of_key| of_key != unit) {
-                return Err("two units for one length".to_owned());
+                return Err("two units for one length".into());
             }
             Some(unit)
         }

@@ -14,6 +14,7 @@ pub(super) use encoding::characters;
 pub(super) use written::encode;
 
 use super::content::{Given, MeasuredFile};
+use crate::error::FileFault;
 use crate::text::quoted;
 use header::{TextHeader, Understood};
 use table::TextLayout;
@@ -28,11 +29,11 @@ const OTHERS: [(&str, &str); 2] = [
 const CONVERT: &str = "save it as X3P where it was measured, or convert it (docs/howto.md)";
 
 /// Reads a table of heights.
-pub(super) fn decode(bytes: &[u8], given: &Given) -> Result<MeasuredFile, String> {
+pub(super) fn decode(bytes: &[u8], given: &Given) -> Result<MeasuredFile, FileFault> {
     let (text, encoding) = characters(bytes)?;
     let text = table::without_quotes(text)?;
     if let Some((_, what)) = OTHERS.iter().find(|(start, _)| text.starts_with(start)) {
-        return Err(format!("it is {what}: {CONVERT}"));
+        return Err(format!("it is {what}: {CONVERT}").into());
     }
     let mut header = TextHeader::default();
     let mut lines: Vec<(usize, &str)> = Vec::new();
@@ -50,7 +51,7 @@ pub(super) fn decode(bytes: &[u8], given: &Given) -> Result<MeasuredFile, String
             let first = line.split(['=', ':', '\t', ';', ',']).next().unwrap_or_default();
             let words = first.chars().filter(char::is_ascii_alphabetic).count() >= 3;
             if table::has_number(line) && !words {
-                return Err(format!("line {number}: `{}` is no row of heights", quoted(line.trim())));
+                return Err(format!("line {number}: `{}` is no row of heights", quoted(line.trim())).into());
             }
             names = Some((number, line));
         }

@@ -10,6 +10,7 @@ use super::super::content::{Given, MeasuredContent, MeasuredFile};
 use super::super::units::LengthUnit;
 use super::header::{Length, TextColumn, TextHeader};
 use super::table::TextTable;
+use crate::error::FileFault;
 
 /// Share of a step by which a printed place may lie beside its place on the grid.
 const BESIDE: f64 = 0.01;
@@ -38,19 +39,19 @@ struct TextGrid {
 }
 
 /// The surface or trace of a table.
-pub(super) fn measured(table: TextTable, header: TextHeader, given: &Given) -> Result<MeasuredFile, String> {
+pub(super) fn measured(table: TextTable, header: TextHeader, given: &Given) -> Result<MeasuredFile, FileFault> {
     let columns = table.columns;
     let lines = table.values.len().checked_div(columns).unwrap_or(0);
     if lines == 0 {
         return Err(
             "the file has no row of numbers: heights are lines of numbers with tabulators, semicolons, commas or \
                     blanks between them"
-                .to_owned(),
+                .into(),
         );
     }
     for (count, found, sides) in [(header.counts[0], columns, "columns"), (header.counts[1], lines, "rows")] {
         if let Some((count, line)) = count.filter(|(count, _)| columns > 3 && *count != found) {
-            return Err(format!("line {line} says {count} points, but the table has {found} {sides}"));
+            return Err(format!("line {line} says {count} points, but the table has {found} {sides}").into());
         }
     }
     let is_map = header.own || header.spacing.iter().chain(&header.sides).flatten().count() == 2;
@@ -60,7 +61,9 @@ pub(super) fn measured(table: TextTable, header: TextHeader, given: &Given) -> R
         Some(grid) => {
             let unit = header.columns.iter().find(|(column, _)| *column != TextColumn::Z).and_then(|(_, unit)| *unit);
             let unit = agreed("positions", unit.or(header.spacing_unit), given.spacing_unit)?;
-            let unit = unit.ok_or_else(|| open(&grid.what, "the unit of its positions", "--spacing-unit", &header))?;
+            let unit = unit.ok_or_else(|| {
+                FileFault::Unsaid(open(&grid.what, "the unit of its positions", "--spacing-unit", &header))
+            })?;
             let spacing_um = grid.spacing.map(|step| step * unit.um());
             (grid, spacing_um)
         }
@@ -79,7 +82,9 @@ pub(super) fn measured(table: TextTable, header: TextHeader, given: &Given) -> R
             if (spacing_um[k] - asked[k]).abs() > BESIDE * asked[k] {
                 let [x, y] = spacing_um;
                 let [ax, ay] = asked;
-                return Err(format!("the file says its points are {x} x {y} um apart, not {ax} x {ay} um"));
+                return Err(FileFault::Contradicted(format!(
+                    "the file says its points are {x} x {y} um apart, not {ax} x {ay} um"
+                )));
             }
         }
     }
@@ -87,10 +92,11 @@ pub(super) fn measured(table: TextTable, header: TextHeader, given: &Given) -> R
     if let (Some(a), Some(b)) = (named, header.height_unit)
         && a != b
     {
-        return Err(format!("heights are in {a} by the name of their column and in {b} by another line"));
+        return Err(format!("heights are in {a} by the name of their column and in {b} by another line").into());
     }
     let unit = agreed("heights", named.or(header.height_unit), given.height_unit)?;
-    let unit = unit.ok_or_else(|| open(&grid.what, "the unit of its heights", "--height-unit", &header))?;
+    let unit =
+        unit.ok_or_else(|| FileFault::Unsaid(open(&grid.what, "the unit of its heights", "--height-unit", &header)))?;
     if given.height_unit.is_some() && !header.unclear.is_empty() {
         let lines = header.unclear[..header.unclear.len().min(3)].join("; ");
         remarks.push(format!("heights: {unit}, as given; a unit was not understood in {lines}"));
@@ -101,11 +107,11 @@ pub(super) fn measured(table: TextTable, header: TextHeader, given: &Given) -> R
 }
 
 /// The unit of the file and the one that is given, which must not contradict each other.
-fn agreed(what: &str, of_file: Option<LengthUnit>, given: Option<LengthUnit>) -> Result<Option<LengthUnit>, String> {
+fn agreed(what: &str, of_file: Option<LengthUnit>, given: Option<LengthUnit>) -> Result<Option<LengthUnit>, FileFault> {
     match (of_file, given) {
-        (Some(of_file), Some(given)) if of_file != given => {
-            Err(format!("the file says its {what} are in {of_file}, not in {given}: leave the option out"))
-        }
+        (Some(of_file), Some(given)) if of_file != given => Err(FileFault::Contradicted(format!(
+            "the file says its {what} are in {of_file}, not in {given}: leave the option out"
+        ))),
         _ => Ok(of_file.or(given)),
     }
 }
@@ -123,10 +129,11 @@ fn open(what: &str, missing: &str, option: &str, header: &TextHeader) -> String 
 }
 
 /// Spacing of a map, um: of the file, else as it is given.
-fn map_spacing(header: &TextHeader, given: &Given, what: &str, counts: [usize; 2]) -> Result<[f64; 2], String> {
-    let um = |length: Length, points: f64| -> Result<(f64, f64), String> {
+fn map_spacing(header: &TextHeader, given: &Given, what: &str, counts: [usize; 2]) -> Result<[f64; 2], FileFault> {
+    let um = |length: Length, points: f64| -> Result<(f64, f64), FileFault> {
         let unit = agreed("spacings", length.unit.or(header.spacing_unit), given.spacing_unit)?;
-        let unit = unit.ok_or_else(|| open(what, "the unit of its spacing", "--spacing-unit", header))?;
+        let unit =
+            unit.ok_or_else(|| FileFault::Unsaid(open(what, "the unit of its spacing", "--spacing-unit", header)))?;
         Ok((length.value * unit.um() / points, length.rounding))
     };
     let mut found = [None, None];
@@ -147,28 +154,31 @@ fn map_spacing(header: &TextHeader, given: &Given, what: &str, counts: [usize; 2
             if same(x, ax, rx) && same(y, ay, ry) {
                 return Ok([ax, ay]);
             }
-            Err(format!("the file says its points are {x} x {y} um apart, not {ax} x {ay} um"))
+            Err(FileFault::Contradicted(format!("the file says its points are {x} x {y} um apart, not {ax} x {ay} um")))
         }
         (found, None) if trace && found[along].is_some() => Ok([found[along].expect("there").0; 2]),
         ([None, None], Some(asked)) => Ok(asked),
         ([Some(_), None] | [None, Some(_)], _) => Err(format!(
             "{what}; the file gives the spacing along one axis only: give both in lines `# dx_um = ` and `# dy_um = `"
-        )),
-        ([None, None], None) => Err(open(what, "how far its points are apart", "--spacing-um", header).replace(
-            "--spacing-um um (or nm, mm, m), or in a line `# spacing_um = um`",
-            "--spacing-um, or in lines `# dx_um = ` and `# dy_um = `",
-        )),
+        )
+        .into()),
+        ([None, None], None) => {
+            Err(FileFault::Unsaid(open(what, "how far its points are apart", "--spacing-um", header).replace(
+                "--spacing-um um (or nm, mm, m), or in a line `# spacing_um = um`",
+                "--spacing-um, or in lines `# dx_um = ` and `# dy_um = `",
+            )))
+        }
     }
 }
 
 /// Positions and heights, if the table is that.
-fn coordinates(table: &TextTable, lines: usize, header: &TextHeader) -> Result<Option<TextGrid>, String> {
+fn coordinates(table: &TextTable, lines: usize, header: &TextHeader) -> Result<Option<TextGrid>, FileFault> {
     let column = |k: usize| table.values.iter().skip(k).step_by(table.columns).copied().collect::<Vec<f64>>();
     let named: Vec<TextColumn> = header.columns.iter().map(|(column, _)| *column).collect();
     match table.columns {
         2 => {
             if !named.is_empty() && named != [TextColumn::X, TextColumn::Z] {
-                return Err("two columns that are not position and height by their names".to_owned());
+                return Err("two columns that are not position and height by their names".into());
             }
             let (places, heights) = (column(0), column(1));
             let steps = steps(&places, true).filter(|steps| steps.count == lines);
@@ -176,7 +186,8 @@ fn coordinates(table: &TextTable, lines: usize, header: &TextHeader) -> Result<O
                 return Err(format!(
                     "two columns of {lines} lines whose first are no places at equal distances: a profile must be \
                      resampled at equal distances; a map of two points a row needs lines `# dx_um = ` and `# dy_um = `"
-                ));
+                )
+                .into());
             };
             let what =
                 format!("two columns whose first rises by {step} from line to line: a profile of {lines} points");
@@ -192,7 +203,7 @@ fn coordinates(table: &TextTable, lines: usize, header: &TextHeader) -> Result<O
         }
         3 => {
             if !named.is_empty() && named != [TextColumn::X, TextColumn::Y, TextColumn::Z] {
-                return Err("three columns that are not x, y and height by their names".to_owned());
+                return Err("three columns that are not x, y and height by their names".into());
             }
             grid_of_points([column(0), column(1), column(2)]).map(Some)
         }
@@ -202,13 +213,15 @@ fn coordinates(table: &TextTable, lines: usize, header: &TextHeader) -> Result<O
                 return Err(format!(
                     "{columns} columns whose first two are the places of a grid: points with more than their heights; \
                      keep three columns, x, y and z"
-                ));
+                )
+                .into());
             }
             if rises(0) && !rises(1) {
                 return Err(format!(
                     "{columns} columns whose first rises in equal steps: positions beside heights; keep two columns \
                      for a profile, or leave the positions out for a map"
-                ));
+                )
+                .into());
             }
             Ok(None)
         }
@@ -217,13 +230,13 @@ fn coordinates(table: &TextTable, lines: usize, header: &TextHeader) -> Result<O
 }
 
 /// Points x, y, z in any order on a grid; places without a point are holes.
-fn grid_of_points([x, y, z]: [Vec<f64>; 3]) -> Result<TextGrid, String> {
+fn grid_of_points([x, y, z]: [Vec<f64>; 3]) -> Result<TextGrid, FileFault> {
     let lines = x.len();
     let scattered = || {
-        format!(
+        FileFault::Malformed(format!(
             "three columns of {lines} lines, no points of a regular grid: points x, y, z must be resampled on one; a \
              map of three points a row needs lines `# dx_um = ` and `# dy_um = `"
-        )
+        ))
     };
     let (Some(along_x), Some(along_y)) = (steps(&x, false), steps(&y, false)) else { return Err(scattered()) };
     let (nx, ny) = (along_x.count, along_y.count);
@@ -237,7 +250,7 @@ fn grid_of_points([x, y, z]: [Vec<f64>; 3]) -> Result<TextGrid, String> {
     for i in 0..lines {
         let place = index(&along_y, y[i]) * nx + index(&along_x, x[i]);
         if std::mem::replace(&mut taken[place], true) {
-            return Err(format!("two lines are the point x {} y {}", x[i], y[i]));
+            return Err(format!("two lines are the point x {} y {}", x[i], y[i]).into());
         }
         values[place] = z[i];
     }

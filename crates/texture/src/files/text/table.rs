@@ -7,6 +7,7 @@
 //! marks are those numbers.
 
 use super::super::bounds::{MOST_POINTS, height};
+use crate::error::FileFault;
 use crate::text::quoted;
 
 /// How cells are written.
@@ -43,7 +44,7 @@ pub(super) fn begins(line: &str) -> bool {
 }
 
 /// The text with its numbers out of quotation marks.
-pub(super) fn without_quotes(text: String) -> Result<String, String> {
+pub(super) fn without_quotes(text: String) -> Result<String, FileFault> {
     if !text.contains('"') {
         return Ok(text);
     }
@@ -62,7 +63,8 @@ pub(super) fn without_quotes(text: String) -> Result<String, String> {
                  decimal signs, or with semicolons between cells",
                 index + 1,
                 quoted(line.trim())
-            ));
+            )
+            .into());
         }
         plain.push_str(&bare);
     }
@@ -76,7 +78,7 @@ pub(super) fn has_number(line: &str) -> bool {
 
 impl TextLayout {
     /// Of the lines of a table; `own` files have commas and points.
-    pub(super) fn of(lines: &[(usize, &str)], own: bool) -> Result<Self, String> {
+    pub(super) fn of(lines: &[(usize, &str)], own: bool) -> Result<Self, FileFault> {
         let has = |sign: char| lines.iter().any(|(_, line)| line.contains(sign));
         let separator = if has('\t') {
             Some('\t')
@@ -94,7 +96,8 @@ impl TextLayout {
                 "line {number}: `{}`: numbers with both commas and points: export without thousands separators, or \
                  with one decimal sign",
                 quoted(line.trim())
-            ));
+            )
+            .into());
         }
         let ends = |(_, line): &(usize, &str)| {
             separator.is_some_and(|sign| line.trim_end_matches([' ', '\r']).ends_with(sign))
@@ -121,13 +124,15 @@ impl TextLayout {
     }
 
     /// Numbers of all lines, every line as long as the first.
-    pub(super) fn table(self, lines: &[(usize, &str)]) -> Result<TextTable, String> {
+    pub(super) fn table(self, lines: &[(usize, &str)]) -> Result<TextTable, FileFault> {
         let (mut values, mut columns) = (Vec::new(), 0);
         for (row, &(number, line)) in lines.iter().enumerate() {
             let before = values.len();
             for (index, cell) in self.cells(line).enumerate() {
                 if values.len() == MOST_POINTS {
-                    return Err(format!("line {number}: more than {MOST_POINTS} heights: crop or thin the surface"));
+                    return Err(FileFault::TooLarge(format!(
+                        "line {number}: more than {MOST_POINTS} heights: crop or thin the surface"
+                    )));
                 }
                 let at = |reason: String| format!("line {number}, column {}: {reason}", index + 1);
                 values.push(if is_hole(cell) {
@@ -136,12 +141,12 @@ impl TextLayout {
                     height(&cell.replacen(',', ".", 1))
                         .map_err(|_| at(format!("`{}` is not a height", quoted(cell))))?
                 } else {
-                    height(cell).map_err(at)?
+                    height(cell).map_err(|fault| at(fault.to_string()))?
                 });
             }
             let count = values.len() - before;
             if row > 0 && count != columns {
-                return Err(format!("line {number} has {count} heights, the first row has {columns}"));
+                return Err(format!("line {number} has {count} heights, the first row has {columns}").into());
             }
             columns = count;
         }
@@ -163,7 +168,7 @@ impl TextLayout {
 }
 
 /// Whether commas, in a table without tabulators and semicolons, are decimal signs between blanks.
-fn commas_are_decimal(lines: &[(usize, &str)], own: bool) -> Result<bool, String> {
+fn commas_are_decimal(lines: &[(usize, &str)], own: bool) -> Result<bool, FileFault> {
     let has = |sign: char| lines.iter().any(|(_, line)| line.contains(sign));
     if own || has('.') {
         return Ok(false);
@@ -193,7 +198,8 @@ fn commas_are_decimal(lines: &[(usize, &str)], own: bool) -> Result<bool, String
             "line {number}: `{}`: commas here may part cells or be decimal signs: export with points as decimal \
              signs, or with semicolons between cells",
             quoted(line.trim())
-        ));
+        )
+        .into());
     }
     Ok(false)
 }

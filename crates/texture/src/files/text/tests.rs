@@ -15,14 +15,14 @@ const MAP: [[f64; 4]; 5] = [
 const UM: Given = Given { spacing_um: Some([2.0, 3.0]), height_unit: Some(LengthUnit::Micrometre), ..NOTHING };
 const NOTHING: Given = Given { spacing_um: None, height_unit: None, spacing_unit: None, use_mask: false };
 
-fn read(text: &str, given: &Given) -> Result<MeasuredFile, String> {
+fn read(text: &str, given: &Given) -> Result<MeasuredFile, crate::FileFault> {
     decode(text.as_bytes(), given)
 }
 
 fn refused(text: &str, given: &Given) -> String {
     match read(text, given) {
         Ok(found) => panic!("taken as {found:?}: {text}"),
-        Err(reason) => reason,
+        Err(fault) => fault.to_string(),
     }
 }
 
@@ -104,7 +104,10 @@ fn nothing_is_silently_wrong_in_a_corpus_of_headers() {
                                     read_right += 1;
                                 }
                                 Err(reason) => {
-                                    assert!(reason.contains("--") || reason.contains("line "), "{reason}\n{text}");
+                                    assert!(
+                                        reason.to_string().contains("--") || reason.to_string().contains("line "),
+                                        "{reason}\n{text}"
+                                    );
                                     refusals += 1;
                                 }
                             }
@@ -281,6 +284,6 @@ fn cells_that_are_none_are_named_by_line_and_column() {
     ] {
         assert!(refused(text, &UM).contains(words), "{text}: {}", refused(text, &UM));
     }
-    assert!(decode(b"1 2\x00 3\n", &UM).expect_err("a zero").contains("line 1 has a control character"));
-    assert!(decode(b"\xff\xfe1", &UM).expect_err("half a character").contains("UTF-16"));
+    assert!(decode(b"1 2\x00 3\n", &UM).expect_err("a zero").to_string().contains("line 1 has a control character"));
+    assert!(decode(b"\xff\xfe1", &UM).expect_err("half a character").to_string().contains("UTF-16"));
 }
