@@ -7,11 +7,10 @@
 pub mod attempts;
 pub mod axes;
 pub mod backend_trial;
-pub mod check_cost;
 pub mod check_curve;
-pub mod computer_speed;
 pub mod conclusion;
 pub mod cut_flanks;
+pub mod forecast;
 pub mod foreseen;
 pub mod gear_maps;
 pub mod gear_surfaces;

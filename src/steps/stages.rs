@@ -4,8 +4,8 @@
 //! tooth, flank, window or picture: processor time of whole runs of shipped scenes, stage by stage. For the time left
 //! only the proportions count: the pace of what is done says how fast this machine and this scene are.
 //!
-//! Road not taken: the cost that `check` estimates of cuts ([`super::check_cost`]). It takes a moment to plan, in which
-//! nothing would show; `check` takes from here what is not cutting.
+//! Road not taken: what `check` finds on samples ([`super::forecast`]). They take a moment, in which nothing would
+//! show; `check` takes from here what is not cutting.
 
 use super::needs_surfaces;
 use super::parts::{Part, Parts};
@@ -41,10 +41,9 @@ fn windows(job: &dyn GearJob) -> f64 {
     }
 }
 
-/// What a whole run takes beside its cuts, and what a process estimates with them: measuring texture, drawing,
-/// writing, s of one core.
+/// What a whole run takes beside flanks, blank and chips: measuring texture, drawing, writing, s of one core.
 pub fn beside_cutting_s(job: &dyn GearJob, costs: &Costs) -> f64 {
-    let beside = Costs { before: &[], flank_s: 0.0, map_chips_s: 0.0, root_s: 0.0, blank_s: 0.0, ..*costs };
+    let beside = Costs { before: &[], flank_s: 0.0, map_chips_s: 0.0, blank_s: 0.0, ..*costs };
     let stages: f64 = plan(job, Parts::all(), None, &beside).iter().map(|(_, seconds)| seconds).sum();
     stages + costs.between_s * f64::from(job.scene().gear.teeth)
 }

@@ -135,17 +135,9 @@ impl HobCutter<'_> {
     /// # Errors
     /// None for hobs: their teeth look away from their axis.
     pub fn sections(&self, operation: usize, cull: bool) -> Result<SweptSections, Refusal> {
-        self.some_sections(operation, 1, cull)
-    }
-
-    /// The same of every so many passes.
-    ///
-    /// # Errors
-    /// As [`Self::sections`].
-    pub fn some_sections(&self, operation: usize, every: u32, cull: bool) -> Result<SweptSections, Refusal> {
         let reach_mm = BlankOutline::new(&self.job.stock).reach_mm();
         let passes = &self.operations[operation];
-        SweptSections::of_every(every, passes, reach_mm, self.job.scene.gear.face_width_mm, cull)
+        SweptSections::new(passes, reach_mm, self.job.scene.gear.face_width_mm, cull)
     }
 
     /// The same of the passes that go through tooth spaces of these numbers, counted as the teeth before them.

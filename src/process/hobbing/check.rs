@@ -1,21 +1,30 @@
 //! What a hobbing scene means: hob, teeth, operations.
 
-mod cost;
-
 use crate::findings::Notice;
 use crate::output::text::{Sheet, plain, significant};
 use crate::process::hobbing::axes_report::HobbingAxesReport;
 use crate::process::hobbing::measure::hoffmeister;
+use crate::process::hobbing::stage_costs::STAGE_COSTS;
 use crate::process::hobbing::warnings::greatest_common_divisor;
 use crate::process::hobbing::{HobCutter, HobbingJob, foreseen, foreseen_chips};
 use crate::steps::axes;
 use crate::steps::check_curve::{self, gear_words};
 use crate::steps::flanks_of;
+use crate::steps::forecast::{ForecastSamples, whole_s};
 use crate::steps::inspection;
 use crate::steps::parts::Stages;
+use gearcut_core::cut::cpu::Cpu;
+use gearcut_core::dexel::{BlankField, BlankGrid};
 use gearcut_core::error::Result;
+use gearcut_core::gear::blank_outline::BlankOutline;
 use gearcut_core::terms::Side;
 use rayon::prelude::*;
+
+/// Rows of the bands that are cut for the forecast. Over fewer than half of a tile's rows planning has no third row to
+/// tell bent heights from straight ones, and keeps thousands of passes.
+const BAND_ROWS: [usize; 2] = [96, 192];
+/// Bytes of a dexel's ray: two vectors and the blank's height.
+const BYTES_PER_RAY: usize = 52;
 
 /// Prints everything; what must be known before cutting.
 ///
@@ -36,7 +45,7 @@ pub fn print(sheet: &mut Sheet, job: &HobbingJob) -> Result<Vec<Notice>> {
     // Before the cost: a cut does it as well.
     let foreseen = foreseen::foresee(&cutter, &operations, Stages::ALL)?;
     print_chips(sheet, &cutter)?;
-    cost::print(sheet, &cutter)?;
+    print_cost(sheet, &cutter)?;
     foreseen::print(sheet);
     Ok(foreseen.warnings)
 }
@@ -74,6 +83,35 @@ fn print_hob(sheet: &mut Sheet, job: &HobbingJob) {
             }
         },
     );
+}
+
+/// Bands of flanks; of the blank the slice in the middle.
+fn print_cost(sheet: &mut Sheet, cutter: &HobCutter) -> Result<()> {
+    let job = cutter.job;
+    let grid = job.blank_grid()?;
+    let slices = grid.slices_z_mm.len();
+    let rays = grid.rows.iter().map(|row| row.count).sum::<usize>() * slices;
+    let rays_apart_mm = plain(job.scene.fields.blank_spacing_mm);
+    let cut_band = |tooth, side, arcs_mm, rows_mm| {
+        let rays = cutter.rays_over(cutter.target(tooth, side)?, arcs_mm, rows_mm);
+        Ok(cutter.cut_field(&Cpu::default(), &rays.field)?.1)
+    };
+    let blank_s = || {
+        let middle = BlankGrid { slices_z_mm: vec![grid.slices_z_mm[slices / 2]], ..grid.clone() };
+        let field = BlankField::new(middle, &BlankOutline::new(&job.stock));
+        whole_s(1.0 / slices as f64, || cutter.cut_blank(&Cpu::default(), field, &|| true))
+    };
+    let samples = ForecastSamples {
+        job: cutter,
+        costs: &STAGE_COSTS,
+        ray_bytes: BYTES_PER_RAY,
+        rows: BAND_ROWS,
+        one_column_in: 1,
+        cut_band: &cut_band,
+        blank: (format!("{rays} rays {rays_apart_mm} mm apart in {slices} sections"), grid.estimated_bytes(&job.stock)),
+        blank_s: &blank_s,
+    };
+    samples.print(sheet)
 }
 
 /// The thickest chip that is known before the cut, and the formula that shops know.

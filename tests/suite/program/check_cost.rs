@@ -62,7 +62,7 @@ fn disagree([dexels, _]: Counted, counted: Counted, share: f64) {
     assert_eq!(agree([dexels, 1.2 * counted[1]], counted, share), [false; 2], "the comparison sees no difference");
 }
 
-/// Tiles spread over the profiles of some flanks are planned.
+/// Two bands of two flanks are cut.
 #[test]
 fn the_work_of_shaping_is_what_its_cut_counts() {
     let counted = counted(ROUND);
@@ -71,7 +71,7 @@ fn the_work_of_shaping_is_what_its_cut_counts() {
     disagree(expected(finer, 2.0), counted, 0.1);
 }
 
-/// A third of the profile is planned on each of some flanks, about the middle of the face.
+/// Two bands about the middle of the face of two flanks are cut.
 #[test]
 fn the_work_of_hobbing_is_what_its_cut_counts() {
     let counted = counted(HOBBED);
@@ -80,7 +80,7 @@ fn the_work_of_hobbing_is_what_its_cut_counts() {
     disagree(expected(finer, 1.0), counted, 0.15);
 }
 
-/// One flank of each side is planned, about the middle of the face: the others are the same but for a turn.
+/// Two bands of one flank of each side are cut: the others are the same but for a turn.
 #[test]
 fn the_work_of_bevel_cutting_is_what_its_cut_counts() {
     let counted = counted(BEVEL);

@@ -76,10 +76,7 @@ impl ChipLedger {
         let contours_mm = contours(job);
         let spaces: Vec<Option<SpaceChips>> = spaces
             .into_par_iter()
-            .map(|space| {
-                let chips = chips_of(&Space::new(job, &polygon, &contours_mm, space, 0.0), &forces);
-                advance().then_some(chips)
-            })
+            .map(|space| advance().then(|| chips_of(&Space::new(job, &polygon, &contours_mm, space, 0.0), &forces)))
             .collect();
         let stations = polygon.stations.len();
         let map = |rows: usize, per_row| ThicknessMap { rows, per_row, thickness_mm: vec![0.0; rows * stations] };

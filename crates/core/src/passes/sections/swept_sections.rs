@@ -126,22 +126,7 @@ impl SweptSections {
     /// # Errors
     /// Blades that do not look away from the tool's axis: sections are closed towards it, through the tool's body.
     pub fn new(set: &TurningPasses, reach_mm: f64, face_width_mm: f64, cull: bool) -> Result<Self, Refusal> {
-        Self::of_every(1, set, reach_mm, face_width_mm, cull)
-    }
-
-    /// The same of the first pass and every so many after it: a sample, for estimates.
-    ///
-    /// # Errors
-    /// As [`Self::new`].
-    pub fn of_every(
-        every: u32,
-        set: &TurningPasses,
-        reach_mm: f64,
-        face_width_mm: f64,
-        cull: bool,
-    ) -> Result<Self, Refusal> {
-        let sampled = |pass: &BladePass| (pass.pass - set.first_pass).is_multiple_of(every.max(1));
-        Self::of_some(sampled, set, reach_mm, face_width_mm, cull)
+        Self::of_some(|_| true, set, reach_mm, face_width_mm, cull)
     }
 
     /// The same of those passes that are `wanted`.
