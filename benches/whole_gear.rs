@@ -25,7 +25,7 @@ use gearcut::output::progress::{Progress, ProgressMode};
 use gearcut::passes::CutPlan;
 use gearcut::process::shaping;
 use gearcut::process::shaping::ShapingJob;
-use gearcut::process::shaping::measure::flank_report;
+use gearcut::process::shaping::gear::measure::flank_report;
 use gearcut::steps::parts::Stages;
 use gearcut::terms::Side;
 use std::hint::black_box;

@@ -4,6 +4,7 @@
 //! In: cut fields and the job. Out: plain values in mm and percent; the findings of each process give them names,
 //! units and definitions.
 
+pub mod chip_places;
 pub mod crossing;
 pub mod damage;
 pub mod deviation;

@@ -20,7 +20,6 @@
 //! the **latest** pass. The chip is, in EXR files and pictures alike, that at the **thick end** of the longest mark in
 //! a cell (`chip_places`: over all dexels of a cell the thickest would take longer than the cut).
 
-use super::chip_places::{ChipPlaces, chip_columns, each_once};
 use super::exr_map::{ExrMap, MapChannel, Samples, write_exr_map};
 use super::folder::OutputFolder;
 use super::grid::{MapAxis, MapGrid};
@@ -28,6 +27,7 @@ use super::map_cells::{Cell, cells_along};
 use super::map_png::{MapPicture, write_map_png};
 use crate::colormap::ColourScale;
 use crate::measure::LastChips;
+use crate::measure::chip_places::{ChipPlaces, chip_columns, each_once};
 use crate::output::atomic::file_error;
 use gearcut_core::dexel::{Layer, NO_PASS};
 use gearcut_core::error::Result;
@@ -344,8 +344,8 @@ fn ids(name: &str, definition: &str, ids: Vec<u32>) -> MapChannel {
 
 #[cfg(test)]
 mod tests {
-    use super::super::chip_places::CHIPS_OF_A_CELL;
     use super::*;
+    use crate::measure::chip_places::CHIPS_OF_A_CELL;
     use gearcut_core::dexel::{Column, Field};
     use glam::DVec2;
 

@@ -30,7 +30,6 @@ pub mod bar_chart;
 #[doc(hidden)]
 pub mod bar_panels;
 mod canvas;
-pub(crate) mod chip_places;
 #[doc(hidden)]
 pub mod contact_sheet;
 mod figure;

@@ -5,6 +5,7 @@
 use std::fmt::Write as _;
 
 use crate::wrap::wrapped;
+use gearcut_core::units::UM_PER_MM;
 
 /// Where values begin on labelled lines, in characters.
 pub const VALUE_COLUMN: usize = 32;
@@ -147,6 +148,22 @@ impl Sheet {
     pub fn into_text(self) -> String {
         self.text
     }
+}
+
+/// A length, where it is not 0.
+pub fn um(name: &str, value_mm: f64) -> Vec<String> {
+    size(name, value_mm * UM_PER_MM, "um")
+}
+
+/// A size with its unit, where it is not 0.
+pub fn size(name: &str, value: f64, unit: &str) -> Vec<String> {
+    if value == 0.0 { Vec::new() } else { vec![format!("{name} {} {unit}", number(value))] }
+}
+
+/// Four digits, without zeros behind the point: as a scene gives it.
+pub fn number(value: f64) -> String {
+    let text = significant(value, 4);
+    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
 }
 
 /// A number with this many significant digits and no exponent, such as "0.0942", "14.95", "4200".

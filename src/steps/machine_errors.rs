@@ -8,7 +8,7 @@ use crate::findings::Section;
 use crate::findings::quantities::program::{LAYER, MACHINE_ERRORS};
 use crate::machine::{Axis, AxisKind};
 use crate::machine_errors::{AxisErrors, ErrorLayer, Guide, MachineErrors, NoiseLaw, ToolMounting, WorkMounting};
-use crate::output::text::significant;
+use crate::output::text::{number, size, um};
 use gearcut_core::units::UM_PER_MM;
 
 /// mm per mm as um in 100 mm.
@@ -46,22 +46,6 @@ pub fn section<const N: usize>(
 /// How a tool sits on its spindle; nothing where it sits well.
 pub fn tool_words(tool: &ToolMounting) -> String {
     [um("runout", tool.runout_mm), slope("wobble", tool.wobble_rad)].concat().join(", ")
-}
-
-/// A length, where it is not 0.
-pub fn um(name: &str, value_mm: f64) -> Vec<String> {
-    size(name, value_mm * UM_PER_MM, "um")
-}
-
-/// A size with its unit, where it is not 0.
-pub fn size(name: &str, value: f64, unit: &str) -> Vec<String> {
-    if value == 0.0 { Vec::new() } else { vec![format!("{name} {} {unit}", number(value))] }
-}
-
-/// Four digits, without zeros behind the point: as a scene gives it.
-fn number(value: f64) -> String {
-    let text = significant(value, 4);
-    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
 }
 
 fn slope(name: &str, value: f64) -> Vec<String> {

@@ -7,7 +7,7 @@
 
 use gearcut::findings::Findings;
 use gearcut::output::surface_files::read_surface;
-use gearcut::process::shaping::gcode;
+use gearcut::process::shaping::motion::gcode;
 use gearcut::wrap::printable;
 use std::path::Path;
 

@@ -20,7 +20,8 @@ fn read(source: &str) -> Sources {
 /// Names of the crate's own modules in the order of its list, from the ground up.
 fn floors(lib: &str) -> Vec<String> {
     let declared = |line: &str| {
-        let name = line.strip_prefix("pub mod ").or_else(|| line.strip_prefix("mod "))?.strip_suffix(';')?;
+        let name = ["pub mod ", "pub(crate) mod ", "mod "].iter().find_map(|start| line.strip_prefix(start))?;
+        let name = name.strip_suffix(';')?;
         (name != "tests").then(|| name.to_owned())
     };
     let own: Vec<String> = lib.lines().filter_map(declared).collect();
@@ -64,6 +65,13 @@ fn arrows_between_processes(imports: &Imports) -> Vec<String> {
         .collect()
 }
 
+/// Imports among the children of a folder, as if it were a crate.
+fn inside(imports: &Imports, folder: &[String]) -> Imports {
+    let child = |module: &ModulePath| Some(module.strip_prefix(folder)?.to_vec()).filter(|rest| !rest.is_empty());
+    let children = imports.iter().filter_map(|(from, others)| Some((child(from)?, others)));
+    children.map(|(from, others)| (from, others.iter().filter_map(child).collect())).collect()
+}
+
 #[test]
 fn no_arrow_points_up() {
     for source in CRATES {
@@ -73,6 +81,33 @@ fn no_arrow_points_up() {
     }
     let across = arrows_between_processes(&imports(&read("src")));
     assert!(across.is_empty(), "processes that use each other:\n{}", across.join("\n"));
+}
+
+/// Shaping, the largest of the folders, lists its modules from the scene to the page.
+#[test]
+fn shaping_follows_the_path_of_its_data() {
+    let sources = read("src");
+    let folder: ModulePath = ["process", "shaping"].map(str::to_owned).to_vec();
+    let order = floors(&sources[&folder]);
+    let up = arrows_up(&inside(&imports(&sources), &folder), &order);
+    assert!(up.is_empty(), "arrows that point up:\n{}", up.join("\n"));
+    let planted = planted(&sources, "process::shaping::linkage", "use crate::process::shaping::cut::chips;");
+    let up = arrows_up(&inside(&imports(&planted), &folder), &order);
+    assert!(up.len() == 1 && up[0].starts_with("linkage -> cut"), "{up:?}");
+}
+
+/// What a scene says is known before any step, and chips before any map shows them.
+#[test]
+fn scenes_and_chips_stay_below_steps_and_maps() {
+    let all = imports(&read("src"));
+    let arrows = all.iter().flat_map(|(from, others)| others.iter().map(move |to| [from.join("::"), to.join("::")]));
+    let up = arrows.filter(|[from, to]| {
+        let scene = from.starts_with("process::") && from.split("::").nth(2) == Some("scene");
+        let chips = from.starts_with("process::shaping::cut::chips");
+        scene && to.starts_with("steps") || chips && to.starts_with("output")
+    });
+    let up: Vec<String> = up.map(|[from, to]| format!("{from} -> {to}")).collect();
+    assert!(up.is_empty(), "arrows that point up:\n{}", up.join("\n"));
 }
 
 #[test]
@@ -115,7 +150,10 @@ fn planted_arrows_are_noticed() {
     let listed = self::floors(&program[&Vec::new()]);
     assert_eq!(arrows_up(&imports(&through_the_roof), &listed), ["measure::stock -> "]);
     let across = planted(&program, "process::hobbing::job", "use super::super::{shaping::ShaperCutter as Other};");
-    assert_eq!(arrows_between_processes(&imports(&across)), ["process::hobbing::job -> process::shaping::cutter"]);
+    assert_eq!(
+        arrows_between_processes(&imports(&across)),
+        ["process::hobbing::job -> process::shaping::tool::cutter"]
+    );
 }
 
 /// The same test must notice circles that are planted: between files, between folders, and through the re-exports of a

@@ -21,11 +21,11 @@ use super::quantities::{
 use crate::findings::quantities::cutting::{CYCLE_TIME, IDLE, LINKAGE, NO_MATERIAL, OFFSET, PASSES, STOPPED};
 use crate::findings::{Entry, Findings, Notice, QuantityRow, Section, Table};
 use crate::machine_errors::ErrorLayer;
-use crate::output::text::significant;
+use crate::output::text::{significant, size};
 use crate::steps::axes::{self, AxesOfOperation as _};
 use crate::steps::foreseen::{Foreseen, windows};
 use crate::steps::inspection::headline::{self, Cutting, Placed, candidates};
-use crate::steps::machine_errors::{self, size, tool_words};
+use crate::steps::machine_errors::{self, tool_words};
 use crate::steps::parts::Stages;
 use crate::steps::program_under_test::ProgramUnderTest;
 use crate::steps::untouched_dexels;

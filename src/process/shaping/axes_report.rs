@@ -9,11 +9,10 @@
 
 mod charts;
 mod facts;
+pub mod programs;
 mod retraction;
 mod strokes;
 
-use super::gcode::{AxisProgram, Judgement};
-use super::programs;
 use crate::findings::{Notice, Place, Section, Table};
 use crate::machine::{Peak, peaks};
 use crate::output::line_chart::LineChart;
@@ -21,8 +20,9 @@ use crate::output::text::Sheet;
 use crate::process::shaping::linkage::dynamics;
 use crate::process::shaping::linkage::relief;
 use crate::process::shaping::linkage::relief::{ReliefFlank, SmallestRelief};
+use crate::process::shaping::motion::gcode::{AxisProgram, Judgement};
+use crate::process::shaping::motion::returns::motion::RetractionMotion;
 use crate::process::shaping::quantities::axes::{LARGEST_BETA, RELIEF, SMALLEST_CLEARANCE, SMALLEST_RATIO};
-use crate::process::shaping::returns::motion::RetractionMotion;
 use crate::process::shaping::{PreparedOperation, ShapingJob};
 use crate::steps::axes::{AxesOfOperation, Named, NamedChart, PeakWords};
 use gearcut_core::Result;

@@ -5,8 +5,14 @@
 //! matter, and the backend's kernels find the lowest one. Rounded edges ask for the order: they are followed here in
 //! f64, whatever the backend. The whole blank is cut by the kernels alone.
 
+pub mod blank;
+pub mod chips;
+pub mod section;
+pub(super) mod stroke_noise;
+mod tearing;
+
 use super::ShapingJob;
-use super::chips::ploughed_layers;
+use crate::process::shaping::cut::chips::ploughed_layers;
 use crate::steps::planar::{CutField, PreparedField};
 use gearcut_core::cut::Backend;
 use gearcut_core::dexel::Field;

@@ -6,6 +6,7 @@
 pub mod answers;
 mod chips;
 pub mod deflection;
+pub mod foreseen;
 mod headline;
 pub mod machine_errors;
 mod operation;
@@ -15,14 +16,15 @@ pub mod ring;
 mod strokes;
 mod tables;
 mod teeth;
+pub mod warnings;
 
 pub use headline::headline;
 
 use crate::findings::Section;
 use crate::process::shaping::ShapingJob;
 use crate::process::shaping::axes_report::OperationAxes;
-use crate::process::shaping::chips::ChipLedger;
-use crate::process::shaping::measure::GearReport;
+use crate::process::shaping::cut::chips::ChipLedger;
+use crate::process::shaping::gear::measure::GearReport;
 use crate::process::shaping::quantities::PERIOD_TEETH;
 use gearcut_core::error::Refusal;
 use operation::operation;

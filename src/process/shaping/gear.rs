@@ -1,13 +1,18 @@
 //! A shaped gear, cut and measured: flank by flank, root by root, chip by chip.
 
+pub mod measure;
+pub mod ring;
+mod surfaces;
+pub mod tooth_facts;
+
 use crate::interrupt::Interrupt;
 use crate::output::flank_maps::FlankMaps;
 use crate::output::progress::Progress;
 use crate::process::shaping::ShapingJob;
-use crate::process::shaping::chips::{ChipLedger, last_chips_on_map};
-use crate::process::shaping::measure::flank_report::FlankReport;
-use crate::process::shaping::measure::gear_report::{RootReport, root_stock};
-use crate::process::shaping::measure::{GearReport, flank_report, gear_report};
+use crate::process::shaping::cut::chips::{ChipLedger, last_chips_on_map};
+use crate::process::shaping::gear::measure::flank_report::FlankReport;
+use crate::process::shaping::gear::measure::gear_report::{RootReport, root_stock};
+use crate::process::shaping::gear::measure::{GearReport, flank_report, gear_report};
 use crate::steps::cut_flanks::{CutFlank, FlankQueue, cut_flanks};
 use crate::steps::gear_maps::GearMaps;
 use crate::steps::parts::{Parts, Stage, Stages};

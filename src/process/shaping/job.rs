@@ -8,19 +8,19 @@
 use crate::machine_errors::Deflection;
 use crate::material::EdgeForce;
 use crate::process::shaping::ShaperCutter;
-use crate::process::shaping::actual::{ActualStrokes, Commanded, scattered};
-use crate::process::shaping::fillet::Fillet;
-use crate::process::shaping::gcode;
-use crate::process::shaping::gcode::AxisProgram;
-use crate::process::shaping::generation::Generation;
 use crate::process::shaping::linkage::{CutterPose, ShapingLinkage, StrokeSchedule, dynamics};
-use crate::process::shaping::returns::RetractionPlan;
-use crate::process::shaping::returns::facts::ReturnFacts;
-use crate::process::shaping::returns::motion::RamTimes;
-use crate::process::shaping::returns::survey::Survey;
+use crate::process::shaping::motion::actual::{ActualStrokes, Commanded, scattered};
+use crate::process::shaping::motion::gcode;
+use crate::process::shaping::motion::gcode::AxisProgram;
+use crate::process::shaping::motion::returns::RetractionPlan;
+use crate::process::shaping::motion::returns::facts::ReturnFacts;
+use crate::process::shaping::motion::returns::motion::RamTimes;
+use crate::process::shaping::motion::returns::survey::Survey;
 use crate::process::shaping::scene::model::{self, GcodeDialect, Machine, Operation, Shaping};
 use crate::process::shaping::target::TargetFlank;
-use crate::process::shaping::tooth_target::ToothTarget;
+use crate::process::shaping::target::fillet::Fillet;
+use crate::process::shaping::target::generation::Generation;
+use crate::process::shaping::target::tooth_target::ToothTarget;
 use crate::scene::Scene;
 use crate::scene::model::Gear;
 use crate::steps::planar::{PlanarGear, PlanarOperation, ProfilePoint};
@@ -108,7 +108,7 @@ impl PreparedOperation {
 /// Everything known before the first dexel is cut.
 ///
 /// Made from a scene it stands on a rigid machine. On one that yields, strokes are displaced by what they cut, which
-/// [`crate::process::shaping::chips::deflections`] finds and [`Self::deflected`] puts in.
+/// [`crate::process::shaping::cut::chips::deflections`] finds and [`Self::deflected`] puts in.
 #[derive(Debug, Clone)]
 pub struct ShapingJob {
     /// The scene.

@@ -1,54 +1,50 @@
 //! Shaping with a pinion cutter.
+//!
+//! From the scene to the page, in the order of the data; each module uses only those above it:
+//!
+//! - [`notices`]: what shaping warns of
+//! - [`quantities`]: what only it finds
+//! - [`scene`]: what its scenes may say
+//! - [`linkage`]: from a parameter to axes and poses
+//! - [`tool`]: the cutter and its edges
+//! - [`target`]: flanks, roots and tips as continuous motion leaves them
+//! - [`motion`]: return strokes, programs, axes with their errors
+//! - [`job`]: the scene made ready
+//! - [`cut`]: what all operations leave, with chips, marks and the whole blank
+//! - [`gear`]: the gear cut and measured
+//! - [`axes_report`]: tables, charts and programs of the axes
+//! - [`findings`]: what a run finds, and what is known before it
+//! - `report`: the page
+//! - `stage_costs`: what the stages take
+//! - [`check`]: what a scene means, in the order of the page
+//! - `run`: a cut, in the order of its steps
+//! - `prepared`: the job behind the commands
 
-pub mod actual;
 pub mod axes_report;
-pub mod blank;
-mod built_up_edge;
 pub mod check;
-mod chip_charts;
-pub mod chips;
-mod cut;
-pub mod cutter;
-pub mod edge_polygon;
-pub mod edge_roughness;
-mod edge_rounding;
-pub mod fillet;
+pub mod cut;
 pub mod findings;
-pub mod foreseen;
-pub mod gcode;
 pub mod gear;
-pub mod generation;
 pub mod job;
 pub mod linkage;
-pub mod measure;
+pub mod motion;
 pub(crate) mod notices;
 mod prepared;
-pub mod programs;
 pub mod quantities;
 mod report;
-pub mod returns;
-pub mod ring;
 mod run;
 pub mod scene;
-pub mod section;
 mod stage_costs;
-mod stroke_noise;
-mod surfaces;
 pub mod target;
-mod tearing;
-pub mod tip_relief;
-pub mod tooth_facts;
-pub mod tooth_target;
-pub mod undercut;
-pub mod warnings;
+pub mod tool;
 
 use super::Process;
 use crate::steps::axes;
 use axes_report::OperationAxes;
 
-pub use cutter::ShaperCutter;
 pub use gear::{CutGear, cut_gear};
 pub use job::{PreparedOperation, ShapingJob};
+pub use tool::cutter::ShaperCutter;
 
 /// The process.
 pub static PROCESS: Process = Process {

@@ -4,15 +4,15 @@
 //! command that cuts finds the deflections of all strokes, and the gear that follows from them is kept.
 
 use super::axes_report::OperationAxes;
-use super::chips::deflections;
-use super::foreseen::foresee;
-use super::section::CutSection;
-use super::{ShapingJob, check, run};
 use crate::findings::Notice;
 use crate::interrupt::Interrupt;
 use crate::job::GearJob;
 use crate::output::folder::OutputFolder;
 use crate::output::text::Sheet;
+use crate::process::shaping::cut::chips::deflections;
+use crate::process::shaping::cut::section::CutSection;
+use crate::process::shaping::findings::foreseen::foresee;
+use crate::process::shaping::{ShapingJob, check, run};
 use crate::process::{CutDone, ProcessJob};
 use crate::scene::Scene;
 use crate::steps::parts::Stages;

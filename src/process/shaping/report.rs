@@ -3,6 +3,7 @@
 //! In: the job, what was cut, the findings. Out: a [`Page`]. Numbers come from the findings with their units and
 //! definitions; nothing is computed here that is not in a file beside the page.
 
+pub(super) mod chip_charts;
 mod chips;
 mod facts;
 mod returns;
@@ -20,7 +21,7 @@ use crate::output::text::{from_full_depth, significant};
 use crate::process::shaping::CutGear;
 use crate::process::shaping::ShapingJob;
 use crate::process::shaping::axes_report::OperationAxes;
-use crate::process::shaping::measure::GearReport;
+use crate::process::shaping::gear::measure::GearReport;
 use crate::process::shaping::quantities::{CIRCULAR_FEED, STROKES};
 use crate::steps;
 use crate::steps::axes;

@@ -6,14 +6,15 @@ mod chip_files;
 mod files;
 mod frames;
 
-use super::foreseen::foresee;
 use super::gear::cut_gear;
-use super::{findings, report, warnings};
 use crate::findings::Findings;
 use crate::process::CutDone;
 use crate::process::shaping::ShapingJob;
 use crate::process::shaping::axes_report::OperationAxes;
+use crate::process::shaping::findings::foreseen::foresee;
+use crate::process::shaping::findings::warnings;
 use crate::process::shaping::stage_costs::STAGE_COSTS;
+use crate::process::shaping::{findings, report};
 use crate::steps::attempts::Attempts;
 use crate::steps::inspection::Inspected;
 use crate::steps::inspection::headline::quality;

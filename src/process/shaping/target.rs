@@ -2,13 +2,18 @@
 //!
 //! The target is the envelope of the finishing operation ([`Generation`]) as a curve in the transverse plane with arc
 //! length, normal and polar angle. A flank runs from its **form point** (where the cutter's involute ends at its tip
-//! corner, or, undercut, where the path of that corner crosses it: [`super::undercut`]) to its **tip** (the blank's
-//! outline, the end of the cutter's involute near its base, or the point where both flanks meet). Roots are the
-//! [`super::fillet`]'s.
+//! corner, or, undercut, where the path of that corner crosses it: [`undercut`]) to its **tip** (the blank's outline,
+//! the end of the cutter's involute near its base, or the point where both flanks meet). Roots are the [`fillet`]'s.
 
-use super::fillet::boundary;
-use super::generation::{FlankContact, Generation};
+pub mod fillet;
+pub mod generation;
+pub mod tip_relief;
+pub mod tooth_target;
+pub mod undercut;
+
 use crate::measure::crossing::Crossing;
+use crate::process::shaping::target::fillet::boundary;
+use crate::process::shaping::target::generation::{FlankContact, Generation};
 use gearcut_core::error::Refusal;
 use gearcut_core::gear::blank::Blank;
 use gearcut_core::math::newton::{LastStep, newton_within};

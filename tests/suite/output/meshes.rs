@@ -6,7 +6,7 @@ use crate::fixtures::contour::crossings;
 use gearcut::cut::cpu::Cpu;
 use gearcut::process;
 use gearcut::process::shaping::ShapingJob;
-use gearcut::process::shaping::section::{CutSection, cutter_solid};
+use gearcut::process::shaping::cut::section::{CutSection, cutter_solid};
 use gearcut::steps::gear_surfaces::complete;
 use gearcut::surface::gear_solid::gear_solid;
 use gearcut::surface::outline::{BODY_MM, Outline};

@@ -6,9 +6,10 @@ use gearcut::interrupt::Interrupt;
 use gearcut::output::progress::{Progress, ProgressMode};
 use gearcut::process::load;
 use gearcut::process::shaping::axes_report::OperationAxes;
-use gearcut::process::shaping::measure::below_finished::below_finished;
-use gearcut::process::shaping::measure::unevenness::{CrossedSurface, allowances, crossings};
-use gearcut::process::shaping::{ShapingJob, cut_gear, warnings};
+use gearcut::process::shaping::findings::warnings;
+use gearcut::process::shaping::gear::measure::below_finished::below_finished;
+use gearcut::process::shaping::gear::measure::unevenness::{CrossedSurface, allowances, crossings};
+use gearcut::process::shaping::{ShapingJob, cut_gear};
 use gearcut::steps::parts::Stages;
 use std::path::Path;
 
@@ -65,7 +66,7 @@ fn an_oval_roughed_too_close_is_told_with_tooth_and_depth() {
     let of = |operation, surface| crossings(&job, operation, surface).teeth;
     let envelope = allowances(&of(0, CrossedSurface::Envelope), &of(1, CrossedSurface::Envelope));
     let strokes = allowances(&of(0, CrossedSurface::Strokes), &of(1, CrossedSurface::OwnStrokes));
-    let chords = |of: &gearcut::process::shaping::measure::unevenness::ToothAllowance| [of.ab_mm(), of.cd_mm()];
+    let chords = |of: &gearcut::process::shaping::gear::measure::unevenness::ToothAllowance| [of.ab_mm(), of.cd_mm()];
     let mut lowest_mm = f64::INFINITY;
     for (envelope, strokes) in envelope.iter().zip(&strokes) {
         for (envelope, strokes) in chords(envelope).into_iter().zip(chords(strokes)) {

@@ -8,7 +8,7 @@ use gearcut::interrupt::Interrupt;
 use gearcut::output::progress::{Progress, ProgressMode};
 use gearcut::process::load;
 use gearcut::process::shaping::axes_report::OperationAxes;
-use gearcut::process::shaping::gcode::{AxisProgram, Knot};
+use gearcut::process::shaping::motion::gcode::{AxisProgram, Knot};
 use gearcut::process::shaping::{ShapingJob, cut_gear, findings};
 use gearcut::steps::parts::Stages;
 use std::path::Path;

@@ -8,8 +8,8 @@ use crate::fixtures::shaped_gear::shaped_gear;
 use gearcut::cut::cpu::Cpu;
 use gearcut::machine_errors::Deflection;
 use gearcut::process::shaping::ShapingJob;
-use gearcut::process::shaping::chips::{ChipLedger, deflections};
-use gearcut::process::shaping::measure::flank_deflection::at_pitch_point_mm;
+use gearcut::process::shaping::cut::chips::{ChipLedger, deflections};
+use gearcut::process::shaping::gear::measure::flank_deflection::at_pitch_point_mm;
 use glam::DVec4;
 
 /// A round gear, fed in over half a turn.

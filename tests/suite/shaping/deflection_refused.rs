@@ -2,7 +2,7 @@
 
 use super::deflection::{ROUND, SOFT, with};
 use super::machine_errors::job;
-use gearcut::process::shaping::chips::deflections;
+use gearcut::process::shaping::cut::chips::deflections;
 use std::path::Path;
 
 #[test]

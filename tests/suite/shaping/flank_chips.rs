@@ -6,9 +6,9 @@ use gearcut::dexel::{Field, NO_PASS};
 use gearcut::gear::PitchCurveShape;
 use gearcut::passes::StrokeSet;
 use gearcut::process::shaping::ShapingJob;
-use gearcut::process::shaping::chips::flank::side_code;
-use gearcut::process::shaping::chips::last_chips;
-use gearcut::process::shaping::edge_polygon::EdgeSide;
+use gearcut::process::shaping::cut::chips::flank::side_code;
+use gearcut::process::shaping::cut::chips::last_chips;
+use gearcut::process::shaping::tool::edge_polygon::EdgeSide;
 use gearcut::terms::Side;
 use std::f64::consts::TAU;
 

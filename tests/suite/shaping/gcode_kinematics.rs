@@ -10,7 +10,7 @@
 use crate::fixtures::paper::*;
 use gearcut::gear::PitchCurveShape;
 use gearcut::process::shaping::ShapingJob;
-use gearcut::process::shaping::programs;
+use gearcut::process::shaping::axes_report::programs;
 use gearcut::process::shaping::scene::model::Linkage;
 use gearcut::scene::model::Scene;
 use glam::DVec2;

@@ -11,7 +11,7 @@ use gearcut::measure::scallop::{cusps, facets};
 use gearcut::passes::planar::strokes::StrokeLaw;
 use gearcut::passes::{CutPlan, StrokeSet};
 use gearcut::process::shaping::ShapingJob;
-use gearcut::process::shaping::measure::unevenness::{CrossedSurface, ToothAllowance, summarise};
+use gearcut::process::shaping::gear::measure::unevenness::{CrossedSurface, ToothAllowance, summarise};
 use gearcut::process::shaping::scene::model::*;
 use gearcut::scene::model::*;
 use gearcut::terms::Side;

@@ -6,7 +6,7 @@
 
 use crate::fixtures::paper::*;
 use gearcut::process::shaping::ShapingJob;
-use gearcut::process::shaping::measure::unevenness::{
+use gearcut::process::shaping::gear::measure::unevenness::{
     CrossedSurface, ToothAllowance, Unevenness, rack_allowance_mm, summarise,
 };
 use gearcut::process::shaping::scene::model::*;

@@ -9,7 +9,7 @@ use gearcut::process::load;
 use gearcut::process::shaping::ShapingJob;
 use gearcut::process::shaping::axes_report::OperationAxes;
 use gearcut::process::shaping::findings::program;
-use gearcut::process::shaping::gcode::{AxisProgram, Knot};
+use gearcut::process::shaping::motion::gcode::{AxisProgram, Knot};
 use std::path::Path;
 
 const SCENE: &str = "scenes/shaping/elliptical_normal.toml";

@@ -5,7 +5,7 @@ use crate::fixtures::paper::*;
 use gearcut::cut::cpu::Cpu;
 use gearcut::dexel::{Field, Layer, NO_PASS};
 use gearcut::process::shaping::ShapingJob;
-use gearcut::process::shaping::chips::{deflections, last_chips};
+use gearcut::process::shaping::cut::chips::{deflections, last_chips};
 use gearcut::process::shaping::scene::model::EdgeRounding;
 use gearcut::terms::Side;
 use std::f64::consts::TAU;

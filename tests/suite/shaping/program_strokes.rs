@@ -6,9 +6,9 @@ use gearcut::findings::Severity;
 use gearcut::process::load;
 use gearcut::process::shaping::ShapingJob;
 use gearcut::process::shaping::axes_report::OperationAxes;
+use gearcut::process::shaping::axes_report::programs;
 use gearcut::process::shaping::findings::program;
-use gearcut::process::shaping::gcode::{AxisProgram, read};
-use gearcut::process::shaping::programs;
+use gearcut::process::shaping::motion::gcode::{AxisProgram, read};
 use std::fmt::Write as _;
 use std::path::Path;
 

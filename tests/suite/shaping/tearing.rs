@@ -5,7 +5,7 @@ use super::machine_errors::{ROUND, job};
 use gearcut::cut::cpu::Cpu;
 use gearcut::dexel::Layer;
 use gearcut::process::shaping::ShapingJob;
-use gearcut::process::shaping::chips::last_chips;
+use gearcut::process::shaping::cut::chips::last_chips;
 use gearcut::terms::Side;
 use std::f64::consts::PI;
 use std::path::Path;

@@ -7,8 +7,9 @@ use gearcut::findings::{Notice, Severity};
 use gearcut::interrupt::Interrupt;
 use gearcut::output::progress::{Progress, ProgressMode};
 use gearcut::process::load;
-use gearcut::process::shaping::measure::GearReport;
-use gearcut::process::shaping::{ShapingJob, cut_gear, warnings};
+use gearcut::process::shaping::findings::warnings;
+use gearcut::process::shaping::gear::measure::GearReport;
+use gearcut::process::shaping::{ShapingJob, cut_gear};
 use gearcut::steps::parts::Stages;
 
 /// A scene, cut; what its flanks, not its blank, say.

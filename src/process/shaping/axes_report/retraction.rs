@@ -11,13 +11,13 @@ use crate::output::line_chart::Panel;
 use crate::output::text::{Sheet, significant};
 use crate::process::shaping::PreparedOperation;
 use crate::process::shaping::linkage::dynamics::AXES;
+use crate::process::shaping::motion::returns::motion::RetractionMotion;
 use crate::process::shaping::notices::{ReturnNoDirection, ReturnNoTime, ReturnSlow};
 use crate::process::shaping::quantities::axes::{
     ADDED_TIME, BACK_OFF, LARGEST_TILT, NO_LIMITS, NO_TIME, RETRACTION, RETRACTION_ACCELERATION, RETRACTION_SPEED,
     SLOWDOWN, SMALLEST_TILT, STROKES_IN_TIME, TILT, TIME_OUTSIDE, TRAVEL, TURNED_STROKES,
 };
 use crate::process::shaping::quantities::returns::DIRECTION;
-use crate::process::shaping::returns::motion::RetractionMotion;
 use crate::steps::axes::charts::panel;
 use crate::steps::axes::{AxesOfOperation as _, STEADY};
 

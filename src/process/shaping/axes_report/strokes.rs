@@ -9,10 +9,10 @@ use crate::process::shaping::linkage::StrokeState;
 use crate::process::shaping::linkage::dynamics::AXES;
 use crate::process::shaping::linkage::relief::{self, ReliefRatio};
 use crate::process::shaping::linkage::retraction::RetractionLaw;
+use crate::process::shaping::motion::returns::motion::axes_of;
 use crate::process::shaping::quantities::axes::{
     LEFT_RELIEF, NORMAL_TO_CENTRES, OFFSET_AT, PHI, RETRACTION_LAW, RETURN_POSITION, RIGHT_RELIEF, SCENE_POSITION,
 };
-use crate::process::shaping::returns::motion::axes_of;
 use crate::process::shaping::{PreparedOperation, ShapingJob};
 use crate::steps::axes;
 

@@ -3,7 +3,7 @@
 use crate::output::text::Sheet;
 use crate::process::shaping::ShapingJob;
 
-use crate::process::shaping::tooth_facts::{FlankFacts, ToothFacts, flanks_with, list};
+use crate::process::shaping::gear::tooth_facts::{FlankFacts, ToothFacts, flanks_with, list};
 
 /// Values closer than this print alike, mm.
 const SAME_MM: f64 = 5e-4;

@@ -3,7 +3,7 @@
 use crate::findings::quantities::cutting::{IDLE, LARGEST_FORCE, REMOVAL_RATE, REMOVED_VOLUME, THICKEST_CHIP};
 use crate::findings::{Place, QuantityRow, Section};
 use crate::process::shaping::ShapingJob;
-use crate::process::shaping::chips::{ChipLedger, StrokeChips};
+use crate::process::shaping::cut::chips::{ChipLedger, StrokeChips};
 use crate::process::shaping::quantities::{
     CHIPS, CUTTER_TORQUE, ENTRY_FORCE, ENTRY_SECTION, IDLE_STROKES, LARGEST_POWER, LARGEST_SECTION, MEDIAN_FORCE,
     MEDIAN_SECTION, NO_ENTRY, THREE_FLANK_CHIPS, TWO_FLANK_CHIPS, WORK_TORQUE,

@@ -3,8 +3,8 @@
 use super::chips::stroke_place;
 use crate::findings::{QuantityRow, Section};
 use crate::process::shaping::ShapingJob;
-use crate::process::shaping::chips::ChipLedger;
-use crate::process::shaping::measure::flank_deflection::at_pitch_point_mm;
+use crate::process::shaping::cut::chips::ChipLedger;
+use crate::process::shaping::gear::measure::flank_deflection::at_pitch_point_mm;
 use crate::process::shaping::quantities::strokes::{DEFLECTION, IDLE_STROKE};
 use gearcut_core::units::UM_PER_MM;
 

@@ -7,10 +7,10 @@ use crate::findings::{Entry, QuantityRow};
 use crate::measure::stock::Extreme;
 use crate::process::shaping::ShapingJob;
 use crate::process::shaping::axes_report::OperationAxes;
-use crate::process::shaping::chips::{ChipLedger, OperationChips, StrokeChips};
+use crate::process::shaping::cut::chips::{ChipLedger, OperationChips, StrokeChips};
 use crate::process::shaping::gear::CutGear;
-use crate::process::shaping::measure::FlankReport;
-use crate::process::shaping::measure::unevenness::{ToothAllowance, summarise};
+use crate::process::shaping::gear::measure::FlankReport;
+use crate::process::shaping::gear::measure::unevenness::{ToothAllowance, summarise};
 use crate::process::shaping::quantities::{
     ENTRY_FORCE, IDLE_STROKES, LARGEST_SECTION, NO_ALLOWANCE, NO_CUSP, NO_ENTRY, NO_FLANK, NO_WITNESS, POINTED_TEETH,
     RELIEF_RATIO, SCALLOP, TIP_LAND, UNEVENNESS_MAX, UNEVENNESS_MEAN, WITNESS_MARK,

@@ -1,7 +1,7 @@
 //! A program under test: how far it lies off the scene's own strokes, and which strokes it leaves out.
 //!
-//! In: what [`crate::process::shaping::gcode::judge`] found. Out: a section of the operation, the sentences of the list
-//! of warnings, and whether numbers that are known of the scene's own strokes hold for the gear that is cut.
+//! In: what [`crate::process::shaping::motion::gcode::judge`] found. Out: a section of the operation, the sentences of
+//! the list of warnings, and whether numbers that are known of the scene's own strokes hold for the gear that is cut.
 
 use crate::findings::notices::ProgramOff;
 use crate::findings::quantities::program::{LARGEST_DISTANCE, PROGRAM};
@@ -10,8 +10,8 @@ use crate::measure::damage::gouge_mm;
 use crate::output::text::significant;
 use crate::process::shaping::ShapingJob;
 use crate::process::shaping::axes_report::OperationAxes;
-use crate::process::shaping::gcode::Judgement;
-use crate::process::shaping::measure::GearReport;
+use crate::process::shaping::gear::measure::GearReport;
+use crate::process::shaping::motion::gcode::Judgement;
 use crate::process::shaping::notices::{
     ProgramBack, ProgramBetween, ProgramForeign, ProgramMissing, ProgramSpeed, ProgramTwice,
 };

@@ -7,15 +7,15 @@
 use super::answers::{advice, answered};
 use crate::findings::{Entry, Notice, Place, Section, Table};
 use crate::process::shaping::linkage::retraction::RetractionLaw;
+use crate::process::shaping::motion::returns::facts::{Offer, ReturnFacts, TiltCost};
+use crate::process::shaping::motion::returns::plan::CLEAR_MM;
+use crate::process::shaping::motion::returns::survey::PlacedRoom;
 use crate::process::shaping::notices::{ReturnEnters, ReturnTight};
 use crate::process::shaping::quantities::returns::{
     ANGLE_AT, CLEARANCE, CLEARANCE_AT, CLEARING_SLOWDOWN, CLEARING_STROKES, CLEARING_TILT, CUTTER, DEPTH_AT,
     DEPTH_IN_STOCK, DIRECTION, LARGEST_CLEARING_TILT, NO_COST, NO_OFFER, NOWHERE_NEAR, OVERLAP, PHI, RETRACTION_ANGLE,
     RETURN_PLACES, RETURN_STROKES, SMALLEST_CLEARING_TILT,
 };
-use crate::process::shaping::returns::facts::{Offer, ReturnFacts, TiltCost};
-use crate::process::shaping::returns::plan::CLEAR_MM;
-use crate::process::shaping::returns::survey::PlacedRoom;
 use crate::process::shaping::scene::model::Retraction;
 use crate::process::shaping::{PreparedOperation, ShapingJob};
 use gearcut_core::error::Refusal;

@@ -11,6 +11,9 @@ use crate::findings::{Entry, Notice, Place, QuantityRow, Section, Table};
 use crate::measure::damage::LEAST_DEPTH_MM;
 use crate::output::text::significant;
 use crate::process::shaping::ShapingJob;
+use crate::process::shaping::gear::ring::{
+    CornerPath, RingFacts, RingTooth, ToothPlace, rolling_module_mm, rolling_teeth,
+};
 use crate::process::shaping::notices::{TipCorners, Trimmed};
 use crate::process::shaping::quantities::ring::{
     CLEARING_TEETH, CORNER_CLEARANCE, CORNERS_IN, CORNERS_OUT, HIGHEST_START, INVOLUTE_HEIGHT, INVOLUTE_LEFT,
@@ -19,7 +22,6 @@ use crate::process::shaping::quantities::ring::{
     ROLLING_MODULE, ROLLING_SHARE, ROLLING_TEETH, ROLLING_TEETH_AT, SMALLEST_RADIUS, START_LEFT, START_RIGHT,
     TIP_RELIEF, TIP_RELIEF_LEFT, TIP_RELIEF_RIGHT, TRIMMING, UNDERCUT,
 };
-use crate::process::shaping::ring::{CornerPath, RingFacts, RingTooth, ToothPlace, rolling_module_mm, rolling_teeth};
 use gearcut_core::gear::GearKind;
 use gearcut_core::units::UM_PER_MM;
 

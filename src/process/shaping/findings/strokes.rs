@@ -6,7 +6,7 @@ use super::deflection;
 use crate::findings::Table;
 use crate::findings::quantities::blank::{CUTTER_TOOTH, STROKE};
 use crate::process::shaping::ShapingJob;
-use crate::process::shaping::chips::{ChipLedger, StrokeChips};
+use crate::process::shaping::cut::chips::{ChipLedger, StrokeChips};
 use crate::process::shaping::quantities::strokes::{
     CONTACT_LEFT, CONTACT_RIGHT, CONTACT_TIP, CUTTER_TORQUE_OF_STROKE, CUTTING_TEETH, DEFLECTION, FORCE, LARGEST_CHIP,
     MEAN_THICKNESS, RADIAL_FORCE, RATE, SECTION, SPACE, TANGENTIAL_FORCE, THICKEST_LEFT, THICKEST_RIGHT, THICKEST_TIP,

@@ -7,7 +7,7 @@ use crate::findings::quantities::teeth::{
     CUMULATIVE_PITCH, FLANK_PITCH, PROBE_PLACE, THICKNESS_ARC, THICKNESS_CHORD, TOOTH,
 };
 use crate::findings::{Section, Table};
-use crate::process::shaping::measure::FlankReport;
+use crate::process::shaping::gear::measure::FlankReport;
 use crate::process::shaping::quantities::{SCALLOP, TIP_HEIGHT, TIP_LAND};
 use crate::steps::inspection::teeth::flank_table;
 use gearcut_core::terms::Side;

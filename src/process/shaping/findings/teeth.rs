@@ -8,9 +8,9 @@ use crate::findings::quantities::teeth::TOOTH;
 use crate::findings::{QuantityRow, Section, Table};
 use crate::measure::scallop::Cusp;
 use crate::measure::stock::{Extreme, Stock};
-use crate::process::shaping::measure::gear_report::OperationAllowance;
-use crate::process::shaping::measure::unevenness::ToothAllowance;
-use crate::process::shaping::measure::{FlankReport, GearReport};
+use crate::process::shaping::gear::measure::gear_report::OperationAllowance;
+use crate::process::shaping::gear::measure::unevenness::ToothAllowance;
+use crate::process::shaping::gear::measure::{FlankReport, GearReport};
 use crate::process::shaping::quantities::{
     A_X, A_Y, AB, B_X, B_Y, BELOW_RANGE_DEXELS, BELOW_TARGET, C_X, C_Y, CD, D_X, D_Y, ENVELOPE_AB, ENVELOPE_CD,
     ENVELOPE_UNEVENNESS, FLANK_END, FLANK_START, NO_CUSP_HERE, NO_WITNESS, NOTHING_BELOW, SCALLOP,

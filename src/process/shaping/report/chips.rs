@@ -5,10 +5,10 @@ use crate::findings::quantities::OPERATIONS;
 use crate::findings::quantities::cutting::LARGEST_FORCE;
 use crate::output::report::{Block, PageSection, Tone};
 use crate::process::shaping::ShapingJob;
-use crate::process::shaping::chip_charts::charts;
-use crate::process::shaping::chips::ChipLedger;
+use crate::process::shaping::cut::chips::ChipLedger;
 use crate::process::shaping::quantities::strokes::DEFLECTION;
 use crate::process::shaping::quantities::{CHIPS, LARGEST_SECTION};
+use crate::process::shaping::report::chip_charts::charts;
 use crate::steps::report::{headline_words, quantities};
 
 /// What the strokes of every operation take, and what that asks of cutter and machine.

@@ -5,8 +5,8 @@
 
 use crate::output::report::viewer::{ViewerStroke, ViewerStrokes};
 use crate::process::shaping::ShapingJob;
-use crate::process::shaping::chips::{ChipLedger, StrokeChips};
-use crate::process::shaping::section::{CutSection, cutter_solid};
+use crate::process::shaping::cut::chips::{ChipLedger, StrokeChips};
+use crate::process::shaping::cut::section::{CutSection, cutter_solid};
 use crate::surface::triangles::Triangles;
 use gearcut_core::frame::Rigid2;
 use gearcut_core::units::UM_PER_MM;

@@ -11,8 +11,8 @@ use crate::output::grid::{MapAxis, MapGrid};
 use crate::output::map_png::{MapPicture, write_map_png};
 use crate::output::text::significant;
 use crate::process::shaping::ShapingJob;
-use crate::process::shaping::chip_charts::{charts, shown_end};
-use crate::process::shaping::chips::{ChipLedger, ThicknessMap};
+use crate::process::shaping::cut::chips::{ChipLedger, ThicknessMap};
+use crate::process::shaping::report::chip_charts::{charts, shown_end};
 use gearcut_core::error::Result;
 use gearcut_core::units::UM_PER_MM;
 

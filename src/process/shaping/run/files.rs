@@ -9,7 +9,7 @@ use crate::output::table::write_tables;
 use crate::process::shaping::CutGear;
 use crate::process::shaping::ShapingJob;
 use crate::process::shaping::axes_report::OperationAxes;
-use crate::process::shaping::measure::unevenness::ToothAllowance;
+use crate::process::shaping::gear::measure::unevenness::ToothAllowance;
 use crate::steps::attempts::Attempts;
 use crate::steps::parts::Part;
 use crate::steps::sheets::write_sheets_and_flanks;

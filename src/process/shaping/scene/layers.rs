@@ -5,8 +5,7 @@
 
 use super::model::{BuiltUpEdge, EdgeRoughness, EdgeRounding, Shaping};
 use crate::machine_errors::{Compliance, ErrorLayer};
-use crate::output::text::plain;
-use crate::steps::machine_errors::{size, um};
+use crate::output::text::{plain, size, um};
 use gearcut_core::units::UM_PER_MM;
 
 /// A layer of shaping's own.

@@ -1,0 +1,126 @@
+//! The whole stock of a shaping job: its return strokes, and the target's section, with which the gear is compared.
+
+use crate::job::ToothSection;
+use crate::measure::target_outline::TargetOutline;
+use crate::process::shaping::ShapingJob;
+use crate::process::shaping::linkage::CutterPose;
+use crate::process::shaping::target::tip_relief::TipRelief;
+use crate::process::shaping::target::{FlankEnd, TargetFlank};
+use gearcut_core::cut::{Backend, CutBlank};
+use gearcut_core::dexel::BlankField;
+use gearcut_core::error::{Refusal, Result};
+use gearcut_core::passes::StrokeSet;
+use gearcut_core::terms::Side;
+use gearcut_core::units::TURN_RAD;
+use glam::DVec2;
+use rayon::prelude::*;
+
+impl ShapingJob {
+    /// Poses of the return strokes of an operation: the cutter drawn back out of the gear as its retraction says.
+    /// `None` where the machine does not back off.
+    ///
+    /// An axis program moves the axes for the retraction itself, unless the machine's own relief does.
+    pub fn return_strokes(&self, operation: usize) -> Option<StrokeSet> {
+        let operation = &self.operations[operation];
+        let back_off_mm = self.machine.back_off_mm;
+        let out = self.blank.kind().tip_sign();
+        let set = &operation.strokes;
+        let (retraction, schedule) = (&operation.retraction, &operation.schedule);
+        let resting = set.law.rests();
+        let return_middle = self.ram_times().return_middle;
+        let crank = self.machine.crank(self.scene.gear.face_width_mm);
+        let pose = |lambda: f64, z_mm: f64| {
+            let at_rest = if resting { crank.return_share(crank.tau(z_mm)) } else { 0.0 };
+            let pose = operation.pose_at_rest(lambda, at_rest);
+            let pose = if !retraction.is_in_axes() {
+                let back = pose.center_mm.normalize_or_zero() * (out * back_off_mm);
+                CutterPose { center_mm: pose.center_mm + back, ..pose }
+            } else if operation.program.is_some() {
+                // The axes draw back while the ram is outside the face.
+                let (later, at_rest) = if resting { (return_middle, at_rest - return_middle) } else { (0.0, 0.0) };
+                operation.pose_at_rest(lambda + later, at_rest)
+            } else {
+                retraction.retracted(schedule.linkage(), &pose, schedule.phi_rad(lambda))
+            };
+            operation.actual.placed(&pose, z_mm)
+        };
+        (back_off_mm > 0.0).then(|| StrokeSet::returning(set.first_pass, &self.cutter, set.law, set.count(), pose))
+    }
+
+    /// Runs all operations over the uncut blank, their return strokes checked; `advance` is called after every tile and
+    /// says whether to go on. `None`: stopped.
+    ///
+    /// # Errors
+    /// The backend's.
+    pub fn cut_blank(
+        &self,
+        backend: &dyn Backend,
+        field: BlankField,
+        advance: &(dyn Fn() -> bool + Sync),
+    ) -> Result<Option<CutBlank>> {
+        self.planar().cut_blank(backend, field, |operation| self.return_strokes(operation), advance)
+    }
+
+    /// The target's transverse section as a polygon with points `spacing_mm` apart; its error is the arrow height of so
+    /// long a chord.
+    ///
+    /// # Errors
+    /// A tooth without a flank, or one whose tip the cutter's base shapes: its outline is not known in closed form.
+    pub fn target_outline(&self, spacing_mm: f64) -> Result<TargetOutline, Refusal> {
+        let teeth: Vec<ToothSection> = (1..=self.scene.gear.teeth)
+            .into_par_iter()
+            .map(|tooth| self.tooth_section(tooth, spacing_mm))
+            .collect::<Result<_, _>>()?;
+        let points_mm = teeth.iter().flat_map(ToothSection::outline_mm).collect();
+        Ok(TargetOutline::new(points_mm, self.blank.back))
+    }
+
+    /// The target round a tooth, points about `spacing_mm` apart.
+    ///
+    /// # Errors
+    /// A tip that the cutter's base shapes: its outline is not known in closed form.
+    pub fn tooth_section(&self, tooth: u32, spacing_mm: f64) -> Result<ToothSection, Refusal> {
+        let [right, left] = [Side::Right, Side::Left].map(|side| self.target_flank(tooth, side));
+        let reliefs = [right, left].map(|flank| TipRelief::new(flank, &self.blank));
+        for (flank, relief) in [right, left].into_iter().zip(&reliefs) {
+            let known = match flank.tip_end {
+                FlankEnd::CutterBase => relief.is_some(),
+                end => end != FlankEnd::Undercut,
+            };
+            if !known {
+                return Err(Refusal::new(
+                    "tool.shaper_cutter",
+                    format!(
+                        "the tip of tooth {tooth} is shaped by the cutter's base; its target is not known in closed \
+                        form"
+                    ),
+                    "use a smaller gear.addendum_coefficient or a cutter with more teeth",
+                ));
+            }
+        }
+        let along = |flank: &TargetFlank| -> Vec<DVec2> {
+            let count = (flank.length_mm() / spacing_mm).ceil().max(1.0) as usize;
+            (0..=count).map(|i| flank.at_arc(flank.length_mm() * i as f64 / count as f64).point_mm).collect()
+        };
+        let relieved = |relief: &Option<TipRelief>| relief.as_ref().map_or(Vec::new(), |r| r.points_mm(spacing_mm));
+        let [right_tip, left_tip] = reliefs.each_ref().map(relieved);
+        let mut points = along(right);
+        points.extend(&right_tip);
+        if left.tip_end != FlankEnd::PointedTip && right.tip_end != FlankEnd::PointedTip {
+            let foot = |flank: &TargetFlank, tip_mm: &[DVec2]| {
+                let tip = flank.at_arc(flank.length_mm());
+                self.blank.height(tip_mm.last().copied().unwrap_or(tip.point_mm), tip.phi_rad).1
+            };
+            let (from, to) = (foot(right, &right_tip), foot(left, &left_tip));
+            // Tips lie within a tooth of each other, but contact angles may be a turn apart.
+            let to = from + (to - from).rem_euclid(TURN_RAD);
+            let land = |phi: f64| self.blank.outline_mm(phi);
+            let count = (land(from).distance(land(to)) / spacing_mm).ceil().max(1.0) as usize;
+            points.extend((1..count).map(|i| land(from + (to - from) * i as f64 / count as f64)));
+        }
+        points.extend(left_tip.into_iter().rev());
+        points.extend(along(left).into_iter().rev());
+        let (fillet, ends) = self.target_fillet(tooth);
+        Ok(ToothSection { tooth_mm: points, root_mm: fillet.chain_mm(ends, spacing_mm) })
+    }
+}

@@ -1,0 +1,168 @@
+//! Surfaces of a shaped gear, as meshes, pictures and texture ask for them.
+//!
+//! Roots and tips are coarse fields of their own: roots along the normals of the target's fillet, tips along the
+//! normals of the pitch curve.
+
+use crate::findings::Notice;
+use crate::job::{CylindricalGear, GearJob, ToolSection, ToothFrame, ToothSection, teeth_of_extreme_radius};
+use crate::measure::round_gear::{RoundGear, ToothEnds, is_round};
+use crate::measure::thickness::Thickness;
+use crate::process::shaping::cut::section::cutter_outline;
+use crate::process::shaping::cut::stroke_noise;
+use crate::process::shaping::gear::measure::flank_report;
+use crate::process::shaping::job::ShapingJob;
+use crate::scene::Scene;
+use crate::surface::SurfaceGrid;
+use crate::surface::flanks::points_of_sections;
+use crate::surface::triangles::SectionProfile;
+use gearcut_core::cut::Backend;
+use gearcut_core::dexel::{Layer, Ray};
+use gearcut_core::error::Result;
+use gearcut_core::gear::PitchCurve;
+use gearcut_core::gear::blank::Blank;
+use gearcut_core::terms::Side;
+use glam::DVec2;
+
+impl GearJob for ShapingJob {
+    fn scene(&self) -> &Scene {
+        &self.scene
+    }
+
+    fn operations(&self) -> Vec<(&str, f64)> {
+        self.operations.iter().map(|o| (o.spec.name.as_str(), o.spec.offset_mm)).collect()
+    }
+
+    fn passes(&self) -> u32 {
+        self.operations.last().map_or(0, |operation| operation.strokes.end_pass())
+    }
+
+    fn unfollowed_errors(&self) -> Vec<Notice> {
+        stroke_noise::warnings(self)
+    }
+
+    fn marks_follow_along_tooth(&self, operation: usize) -> bool {
+        self.operations[operation].spec.feed_during_stroke
+    }
+
+    fn profile_length_mm(&self, tooth: u32, side: Side) -> Result<f64> {
+        Ok(self.target_flank(tooth, side).length_mm())
+    }
+
+    fn evaluated_profile_mm(&self, tooth: u32, side: Side) -> Result<[f64; 2]> {
+        Ok(flank_report::evaluated_profile_mm(self, self.target_flank(tooth, side)))
+    }
+
+    fn teeth_that_differ_most(&self) -> Vec<u32> {
+        teeth_of_extreme_radius(&self.curve, self.scene.gear.teeth)
+    }
+
+    fn tooth_frame(&self, tooth: u32) -> ToothFrame {
+        ToothFrame::of_cylinder(&self.blank, &self.scene.gear, tooth)
+    }
+
+    fn target_points(&self, tooth: u32, side: Side, arcs_mm: &[f64], rows_mm: &[f64]) -> Result<Vec<Vec<Ray>>> {
+        self.target_in_space(tooth, side, arcs_mm, rows_mm)
+    }
+
+    fn cut_flank(
+        &self,
+        backend: &dyn Backend,
+        tooth: u32,
+        side: Side,
+        arcs_mm: &[f64],
+        rows_z_mm: &[f64],
+    ) -> Result<Vec<Layer>> {
+        let field = self.field_over(self.target_flank(tooth, side), arcs_mm.iter().copied(), rows_z_mm.to_vec());
+        Ok(self.cut_on_flank(backend, (tooth, side), field)?.layers)
+    }
+
+    fn cylindrical(&self) -> Option<&dyn CylindricalGear> {
+        Some(self)
+    }
+}
+
+impl CylindricalGear for ShapingJob {
+    fn curve(&self) -> &PitchCurve {
+        &self.curve
+    }
+
+    fn blank(&self) -> &Blank {
+        &self.blank
+    }
+
+    fn round_gear(&self) -> Result<Option<RoundGear>> {
+        let tooth = self.target(1);
+        let [left, right] = [Side::Left, Side::Right].map(|side| tooth.pitch_crossing(side));
+        let (Some(left), Some(right), true) = (left, right, is_round(&self.curve)) else { return Ok(None) };
+        let flank = tooth.flank(Side::Left);
+        let involute_mm = [0.0, flank.length_mm()].map(|arc_mm| 2.0 * flank.at_arc(arc_mm).point_mm.length());
+        let finishing = self.finishing();
+        let center_mm = finishing.linkage.pose(0.0, finishing.spec.offset_mm).center_mm.length();
+        let root_mm = 2.0 * (center_mm - self.blank.kind().tip_sign() * self.cutter.tip_radius_mm);
+        let thickness_mm = Thickness::between(left, right).arc_mm;
+        Ok(Some(RoundGear::new(&self.scene.gear, ToothEnds { root_mm, involute_mm }, thickness_mm)))
+    }
+
+    fn view_rows_z_mm(&self) -> Vec<f64> {
+        let half_mm = 0.5 * self.scene.gear.face_width_mm;
+        vec![-half_mm, half_mm]
+    }
+
+    fn target_profiles(
+        &self,
+        tooth: u32,
+        side: Side,
+        arcs_mm: &[f64],
+        rows_z_mm: &[f64],
+    ) -> Result<Vec<SectionProfile>> {
+        let target = self.target_flank(tooth, side);
+        let profile: SectionProfile = arcs_mm
+            .iter()
+            .map(|&arc| target.at_arc(arc))
+            .map(|contact| (contact.point_mm, contact.normal.extend(0.0)))
+            .collect();
+        Ok(vec![profile; rows_z_mm.len()])
+    }
+
+    fn target_roots(&self, space: u32, spacing_mm: f64, rows_z_mm: &[f64]) -> Result<Vec<SectionProfile>> {
+        let points = self.target_root(space, spacing_mm);
+        let profile: SectionProfile = points.iter().map(|point| (point.point_mm, point.normal.extend(0.0))).collect();
+        Ok(vec![profile; rows_z_mm.len()])
+    }
+
+    fn cut_root(
+        &self,
+        backend: &dyn Backend,
+        space: u32,
+        spacing_mm: f64,
+        rows_z_mm: &[f64],
+    ) -> Result<Vec<Vec<DVec2>>> {
+        let mut field = self.planar().root_field(&self.target_root(space, spacing_mm));
+        field.rows_z_mm = rows_z_mm.to_vec();
+        let cut = self.cut(backend, field)?;
+        Ok(points_of_sections(&cut.field, &cut.layers))
+    }
+
+    fn target_section(&self, tooth: u32, _z_mm: f64, spacing_mm: f64) -> Result<ToothSection> {
+        Ok(self.tooth_section(tooth, spacing_mm)?)
+    }
+
+    fn tool_section(&self, chord_mm: f64) -> ToolSection {
+        let words = format!(
+            "shaper cutter of {} teeth, profile projected along the stroke, origin on its axis",
+            self.cutter.teeth
+        );
+        ToolSection { points_mm: cutter_outline(self, chord_mm), is_closed: true, words }
+    }
+
+    fn tip_surface(&self, backend: &dyn Backend, tooth: u32) -> Result<Option<SurfaceGrid>> {
+        let foot = |side| {
+            let flank = self.target_flank(tooth, side);
+            let tip = flank.at_arc(flank.length_mm());
+            self.blank.height(tip.point_mm, tip.phi_rad).1
+        };
+        let Some(field) = self.planar().tip_field([Side::Right, Side::Left].map(foot)) else { return Ok(None) };
+        let cut = self.cut(backend, field)?;
+        Ok(Some(SurfaceGrid::new(&cut.field, &cut.layers, self.scene.output.mesh_spacing_mm)))
+    }
+}

@@ -1,0 +1,161 @@
+//! Where the cutter really stands: the commanded axes with the errors of machine and clamping.
+//!
+//! In: the strokes of an operation or the program that is cut instead, and the machine's errors. Out: poses for the
+//! passes, at every stroke coordinate and every place along the tooth. What is commanded stays in tables, charts and
+//! programs.
+//!
+//! The gear's frame is that of its own axis: an eccentric or leaning gear sees the cutter shifted against it by the
+//! same amount. The lean itself turns the section by less than its square, 5e-7 mm on a face of 100 mm that leans by
+//! 10 um, and is left out; so is what an axial offset does to the moment at which the ram passes.
+//!
+//! While the feed rests during a stroke the commanded axes stand still, but noise of a bandwidth goes on: at a place
+//! along the tooth it is that of the moment at which the ram passes there.
+
+use crate::machine::{AxisMotion, Motion};
+use crate::machine_errors::{
+    ActualMotion, AxisNoise, Course, Guide, MachineErrors, MachineMoment, NoiseLaw, WorkMounting,
+};
+use crate::process::shaping::linkage::{CutterPose, StrokeSchedule};
+use crate::process::shaping::motion::gcode::AxisProgram;
+use crate::process::shaping::scene::model::StockScatter;
+use gearcut_core::frame::Rigid2;
+use gearcut_core::gear::GearKind;
+use glam::DVec2;
+
+/// Strokes before the first and after the last one at which poses are asked for: the way back of the last, and room.
+const BEYOND_STROKES: f64 = 2.0;
+/// The way back begins this part of a double stroke after the stroke's own moment, and ends as much before the next.
+const BEFORE_STROKE: f64 = 0.25;
+
+/// What the axes are told: the strokes of the linkage, or a program in their place.
+#[derive(Debug, Clone, Copy)]
+pub struct Commanded<'a> {
+    /// The strokes.
+    pub schedule: &'a StrokeSchedule,
+    /// The program.
+    pub program: Option<&'a AxisProgram>,
+}
+
+/// Errors over the strokes of an operation.
+#[derive(Debug, Clone)]
+pub struct ActualStrokes {
+    motion: Option<ActualMotion<3>>,
+    /// Whether noise goes on while the feed rests.
+    noise_at_rest: bool,
+    guide: Guide,
+    mounting: WorkMounting,
+    gear: GearKind,
+    half_face_mm: f64,
+    start_s: f64,
+}
+
+impl Commanded<'_> {
+    /// Axes at a stroke coordinate: work angle and cutter angle, rad, centre distance, mm.
+    fn positions(&self, stroke: f64) -> [f64; 3] {
+        match self.program {
+            Some(program) => program.at(stroke).axes(),
+            None => {
+                let state = self.schedule.state(stroke);
+                [state.psi_c_rad, state.psi_b_rad, state.center_distance_mm]
+            }
+        }
+    }
+
+    fn motion(&self, stroke: f64) -> [AxisMotion; 3] {
+        let strokes_per_s = 1.0 / self.schedule.time_s(1.0);
+        match self.program {
+            Some(program) => {
+                let (positions, rates) = (program.at(stroke).axes(), program.rates(stroke));
+                std::array::from_fn(|axis| AxisMotion {
+                    position: positions[axis],
+                    velocity: rates[axis] * strokes_per_s,
+                    acceleration: 0.0,
+                })
+            }
+            None => self.schedule.at(stroke),
+        }
+    }
+
+    /// All strokes, with room at both ends.
+    fn course(&self) -> Course {
+        let schedule = self.schedule;
+        let last = (schedule.count() - 1) as f64 + BEYOND_STROKES;
+        let corners: Vec<f64> = match self.program {
+            Some(program) => program.knots.iter().map(|knot| knot.stroke).collect(),
+            None => schedule.corners().to_vec(),
+        };
+        let turns = (last + BEYOND_STROKES) / f64::from(schedule.strokes_per_revolution());
+        let per_turn = schedule.linkage().curve().samples_per_turn() as f64;
+        Course {
+            from_s: schedule.time_s(-BEYOND_STROKES),
+            to_s: schedule.time_s(last),
+            corners_s: corners.into_iter().map(|stroke| schedule.time_s(stroke)).collect(),
+            cells: (per_turn * turns).ceil().max(64.0) as usize,
+        }
+    }
+}
+
+/// Errors of an operation whose stock scatters: its centre distance does, which holds the cutter back.
+pub fn scattered(
+    errors: &MachineErrors<3>,
+    scatter: Option<StockScatter>,
+    schedule: &StrokeSchedule,
+) -> MachineErrors<3> {
+    let mut errors = errors.clone();
+    if let Some(StockScatter { deviation_mm, length_mm, draws }) = scatter {
+        let turn_s = schedule.time_s(f64::from(schedule.strokes_per_revolution()));
+        let mm_per_s = schedule.linkage().curve().perimeter_mm() / turn_s;
+        let law = length_mm.map_or(NoiseLaw::EachPassage, |length| NoiseLaw::along_feed(length / mm_per_s));
+        let [_, _, center_distance] = &mut errors.axes;
+        center_distance.noise.push(AxisNoise { deviation: deviation_mm, law, draws });
+    }
+    errors
+}
+
+impl ActualStrokes {
+    /// Errors over the strokes of an operation that begins `start_s` after the first one.
+    pub fn new(errors: &MachineErrors<3>, commanded: Commanded<'_>, start_s: f64, half_face_mm: f64) -> Self {
+        let seconds_per_stroke = commanded.schedule.time_s(1.0);
+        let at = |time_s: f64| commanded.motion(time_s / seconds_per_stroke);
+        Self {
+            motion: ActualMotion::new(&errors.axes, &commanded.course(), at),
+            noise_at_rest: errors.axes.iter().flat_map(|axis| &axis.noise).any(|noise| noise.law.goes_on_at_rest()),
+            guide: errors.guide,
+            mounting: errors.mounting,
+            gear: commanded.schedule.linkage().gear(),
+            half_face_mm,
+            start_s,
+        }
+    }
+
+    /// Whether sections at different places along the tooth are cut differently while the axes rest.
+    pub fn differs_along_tooth(&self) -> bool {
+        !self.guide.is_none() || self.mounting.wobble_rad != 0.0 || self.noise_at_rest
+    }
+
+    /// Cutter in the spindle's frame at a stroke coordinate; `at_rest` double strokes later where the feed rests from
+    /// there on.
+    pub fn pose(&self, commanded: Commanded<'_>, stroke: f64, at_rest: f64) -> CutterPose {
+        let Some(motion) = &self.motion else { return CutterPose::new(self.gear, commanded.positions(stroke)) };
+        let seconds_per_stroke = commanded.schedule.time_s(1.0);
+        let time_s = commanded.schedule.time_s(stroke);
+        let strokes_before = (self.start_s / seconds_per_stroke).round();
+        let moment = MachineMoment {
+            time_s,
+            since_start_s: self.start_s + time_s,
+            at_rest_s: at_rest * seconds_per_stroke,
+            passage: (strokes_before + stroke + BEFORE_STROKE).floor() as i64,
+            indexed: [0.0; 3],
+        };
+        let positions = motion.positions(&moment, |time_s| commanded.positions(time_s / seconds_per_stroke));
+        CutterPose::new(self.gear, positions)
+    }
+
+    /// A cutter that stands in the spindle's frame, in the gear's frame at a place along the tooth: led there by the
+    /// guide, seen from the gear's own axis.
+    pub fn placed(&self, pose: &CutterPose, z_mm: f64) -> Rigid2 {
+        let shift_mm = self.guide.shift_mm(z_mm + self.mounting.axial_offset_mm, self.half_face_mm);
+        let outwards = pose.center_mm.normalize_or(DVec2::X);
+        Rigid2::new(pose.angle_rad, pose.center_mm + outwards.rotate(shift_mm) - self.mounting.axis_mm(z_mm))
+    }
+}

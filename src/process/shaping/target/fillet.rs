@@ -1,0 +1,139 @@
+//! The fillet of a space: the path of the cutter's tip, from the left flank of the space to the right one.
+//!
+//! In: the generation of an operation, a space. Out: [`Fillet`], a curve over a parameter that counts its pieces, and
+//! points along it, on which the dexels of a root stand.
+//!
+//! Each part of the cutter's tip (corners, tip circle) touches over one range of phi; the ranges are found on a grid
+//! and follow each other. Parts that never touch (a tip circle in a sharp hollow) are left out.
+//!
+//! Which way phi runs along a piece follows from its normal: on the way from left to right the outside of an external
+//! gear lies to the right, that of a ring to the left. Road not taken: the ends' polar angles. The path of a corner
+//! that undercuts swings back under the tooth, and its ends say nothing.
+
+use crate::process::shaping::target::generation::{Generation, TipPart};
+use crate::steps::planar::ProfilePoint;
+use gearcut_core::math::roots::halve;
+use glam::DVec2;
+use std::f64::consts::PI;
+
+/// Chords by which the length of a piece is taken.
+const CHORDS: u32 = 64;
+/// Steps of the grid on which a part's contact is sought, and of the walk to its ends, to a pitch.
+const STEPS_PER_PITCH: f64 = 128.0;
+
+/// Path of a cutter tooth's tip in the gear frame.
+#[derive(Debug, Clone)]
+pub struct Fillet<'a> {
+    generation: &'a Generation,
+    space: i64,
+    pieces: Vec<FilletPiece>,
+}
+
+/// What one part of the tip leaves.
+#[derive(Debug, Clone, Copy)]
+struct FilletPiece {
+    part: TipPart,
+    /// Parameter of the linkage at its end on the left and on the right.
+    phi_rad: [f64; 2],
+}
+
+impl<'a> Fillet<'a> {
+    /// Of the space after tooth `space` (space 0 is centred on phi = 0).
+    pub fn new(generation: &'a Generation, space: i64) -> Self {
+        let curve = generation.linkage.curve();
+        let pitch_arc_mm = 2.0 * PI * generation.cutter.pitch_radius_mm / f64::from(generation.cutter.teeth);
+        let phi_space = curve.phi_at_arc(space as f64 * pitch_arc_mm);
+        let step = pitch_arc_mm / curve.frame(phi_space).arc_rate_mm_per_rad / STEPS_PER_PITCH;
+        let piece = |part: TipPart| {
+            let contact = |phi: f64| generation.tip_contact(phi, space, &part);
+            let inside = |phi: f64| contact(phi).is_some();
+            // Contact may start anywhere within a pitch of the space: the grid finds it, bisection its ends.
+            let seed = (0..256)
+                .map(|i| phi_space + step * f64::from((i + 1) / 2 * (1 - 2 * (i % 2))))
+                .find(|&phi| inside(phi))?;
+            let (from, to) = (boundary(seed, -step, inside)?, boundary(seed, step, inside)?);
+            let [a, b] = [0.5, 0.5 + 1.0 / f64::from(CHORDS)].map(|share| contact(from + share * (to - from)));
+            let ((a, normal), (b, _)) = (a?, b?);
+            let is_backwards = (b - a).dot(normal.perp()) * generation.gear().tip_sign() < 0.0;
+            Some(FilletPiece { part, phi_rad: if is_backwards { [to, from] } else { [from, to] } })
+        };
+        Self { generation, space, pieces: generation.tip_parts().into_iter().filter_map(piece).collect() }
+    }
+
+    /// End of the parameter: the number of pieces.
+    pub fn end(&self) -> f64 {
+        self.pieces.len() as f64
+    }
+
+    /// Parameter of the linkage, point (gear frame, mm) and normal out of the gear at a place, 0 to [`Self::end`] from
+    /// left to right.
+    pub fn at(&self, place: f64) -> Option<(f64, DVec2, DVec2)> {
+        let index = (place as usize).min(self.pieces.len().checked_sub(1)?);
+        self.on_piece(&self.pieces[index], place - index as f64)
+    }
+
+    fn on_piece(&self, piece: &FilletPiece, share: f64) -> Option<(f64, DVec2, DVec2)> {
+        let [from, to] = piece.phi_rad;
+        let phi = from + (to - from) * share;
+        let (point, normal) = self.generation.tip_contact(phi, self.space, &piece.part)?;
+        Some((phi, point, normal))
+    }
+
+    /// Points about `spacing_mm` apart between two places, both and all ends of pieces between them included.
+    pub fn chain_mm(&self, [from, to]: [f64; 2], spacing_mm: f64) -> Vec<DVec2> {
+        let joints = (0..=self.pieces.len()).map(|joint| joint as f64).filter(|&joint| joint > from && joint < to);
+        let ends: Vec<f64> = [from].into_iter().chain(joints).chain([to]).collect();
+        let end_mm = |place: f64| self.at(place).map(|(_, point_mm, _)| point_mm);
+        let piece = |pair: &[f64]| {
+            let inside = self.points([pair[0], pair[1]], spacing_mm).into_iter().map(|point| point.point_mm);
+            end_mm(pair[0]).into_iter().chain(inside).collect::<Vec<_>>()
+        };
+        ends.windows(2).flat_map(piece).chain(end_mm(to)).collect()
+    }
+
+    /// Points about `spacing_mm` apart between two places, half a spacing off the ends of every piece.
+    pub fn points(&self, [from, to]: [f64; 2], spacing_mm: f64) -> Vec<ProfilePoint> {
+        let mut points: Vec<ProfilePoint> = Vec::new();
+        for (index, piece) in self.pieces.iter().enumerate() {
+            let shares = [from, to].map(|place| (place - index as f64).clamp(0.0, 1.0));
+            let share_at = |part: f64| shares[0] + (shares[1] - shares[0]) * part;
+            let chords: Vec<(f64, DVec2)> = (0..=CHORDS)
+                .filter_map(|i| {
+                    let share = share_at(f64::from(i) / f64::from(CHORDS));
+                    self.on_piece(piece, share).map(|(_, point, _)| (share, point))
+                })
+                .collect();
+            let length: f64 = chords.windows(2).map(|w| w[0].1.distance(w[1].1)).sum();
+            let count = (length / spacing_mm).ceil().max(1.0) as u32;
+            let mut arc = points.last().map_or(0.0, |p| p.arc_mm);
+            let mut travelled = 0.0;
+            let mut next = 0.5 * length / f64::from(count);
+            for pair in chords.windows(2) {
+                let length_mm = pair[0].1.distance(pair[1].1);
+                while next <= travelled + length_mm && length_mm > 0.0 {
+                    let share = pair[0].0 + (pair[1].0 - pair[0].0) * (next - travelled) / length_mm;
+                    if let Some((phi_rad, point_mm, normal)) = self.on_piece(piece, share) {
+                        arc += points.last().map_or(0.0, |p| p.point_mm.distance(point_mm));
+                        points.push(ProfilePoint { arc_mm: arc, point_mm, normal, phi_rad });
+                    }
+                    next += length / f64::from(count);
+                }
+                travelled += length_mm;
+            }
+        }
+        points
+    }
+}
+
+/// Last place where `inside` holds, walking from `start` (inside) by `step` and halving at the end.
+pub(in crate::process::shaping) fn boundary(start: f64, step: f64, inside: impl Fn(f64) -> bool) -> Option<f64> {
+    let mut last = start;
+    let outside = (1..=512).map(|i| start + step * f64::from(i)).find(|&phi| {
+        let holds = inside(phi);
+        if holds {
+            last = phi;
+        }
+        !holds
+    })?;
+    Some(halve(inside, last, outside, 60)[0])
+}
