@@ -7,7 +7,7 @@ use gearcut::interrupt::Interrupt;
 use gearcut::study::file::{folder_of, read};
 use gearcut::study::plan::Shard;
 use gearcut::{Error, Result};
-use pyo3::exceptions::PyKeyboardInterrupt;
+use pyo3::exceptions::{PyKeyboardInterrupt, PyValueError};
 use pyo3::prelude::*;
 use std::path::PathBuf;
 
@@ -17,13 +17,14 @@ pub fn study(
     py: Python<'_>,
     path: PathBuf,
     out: Option<PathBuf>,
-    (number, of): (u64, u64),
+    shard: (u64, u64),
     most_cases: u64,
     watcher: Option<Py<PyAny>>,
 ) -> PyResult<PathBuf> {
     let interrupt = Interrupt::default();
     let watch = EventWatch::new(watcher, &interrupt);
-    let shard = format!("{number}/{of}").parse::<Shard>().map_err(pyo3::exceptions::PyValueError::new_err)?;
+    let (number, of) = shard;
+    let shard: Shard = format!("{number}/{of}").parse().map_err(PyValueError::new_err)?;
     let stem = path.file_stem().map_or_else(|| "study".into(), |stem| stem.to_string_lossy().into_owned());
     let out = out.unwrap_or_else(|| folder_of(&format!("{stem}_study"), shard));
     let (made, raised) = waited(py, &interrupt, || -> Result<_> {
