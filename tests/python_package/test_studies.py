@@ -17,6 +17,7 @@ STUDY = """
 [study]
 scene = "round.toml"
 command = "axes"
+settings = ["operation.finish.strokes_per_revolution=2400"]
 keep = ["operations.finish.axes.work_speed.peak"]
 [[parameter]]
 key = "machine.double_strokes_per_minute"
