@@ -2,7 +2,7 @@
 //! passes near a row against all passes; the device against the native backend; the closed body.
 
 use super::jobs::job;
-use crate::fixtures::layers::{FRAMES_MM, same_but_for_rounding};
+use crate::fixtures::layers::same_but_for_rounding;
 use gearcut::bevel::face_mill::{BladeKind, FaceMill};
 use gearcut::cut::Backend;
 use gearcut::cut::cpu::Cpu;
@@ -292,7 +292,7 @@ fn candidates_of_whole_cells_leave_what_all_passes_near_their_rows_leave() {
             println!("{scene}: {} pairs of {}", in_tiles.stats.dexel_passes, near.stats.dexel_passes);
             assert!(in_tiles.stats.dexel_passes < near.stats.dexel_passes);
             for (in_tiles, near) in in_tiles.layers.iter().zip(&near.layers) {
-                same_but_for_rounding(&format!("{scene}, slot {slot}"), in_tiles, near, FRAMES_MM);
+                same_but_for_rounding(&format!("{scene}, slot {slot}"), in_tiles, near);
                 assert!(*near != swept.field.blank_layer());
             }
         }

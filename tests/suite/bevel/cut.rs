@@ -2,7 +2,7 @@
 //! all passes; the device against the native backend.
 
 use super::jobs::job;
-use crate::fixtures::layers::{FRAMES_MM, same_but_for_rounding};
+use crate::fixtures::layers::same_but_for_rounding;
 use gearcut::bevel::ease_off::Setting;
 use gearcut::cut::Backend;
 use gearcut::cut::cpu::Cpu;
@@ -212,7 +212,7 @@ fn candidates_and_all_passes_leave_the_same_flank() {
                 layer
             });
             assert!(layer == all, "tooth {tooth} {side:?}, operation {operation}");
-            same_but_for_rounding(&format!("tooth {tooth} {side:?}"), &in_tiles, &all, FRAMES_MM);
+            same_but_for_rounding(&format!("tooth {tooth} {side:?}"), &in_tiles, &all);
             assert!(layer != rays.field.blank_layer());
         }
     }

@@ -1,6 +1,6 @@
 //! The spatial kernel against an independent implementation: heights of hobbed flanks, the passes that left them.
 
-use crate::fixtures::layers::{FRAMES_MM, same_but_for_rounding};
+use crate::fixtures::layers::same_but_for_rounding;
 use crate::fixtures::oracle_cases::*;
 use gearcut::cut::Backend;
 use gearcut::cut::cpu::{Cpu, Vectors};
@@ -103,17 +103,6 @@ fn target_rays_are_those_of_the_independent_implementation() {
 
 /// Two plans of one field leave the same bytes.
 pub(super) fn same_as_brute_force(name: &str, passes: &TurningPasses, field: &SpatialField, start: &Layer) -> Layer {
-    same_within_frames(name, passes, field, start, FRAMES_MM)
-}
-
-/// The same where frames of tiles may be so far apart, mm.
-pub(super) fn same_within_frames(
-    name: &str,
-    passes: &TurningPasses,
-    field: &SpatialField,
-    start: &Layer,
-    frames_mm: f32,
-) -> Layer {
     let run = |plan: &SweepPlan, every_root: bool| {
         let mut layer = start.clone();
         let stats = Cpu::default().cut_spatial(field, plan, &mut layer).expect("cuts");
@@ -136,7 +125,7 @@ pub(super) fn same_within_frames(
     );
     assert!(differ.is_empty(), "{name}: dexel {} of {}", differ[0], field.len());
     let in_tiles = run(&SweepPlan::in_tiles(field, passes), false);
-    same_but_for_rounding(name, &in_tiles, &brute, frames_mm);
+    same_but_for_rounding(name, &in_tiles, &brute);
     brute
 }
 
