@@ -2,7 +2,6 @@
 //! passes near a row against all passes; the device against the native backend; the closed body.
 
 use super::jobs::job;
-use crate::fixtures::layers::same_but_for_rounding;
 use gearcut::bevel::face_mill::{BladeKind, FaceMill};
 use gearcut::cut::Backend;
 use gearcut::cut::cpu::Cpu;
@@ -274,31 +273,6 @@ fn candidates_and_all_passes_leave_the_same_cell() {
     assert!(visits[1] > 3 * visits[0], "{visits:?}");
 }
 
-/// What a device looks at: the candidates of a whole cell, tile by tile.
-#[test]
-fn candidates_of_whole_cells_leave_what_all_passes_near_their_rows_leave() {
-    let roll = "operation.finish.roll_speed_deg_per_s=10";
-    for (scene, slots) in [("five_linkage_corrected", [0, 40]), ("crown_pinion", [1, 3]), ("hypoid", [0, 5])] {
-        let job = coarse(scene, &[roll, "fields.blank.spacing_mm=0.3"]);
-        let grid = CellGrid::of_scene(&job).expect("rays");
-        for slot in slots {
-            let swept = job.swept_cell(&grid, slot, false);
-            let cpu = Cpu::default();
-            let [near, in_tiles] = [
-                swept.cut_in_turn(&cpu, |set| swept.by.plans(&swept.field, set)),
-                swept.cut_in_turn(&cpu, |set| [SweepPlan::in_tiles(&swept.field, set)].into_iter()),
-            ]
-            .map(|cut| cut.expect("cuts"));
-            println!("{scene}: {} pairs of {}", in_tiles.stats.dexel_passes, near.stats.dexel_passes);
-            assert!(in_tiles.stats.dexel_passes < near.stats.dexel_passes);
-            for (in_tiles, near) in in_tiles.layers.iter().zip(&near.layers) {
-                same_but_for_rounding(&format!("{scene}, slot {slot}"), in_tiles, near);
-                assert!(*near != swept.field.blank_layer());
-            }
-        }
-    }
-}
-
 /// Passes that are left out because they stay clear of a row take nothing from it.
 #[test]
 fn passes_near_a_row_and_all_passes_leave_the_same() {
@@ -344,8 +318,7 @@ fn the_body_is_closed_and_has_the_volume_of_the_rays() {
 #[cfg(feature = "gpu")]
 #[test]
 fn the_device_cuts_the_same_cell() {
-    use crate::fixtures::parity::{Parity, cut_both_in_space, software_gpu, strict};
-    use gearcut::cut::SweptField;
+    use crate::fixtures::parity::{cut_both_in_space, software_gpu, strict};
     /// As on flanks, but rays lean by the blades' angle against the surface, which stretches errors by 1 / sin 20 deg.
     const SWEPT_NM: f64 = 6.0;
     let gpu = software_gpu(strict());
@@ -356,17 +329,4 @@ fn the_device_cuts_the_same_cell() {
     let (parity, _, _, _) = cut_both_in_space(&gpu, "slot 2, row 4", &field, &plan);
     println!("{parity}");
     assert_eq!(parity.verdict_within(SWEPT_NM), Ok(()));
-    // The whole cell through both operations, as a run cuts it.
-    let swept = job.swept_cell(&grid, 2, false);
-    let [native, got] =
-        [&Cpu::default() as &dyn Backend, &gpu].map(|backend| swept.clone().cut(backend).expect("cuts"));
-    let mut parity = Parity::default();
-    for (native, got) in native.layers.iter().zip(&got.layers) {
-        parity.add("slot 2", grid.columns, native, &[], got);
-    }
-    println!("{parity}");
-    assert_eq!(parity.verdict_within(SWEPT_NM), Ok(()));
-    // The next slot's blades stand at another phase, and are seen.
-    let other = SweptField { field: swept.field.clone(), ..job.swept_cell(&grid, 3, false) }.cut(&gpu).expect("cuts");
-    assert!(other.layers != got.layers);
 }

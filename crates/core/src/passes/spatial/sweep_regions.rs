@@ -116,18 +116,19 @@ pub struct Region<'a> {
 impl<'a> Region<'a> {
     /// All of a field, in tiles short enough for culling.
     pub fn whole(field: &'a SpatialField) -> Self {
-        Self::in_tiles(field, [TILE_COLUMNS, short_tile(TILE_ROWS, field, [0, 1])])
+        let along_mm = |row: usize| field.ray(0, row).origin_mm;
+        let apart_mm = if field.rows() > 1 { along_mm(0).distance(along_mm(1)) } else { 0.0 };
+        let mut tile = TILE_ROWS;
+        while tile > 1 && tile as f64 * apart_mm > LONGEST_TILE_MM {
+            tile /= 2;
+        }
+        Self::in_tiles(field, tile)
     }
 
-    /// The same in tiles that are no longer across the tooth either: in f32 a frame may not reach far.
-    pub fn in_small_tiles(field: &'a SpatialField) -> Self {
-        Self::in_tiles(field, [short_tile(TILE_COLUMNS, field, [1, 0]), short_tile(TILE_ROWS, field, [0, 1])])
-    }
-
-    /// All of a field, in tiles of so many columns and rows.
-    pub fn in_tiles(field: &'a SpatialField, [columns, rows]: [usize; 2]) -> Self {
+    /// All of a field, in tiles of so many rows.
+    pub fn in_tiles(field: &'a SpatialField, rows: usize) -> Self {
         let span = |lines: usize, tile: usize| LineSpan::new(0, lines.div_ceil(tile), tile, lines - 1);
-        Self::new(field, span(field.columns(), columns), span(field.rows(), rows))
+        Self::new(field, span(field.columns(), TILE_COLUMNS), span(field.rows(), rows))
     }
 
     pub fn new(field: &'a SpatialField, columns: LineSpan, rows: LineSpan) -> Self {
@@ -180,18 +181,6 @@ impl<'a> Region<'a> {
         let (is_narrow, is_short) = (5.0 * width_mm < length_mm, length_mm < 1.25 * width_mm);
         [wide && !(long && is_narrow), long && !(wide && is_short)]
     }
-}
-
-/// Lines of a tile, at most so many: as long as it may be, whose second line begins with this column and row.
-fn short_tile(most: usize, field: &SpatialField, [column, row]: [usize; 2]) -> usize {
-    let is_there = column < field.columns() && row < field.rows();
-    let to_mm = if is_there { field.ray(column, row).origin_mm } else { field.ray(0, 0).origin_mm };
-    let apart_mm = field.ray(0, 0).origin_mm.distance(to_mm);
-    let mut tile = most;
-    while tile > 1 && tile as f64 * apart_mm > LONGEST_TILE_MM {
-        tile /= 2;
-    }
-    tile
 }
 
 #[cfg(test)]
