@@ -154,7 +154,7 @@ fn processor_time() -> Duration {
     Duration::new(time.tv_sec.unsigned_abs(), u32::try_from(time.tv_nsec).unwrap_or(0))
 }
 
-/// Where the system has no such clock, wall time stands in for it.
+/// Wall time, where the system has no such clock.
 #[cfg(not(any(target_os = "linux", target_os = "android", target_vendor = "apple")))]
 fn processor_time() -> Duration {
     static START: std::sync::OnceLock<std::time::Instant> = std::sync::OnceLock::new();

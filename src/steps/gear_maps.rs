@@ -47,9 +47,7 @@ impl GearMaps {
         let stock_scales = (0..earlier).map(|operation| stock_scale(&flanks, operation)).collect();
         Self { flanks, stock_scales, deviation_scale, height_scale }
     }
-}
 
-impl GearMaps {
     /// Flanks that are drawn by themselves: those of `windows`, and those with the largest and the smallest value of
     /// what is evaluated of the finished surface, its mean deviation and the stock for it.
     pub fn drawn(&self, windows: &[(u32, Side)]) -> Vec<&FlankMaps> {
@@ -106,10 +104,8 @@ mod tests {
     use gearcut_core::dexel::{Column, Field};
     use glam::DVec2;
 
-    /// A fillet half a millimetre deep below flanks that are 3 um high and have 0.2 mm of stock: the colours are those
-    /// of the flanks. A part without a whole cell says nothing, and all of the map counts.
-    #[test]
-    fn colours_span_what_is_evaluated() {
+    /// Two rows of so many columns 0.05 mm apart.
+    fn field(columns: u32) -> Field {
         let column = |i: u32| Column {
             arc_mm: f64::from(i) * 0.05,
             origin_mm: DVec2::ZERO,
@@ -117,7 +113,14 @@ mod tests {
             low_mm: -1.0,
             blank_mm: 1.0,
         };
-        let field = Field { columns: (0..40).map(column).collect(), rows_z_mm: vec![0.0, 0.1] };
+        Field { columns: (0..columns).map(column).collect(), rows_z_mm: vec![0.0, 0.1] }
+    }
+
+    /// A fillet half a millimetre deep below flanks that are 3 um high and have 0.2 mm of stock: the colours are those
+    /// of the flanks. A part without a whole cell says nothing, and all of the map counts.
+    #[test]
+    fn colours_span_what_is_evaluated() {
+        let field = field(40);
         let left = |flank_mm: f32| {
             let mut layer = field.blank_layer();
             for (index, height) in layer.heights_mm.iter_mut().enumerate() {
@@ -146,14 +149,7 @@ mod tests {
     /// beside the one that a window looks at, each once.
     #[test]
     fn extremes_are_drawn_beside_the_flanks_of_windows() {
-        let column = |i: u32| Column {
-            arc_mm: f64::from(i) * 0.05,
-            origin_mm: DVec2::ZERO,
-            normal: DVec2::X,
-            low_mm: -1.0,
-            blank_mm: 1.0,
-        };
-        let field = Field { columns: (0..10).map(column).collect(), rows_z_mm: vec![0.0, 0.1] };
+        let field = field(10);
         let flank = |tooth: u32, rough_mm: f32, finish_mm: f32| {
             let layers = [rough_mm, finish_mm].map(|mm| {
                 let mut layer = field.blank_layer();

@@ -9,7 +9,7 @@ use crate::job::GearJob;
 use crate::output::contact_sheet::{ContactSheet, Thumbnail, write_contact_sheet};
 use crate::output::flank_maps::{CHIP_QUANTITY, CHIPS_SHOWN, FlankMaps, NO_PASS_CAME, OperationMaps};
 use crate::output::folder::OutputFolder;
-use crate::texture;
+use crate::texture::SampledWindow;
 use gearcut_core::error::{Error, Result};
 use gearcut_core::terms::Side;
 use rayon::prelude::*;
@@ -21,11 +21,16 @@ fn passes_from_first(ids: &[f32]) -> Vec<f32> {
     ids.iter().map(|&id| id - first).collect()
 }
 
-/// Sheets of all flanks, and pictures of those that the scene wants by themselves.
+/// Sheets of all flanks, and pictures of those that the scene wants by themselves, those of texture windows among them.
 ///
 /// # Errors
 /// Files that cannot be written.
-pub fn write_sheets_and_flanks(job: &dyn GearJob, maps: &GearMaps, tools: &Tools) -> Result<()> {
+pub fn write_sheets_and_flanks(
+    job: &dyn GearJob,
+    maps: &GearMaps,
+    windows: &[SampledWindow],
+    tools: &Tools,
+) -> Result<()> {
     let Tools { folder, progress, parts, .. } = *tools;
     if parts.has(Part::Pictures) {
         let step = progress.step("sheets", 1, "set");
@@ -35,7 +40,7 @@ pub fn write_sheets_and_flanks(job: &dyn GearJob, maps: &GearMaps, tools: &Tools
     }
     if parts.has(Part::Maps) {
         let windows: Vec<(u32, Side)> =
-            texture::windows(job)?.iter().map(|window| (window.tooth, window.side)).collect();
+            windows.iter().map(|sampled| (sampled.window.tooth, sampled.window.side)).collect();
         let drawn =
             if job.scene().output.draws_all_flanks { maps.flanks.iter().collect() } else { maps.drawn(&windows) };
         let step = progress.step("flank pictures", drawn.len() as u64, "flanks");

@@ -68,7 +68,7 @@ pub(super) fn run(job: &BevelJob, tools: &Tools) -> Result<CutDone> {
         let write = || write_bytes_atomically(&folder.path("pictures/settings.svg")?, svg.as_bytes());
         attempts.of("drawing of the settings", write())?;
     }
-    let sheets = sheets::write_sheets_and_flanks(job, &gear.maps, tools);
+    let sheets = sheets::write_sheets_and_flanks(job, &gear.maps, &foreseen.windows, tools);
     attempts.of("sheets and pictures of flanks", sheets)?;
     attempts.of("tables", write_tables(&found, folder))?;
     if parts.has(Part::Texture) {

@@ -80,7 +80,7 @@ pub(super) fn run(job: &HobbingJob, tools: &Tools) -> Result<CutDone> {
         let write = || chart.write_svg(&folder.path("pictures/offset_curves.svg")?);
         attempts.of("chart of the offset curves", write())?;
     }
-    let sheets = sheets::write_sheets_and_flanks(&cutter, &gear.maps, tools);
+    let sheets = sheets::write_sheets_and_flanks(&cutter, &gear.maps, windows, tools);
     attempts.of("sheets and pictures of flanks", sheets)?;
     attempts.of("tables", write_tables(&found, folder))?;
     if parts.has(Part::Texture) {

@@ -61,7 +61,7 @@ pub(super) fn run(job: &ShapingJob, tools: &Tools, frames: Option<u32>) -> Resul
     let headline = quality(&inspected).into_iter().chain(findings::headline(job, &gear, &motion));
     let complete = !gear.work.interrupted;
     let mut found = Findings::new("shaping", &job.scene.name, complete, headline, list, sections);
-    files::write(job, &gear, &motion, &found, tools, &mut attempts)?;
+    files::write(job, &gear, (&motion, &foreseen.windows), &found, tools, &mut attempts)?;
     if parts.has(Part::Texture) {
         attempts.of("files of texture", texture::write(job, &textures, folder, notes))?;
     }

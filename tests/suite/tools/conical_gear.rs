@@ -246,7 +246,9 @@ fn files_pictures_page_and_texture_ask_for_no_pitch_curve() {
         notes: &notes,
     };
     let done = cut(&job, Some(&tools));
-    sheets::write_sheets_and_flanks(&job, &done.maps, &tools).expect("sheets");
+    let windows = texture::windows(&job).expect("windows on the cones");
+    let windows = texture::sampled(&job, &windows).expect("marks on the cones");
+    sheets::write_sheets_and_flanks(&job, &done.maps, &windows, &tools).expect("sheets");
     // What stands for the gear's body: here the flank alone.
     let body = done.surfaces[0].mesh("tooth_01_left");
     let mut attempts = Attempts::new(&progress);
@@ -277,9 +279,6 @@ fn files_pictures_page_and_texture_ask_for_no_pitch_curve() {
     let page = report::page(&job, gear, &found, &done.maps, |_| String::new(), Vec::new());
     assert_eq!(page.subtitle, "Slots on cones");
     page.write(&folder.path("report.html").expect("a place")).expect("written");
-
-    let windows = texture::windows(&job).expect("windows on the cones");
-    let windows = texture::sampled(&job, &windows).expect("marks on the cones");
     assert_eq!(windows.len(), 4, "both flanks of the tooth that differs most and of the papers' tooth");
     let textures = texture::measure(&job, &windows, &cpu, &progress, &interrupt).expect("texture");
     for texture in &textures {

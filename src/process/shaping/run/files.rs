@@ -14,6 +14,7 @@ use crate::steps::attempts::Attempts;
 use crate::steps::parts::Part;
 use crate::steps::sheets::write_sheets_and_flanks;
 use crate::steps::{Tools, axes};
+use crate::texture::SampledWindow;
 use gearcut_core::error::Result;
 
 /// Writes tables, charts, chips and sheets.
@@ -23,7 +24,7 @@ use gearcut_core::error::Result;
 pub fn write(
     job: &ShapingJob,
     cut: &CutGear,
-    motion: &[OperationAxes],
+    (motion, windows): (&[OperationAxes], &[SampledWindow]),
     found: &Findings,
     tools: &Tools,
     attempts: &mut Attempts,
@@ -52,7 +53,7 @@ pub fn write(
     }
     step.advance(1);
     step.finish();
-    attempts.of("sheets and pictures of flanks", write_sheets_and_flanks(job, &cut.maps, tools))?;
+    attempts.of("sheets and pictures of flanks", write_sheets_and_flanks(job, &cut.maps, windows, tools))?;
     Ok(())
 }
 
