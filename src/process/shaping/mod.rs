@@ -2,7 +2,7 @@
 //!
 //! From the scene to the page, in the order of the data; each module uses only those above it:
 //!
-//! - [`notices`]: what shaping warns of
+//! - `notices`: what shaping warns of
 //! - [`quantities`]: what only it finds
 //! - [`scene`]: what its scenes may say
 //! - [`linkage`]: from a parameter to axes and poses

@@ -3,7 +3,7 @@
 //! Work material welds to a cutting edge that is neither too slow nor too fast, grows and breaks off; what breaks off
 //! tears pits and scratches into the surface. In: densities and sizes as the scene gives them, a source of random
 //! numbers, a part of a flank. Out: marks that may be there; which of them are,
-//! [`crate::process::shaping::cut::tearing`] says.
+//! `crate::process::shaping::cut::tearing` says.
 //!
 //! **Density.** Marks are a Poisson process over the flank with the density
 //!
