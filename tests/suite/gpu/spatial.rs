@@ -167,8 +167,8 @@ mod slow {
     fn long_lists_go_through_in_rounds() {
         // All passes that can reach the flank at all, on a few of its dexels.
         let (passes, field) = case("p12_patch_spur");
-        let few = SpatialField::new(20, 9, field.low_mm, |column, row| {
-            let [column, row] = [6 * column, 14 * row];
+        let few = SpatialField::new(8, 5, field.low_mm, |column, row| {
+            let [column, row] = [15 * column, 28 * row];
             (field.ray(column, row), f64::from(field.blank_mm[field.index(column, row)]))
         });
         let plan = SweepPlan::brute_force(&few, &passes);

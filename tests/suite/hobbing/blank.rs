@@ -241,15 +241,13 @@ mod slow {
 
     #[test]
     fn candidates_leave_what_all_passes_leave() {
-        for (scene, face, spacing) in
-            [("circular_spur", "0.9", "1.0"), ("circular_helical", "0.9", "1.0"), ("third_order_plain", "0.6", "2.0")]
+        for (scene, teeth, face, spacing) in
+            [("circular_spur", 20, 0.9, 1.0), ("circular_helical", 21, 0.9, 1.0), ("third_order_plain", 21, 0.6, 1.5)]
         {
             // Slices so close that several are known from one section.
-            let face = format!("gear.face_width_mm={face}");
-            let job = job(
-                scene,
-                &[&face, &format!("fields.blank.spacing_mm={spacing}"), "fields.blank.slice_spacing_mm=0.3"],
-            );
+            let [teeth, face] = [format!("gear.teeth={teeth}"), format!("gear.face_width_mm={face}")];
+            let spacing = format!("fields.blank.spacing_mm={spacing}");
+            let job = job(scene, &[&teeth, &face, &spacing, "fields.blank.slice_spacing_mm=0.3"]);
             let cutter = HobCutter::new(&job).expect("passes");
             let cut = |cull: bool, tolerance_share: f64| {
                 let mut field = job.blank_field().expect("fits");

@@ -14,7 +14,7 @@ const FEW: [&str; 4] = [
     "fields.flank.profile_spacing_um=200",
     "fields.flank.lead_spacing_um=500",
     "fields.blank.spacing_mm=0.4",
-    "fields.blank.slice_spacing_mm=5",
+    "fields.blank.slice_spacing_mm=15",
 ];
 
 fn scene(name: &str, settings: &[&str]) -> HobbingJob {
@@ -55,7 +55,7 @@ mod slow {
         for (name, settings) in [
             ("circular_spur", &FEW[2..]),
             ("third_order_plain", &FEW[2..]),
-            ("circular_helical", &["fields.blank.spacing_mm=0.3", "fields.blank.slice_spacing_mm=5"]),
+            ("circular_helical", &["fields.blank.spacing_mm=0.3", "fields.blank.slice_spacing_mm=15"]),
         ] {
             let job = scene(name, settings);
             let cutter = HobCutter::new(&job).expect("passes");
@@ -83,7 +83,7 @@ mod slow {
     /// `check` tells it before the cut, `cut` in the same words and not a second time; of thin chips nothing is told.
     #[test]
     fn thick_chips_are_told_once_and_before_the_cut() {
-        let set = FEW.iter().flat_map(|&of| ["--set", of]).collect::<Vec<_>>();
+        let set = FEW.iter().chain(&["gear.face_width_mm=10"]).flat_map(|&of| ["--set", of]).collect::<Vec<_>>();
         let check = |name: &str| {
             let file = format!("scenes/hobbing/{name}.toml");
             gearcut(&[&["check", &file][..], &set].concat()).done()

@@ -1,7 +1,7 @@
 //! Meshes of cut gears: closed, free of crossings, as large as polygon clipping says, and readable.
 
 use crate::fixtures::clipping::clipped;
-use crate::fixtures::command::shipped_scenes;
+use crate::fixtures::command::scenes_of_all_shapes;
 use crate::fixtures::contour::crossings;
 use gearcut::cut::cpu::Cpu;
 use gearcut::process;
@@ -45,9 +45,9 @@ fn outline_and_solid(job: &ShapingJob) -> (Outline, Mesh) {
 }
 
 #[test]
-fn every_shipped_scene_gives_a_closed_body() {
-    for path in shipped_scenes("shaping") {
-        let job = load(&path, &[]);
+fn every_shape_gives_a_closed_body() {
+    for path in scenes_of_all_shapes() {
+        let job = load(&path, &["fields.flank.profile_spacing_um=60"]);
         let (outline, solid) = outline_and_solid(&job);
         assert!(solid.is_closed(), "{}: {:?}", path.display(), solid.edge_faults());
         let row = outline.row_mm(0);

@@ -44,7 +44,7 @@ fn a_screen_holds_the_verdict_and_the_rest_is_asked_for() {
     let many = ["--set", "gear.teeth=9", "--set", "gear.pitch_curve.circle={}", "--set", "tool.shaper_cutter.teeth=40"];
     for arguments in [
         &["check", PAPER][..],
-        &["check", "scenes/hobbing/circular_spur.toml"],
+        &["check", "scenes/hobbing/machine_errors.toml"],
         &["check", "scenes/bevel/five_linkage_printed.toml"],
         &[&["check", PAPER][..], &many].concat(),
     ] {
@@ -99,7 +99,11 @@ mod slow {
             for scene in
                 scenes.map(|entry| entry.expect("a file").path()).filter(|p| p.extension().is_some_and(|e| e == "toml"))
             {
-                let outcome = gearcut(&["check", &scene.display().to_string()]).done().says(&["Cost of the cut"]);
+                // The forecast cuts pieces of a narrow face.
+                let narrow = ["--set", "gear.face_width_mm=8"];
+                let narrow = if process.name == "hobbing" { &narrow[..] } else { &[] };
+                let outcome = gearcut(&[&["check", &scene.display().to_string()][..], narrow].concat());
+                let outcome = outcome.done().says(&["Cost of the cut"]);
                 assert!(
                     !outcome.out.contains("NaN")
                         && !outcome

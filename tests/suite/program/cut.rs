@@ -1,6 +1,8 @@
 //! `gearcut cut` from the outside: what it writes, and that the same scene gives the same bytes.
 
-use crate::fixtures::command::{assert_same_files, files, gearcut, gearcut_on_threads, read_json, shipped_scenes};
+use crate::fixtures::command::{
+    assert_same_files, files, gearcut, gearcut_on_threads, read_json, scenes_of_all_shapes,
+};
 use crate::fixtures::json_schema::assert_is_results;
 use gearcut::output::surface_files::read_surface;
 use serde_json::Value;
@@ -183,11 +185,13 @@ mod slow {
         gearcut(&["cut", ROUND, "--only", "sheets"]).failed(2, &["sheets", "numbers, maps"]);
     }
 
-    /// Of every scene what it finds, and its page.
+    /// Of every kind of scene what it finds, and its page.
     #[test]
-    fn every_shipped_scene_is_cut() {
+    fn every_kind_of_scene_is_cut() {
         let folder = tempfile::tempdir().expect("a folder");
-        for scene in &shipped_scenes("shaping") {
+        let others = ["built_up_edge", "deflection", "noise", "ploughing", "real_surface"];
+        let others = others.map(|name| PathBuf::from(format!("scenes/shaping/{name}.toml")));
+        for scene in scenes_of_all_shapes().iter().chain(&others) {
             let scene_text = scene.to_str().expect("a name");
             let out = folder.path().join(scene.file_stem().expect("a stem"));
             let out_text = out.to_str().expect("a path");

@@ -2,7 +2,7 @@
 //! and with a hundred injected defects.
 
 use crate::fixtures::clipping::clipped;
-use crate::fixtures::command::shipped_scenes;
+use crate::fixtures::command::scenes_of_all_shapes;
 use crate::fixtures::paper::*;
 use crate::fixtures::stroke_faults::{StrokeFaultKind, lone_strokes};
 use gearcut::cut::CutBlank;
@@ -298,8 +298,8 @@ mod slow {
     use super::*;
 
     #[test]
-    fn meshes_of_all_scenes_are_closed() {
-        for path in shipped_scenes("shaping") {
+    fn meshes_of_all_shapes_are_closed() {
+        for path in scenes_of_all_shapes() {
             let mut scene = load(&path, &[]).unwrap_or_else(|errors| panic!("{errors}")).scene;
             scene.fields.blank_slice_spacing_mm = 15.0;
             let name = scene.name.clone();
@@ -308,10 +308,9 @@ mod slow {
             let BlankMesh { mesh, guessed } = BlankMesh::new(&cut.field, None);
             let volume_mm3 = mesh.volume_mm3();
             let [x, y] = cut.field.volumes_mm3();
-            // The cutter's base shapes the tips of two scenes: there is no target in closed form, and nothing to
-            // damage.
+            // The cutter's base shapes the tips of one scene: there is no target in closed form, and nothing to damage.
             let target = job.target_outline(TARGET_SPACING_MM).ok();
-            let base_shapes_tips = ["fourier_concave", "internal_pair_driver"].contains(&name.as_str());
+            let base_shapes_tips = name == "fourier_concave";
             assert_eq!(target.is_none(), base_shapes_tips, "{name}");
             let report = blank_report::measure(&job.planar(), &cut, target.as_ref());
             let lone = lone_strokes(&job.planar(), &cut, &report);

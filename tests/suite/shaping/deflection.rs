@@ -133,10 +133,7 @@ const RING: &str = shaped_gear!(
 #[test]
 fn flanks_follow_the_deflection_of_their_strokes() {
     let softer = ["machine.compliance.work_torsional_urad_per_nm=20"];
-    let of_ring = [&SOFT[..1], &SOFT[..]];
-    for (text, cases) in
-        [(ROUND, &[&SOFT[..1], &SOFT[1..2], &SOFT[2..3], &softer, &SOFT[..]][..]), (RING, &of_ring[..])]
-    {
+    for (text, cases) in [(ROUND, &[&SOFT[..1], &SOFT[1..2], &SOFT[2..3], &softer][..]), (RING, &[&SOFT[..]])] {
         // `changes` counts 3600 strokes in a turn.
         let fine = ["operation.finish.strokes_per_revolution=3600", "fields.chips.spacing_mm=0.1"];
         for only in cases {
