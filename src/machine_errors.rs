@@ -43,7 +43,7 @@ pub use axis::{AxisErrors, GearboxCycle, PeriodicError, ThermalDrift};
 pub use balance::{NoBalance, balance};
 pub use compliance::{Compliance, Deflection, SideCompliance};
 pub use edge_element::EdgeElement;
-pub use fast_noise::refuse_fast_noise;
+pub use fast_noise::{noise_knots_s, refuse_fast_noise};
 pub use layers::ErrorLayer;
 pub use motion::{ActualMotion, Course, MachineMoment};
 pub use mounting::{Guide, ToolMounting, WorkMounting};

@@ -29,6 +29,8 @@ pub struct Course {
     pub corners_s: Vec<f64>,
     /// Cells over the whole of it, no hump of a speed narrower than some of them.
     pub cells: usize,
+    /// Time from one knot of smooth noise to the next, s, where passes keep the motion as polynomials.
+    pub noise_knots_s: Option<f64>,
 }
 
 /// When actual positions are asked for.
@@ -53,6 +55,7 @@ pub struct MachineMoment<const N: usize> {
 pub struct ActualMotion<const N: usize> {
     starts_s: Vec<f64>,
     axes: [ActualAxis; N],
+    noise_knots_s: Option<f64>,
 }
 
 #[derive(Debug, Clone)]
@@ -103,7 +106,7 @@ impl<const N: usize> ActualMotion<N> {
             });
             ActualAxis { errors, lag, play }
         });
-        Some(Self { starts_s, axes })
+        Some(Self { starts_s, axes, noise_knots_s: course.noise_knots_s })
     }
 
     /// Where the axes are at a moment; `commanded` gives where they should be at any time, indexing left out.
@@ -122,7 +125,11 @@ impl<const N: usize> ActualMotion<N> {
             let axis = play.as_ref().map_or(drive, |play| play.axis(time_s, drive));
             let noise = errors.noise.iter().map(|noise| {
                 let at_rest_s = if noise.law.goes_on_at_rest() { moment.at_rest_s } else { 0.0 };
-                noise.at(moment.since_start_s + at_rest_s, moment.passage)
+                let since_start_s = moment.since_start_s + at_rest_s;
+                match self.noise_knots_s {
+                    None => noise.at(since_start_s, moment.passage),
+                    Some(knots_s) => noise.smoothed_at(since_start_s, moment.passage, knots_s),
+                }
             });
             errors.guided(axis + moment.indexed[index], moment.since_start_s) + noise.sum::<f64>()
         })

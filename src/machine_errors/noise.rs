@@ -17,6 +17,12 @@
 //! variance missing in their middles. What a slow noise changes by within a stroke, of which 64 pieces are but 0.18
 //! sigma, then has its variance to 1 %.
 //!
+//! A tool that is in the work all the time cuts with polynomials in its angle ([`gearcut_core::passes::MotionTable`]),
+//! and an axis with a mass does not jump: there the process is made **smooth**, a quintic B-spline with its values at
+//! even knots as coefficients (de Boor, *A Practical Guide to Splines*, 1978), over the spline's own standard deviation
+//! at the moment. Four rates are continuous, the variance is sigma^2 at every moment, and what is slower than some knots
+//! stays as it is.
+//!
 //! Road not taken: stepping forwards from the beginning and keeping all values. It takes memory that grows with time
 //! and bandwidth, and would need a limit.
 
@@ -61,6 +67,14 @@ impl NoiseLaw {
         Self::AlongFeed { bandwidth_hz: 1.0 / (TAU * time_constant_s) }
     }
 
+    /// Bandwidth, Hz, of a process in time.
+    pub fn bandwidth_hz(&self) -> Option<f64> {
+        match *self {
+            Self::EachPassage => None,
+            Self::InTime { bandwidth_hz } | Self::AlongFeed { bandwidth_hz } => Some(bandwidth_hz),
+        }
+    }
+
     /// Whether the noise goes on while the feed rests.
     pub fn goes_on_at_rest(&self) -> bool {
         matches!(self, Self::InTime { .. })
@@ -70,13 +84,29 @@ impl NoiseLaw {
 impl AxisNoise {
     /// Displacement of the axis, rad or mm, at a time from the beginning of the first operation and in a passage.
     pub fn at(&self, since_start_s: f64, passage: i64) -> f64 {
-        let number = match self.law {
-            NoiseLaw::EachPassage => self.draws.normal([passage, 0]),
-            NoiseLaw::InTime { bandwidth_hz } | NoiseLaw::AlongFeed { bandwidth_hz } => {
-                self.course(since_start_s * TAU * bandwidth_hz)
-            }
+        let number = match self.law.bandwidth_hz() {
+            None => self.draws.normal([passage, 0]),
+            Some(bandwidth_hz) => self.course(since_start_s * TAU * bandwidth_hz),
         };
         self.deviation * number
+    }
+
+    /// The same smoothed, where the process goes on in time: by a spline over knots so far apart, s.
+    pub fn smoothed_at(&self, since_start_s: f64, passage: i64, knots_s: f64) -> f64 {
+        let Some(bandwidth_hz) = self.law.bandwidth_hz() else { return self.at(since_start_s, passage) };
+        let place = since_start_s / knots_s;
+        let (first, share) = (place.floor(), place - place.floor());
+        let correlation = (-TAU * bandwidth_hz * knots_s).exp();
+        // Sums over the knots so far: of the weights, each less by the correlation with every knot passed since; of
+        // the variance, from the covariances of all pairs; of the values.
+        let (mut correlated, mut variance, mut value) = (0.0, 0.0, 0.0);
+        for (knot, weight) in quintic(share).into_iter().enumerate() {
+            correlated *= correlation;
+            variance += weight * (weight + 2.0 * correlated);
+            correlated += weight;
+            value += weight * self.at((first + knot as f64 - 2.0) * knots_s, passage);
+        }
+        value / variance.sqrt()
     }
 
     /// The process of variance 1 at a time in time constants.
@@ -103,6 +133,15 @@ impl AxisNoise {
     }
 }
 
+/// Weights of six even knots, from the second before the interval's beginning on, at a share of the interval.
+fn quintic(x: f64) -> [f64; 6] {
+    let outer = |x: f64| x.powi(5);
+    let middle = |x: f64| 26.0 + x * (50.0 + x * (20.0 + x * (-20.0 + x * (-20.0 + x * 10.0))));
+    let inner = |x: f64| 1.0 + x * (5.0 + x * (10.0 + x * (10.0 + x * (5.0 - 5.0 * x))));
+    let y = 1.0 - x;
+    [outer(y), inner(y), middle(y), middle(x), inner(x), outer(x)].map(|weight| weight / 120.0)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -119,6 +158,37 @@ mod tests {
             noise.at(time_s, 0) * noise.at(time_s + apart * tau_s, 0)
         });
         products.sum::<f64>() / f64::from(count)
+    }
+
+    /// The variance is that of the process wherever the moment is between knots; what is slow against the knots stays; and
+    /// fourth differences shrink with the fourth power of their step, as those of a smooth course do.
+    #[test]
+    fn smoothed_noise_has_its_variance_and_four_rates() {
+        let tau_s = 2.0;
+        let noise = noise(NoiseLaw::InTime { bandwidth_hz: 1.0 / (TAU * tau_s) }, 5);
+        let count = 20_000;
+        for place in [0.0, 0.25, 0.5] {
+            let square = |index: i32| {
+                let time_s = (f64::from(index) * 160.0 + place) * 0.4 * tau_s;
+                noise.smoothed_at(time_s, 0, 0.4 * tau_s).powi(2)
+            };
+            let found = (0..count).map(square).sum::<f64>() / f64::from(count) / 9.0;
+            assert!((found - 1.0).abs() < 4.0 * (2.0 / f64::from(count)).sqrt(), "{place}: variance {found}");
+        }
+        let apart = (0..500)
+            .map(|i| 0.77 * f64::from(i))
+            .map(|time_s| (noise.smoothed_at(time_s, 0, 1e-4 * tau_s) - noise.at(time_s, 0)).abs());
+        assert!(apart.fold(0.0, f64::max) < 3.0 * 6.0 * (2e-4_f64).sqrt());
+        let fourth = |step_s: f64| {
+            let at = |time_s: f64| noise.smoothed_at(time_s, 0, 1.0);
+            let of = |t: f64| {
+                let [a, b, c, d, e] = [-2.0, -1.0, 0.0, 1.0, 2.0].map(|k| at(t + k * step_s));
+                (a - 4.0 * b + 6.0 * c - 4.0 * d + e).abs()
+            };
+            (0..2000).map(|i| of(0.37 * f64::from(i))).fold(0.0, f64::max)
+        };
+        let shrinks = fourth(0.02) / fourth(0.01);
+        assert!((15.0..17.0).contains(&shrinks), "{shrinks}");
     }
 
     /// sigma^2 exp(-|dt| / tau), wherever the pair stands among the knots. Products of normal numbers of correlation r

@@ -5,7 +5,7 @@ use crate::machine::AxisMotion;
 use glam::{DVec2, DVec3};
 
 fn course(to_s: f64, corners_s: &[f64]) -> Course {
-    Course { from_s: 0.0, to_s, corners_s: corners_s.to_vec(), cells: 400 }
+    Course { from_s: 0.0, to_s, corners_s: corners_s.to_vec(), cells: 400, noise_knots_s: None }
 }
 
 fn at(time_s: f64) -> MachineMoment<1> {

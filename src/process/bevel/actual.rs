@@ -10,7 +10,9 @@
 use super::axis_program::BevelProgram;
 use super::rolled_axes::rolled_axes;
 use crate::machine::AxisMotion;
-use crate::machine_errors::{ActualMotion, Course, MachineErrors, MachineMoment, ToolMounting, WorkMounting};
+use crate::machine_errors::{
+    ActualMotion, Course, MachineErrors, MachineMoment, ToolMounting, WorkMounting, noise_knots_s,
+};
 use gearcut_core::bevel::cradle::CradleSettings;
 use gearcut_core::bevel::five_axis::{FiveAxisMachine, SixAxes};
 use gearcut_core::frame::Rigid3;
@@ -36,6 +38,8 @@ pub struct CommandedRoll {
     pub cycle_s: f64,
     /// Time from the beginning of the first operation to that of this one, s.
     pub start_s: f64,
+    /// Speed of the head, turns/s.
+    pub head_turns_per_s: f64,
 }
 
 /// Errors over the rolls of an operation.
@@ -76,7 +80,13 @@ impl ActualRoll {
     ) -> Self {
         // Blades are in the work a little before and after the roll.
         let beyond_s = 0.5 * roll.roll_s;
-        let course = Course { from_s: -beyond_s, to_s: roll.roll_s + beyond_s, corners_s: Vec::new(), cells: CELLS };
+        let course = Course {
+            from_s: -beyond_s,
+            to_s: roll.roll_s + beyond_s,
+            corners_s: Vec::new(),
+            cells: CELLS,
+            noise_knots_s: Some(noise_knots_s(roll.head_turns_per_s)),
+        };
         let motion = ActualMotion::new(&errors.axes, &course, |time_s| {
             let axes = rolled_axes(machine, &roll.settings, roll.from_rad + time_s * roll.rad_per_s);
             axes.map(|series| AxisMotion::along(series, roll.rad_per_s))

@@ -4,6 +4,7 @@ use super::actual::CommandedRoll;
 use super::axis_program::BevelProgram;
 use super::scene::model::BevelOperation;
 use gearcut_core::bevel::cradle::CradleSettings;
+use gearcut_core::units::TURN_RAD;
 
 /// One operation with its roll.
 #[derive(Debug, Clone, PartialEq)]
@@ -42,6 +43,7 @@ impl PreparedBevel {
             roll_s: self.roll_s(),
             cycle_s: self.cycle_s(),
             start_s: self.start_s,
+            head_turns_per_s: self.spec.head_speed_rad_per_s / TURN_RAD,
         }
     }
 

@@ -10,7 +10,8 @@ use super::commanded::HobbingCommand;
 use super::linkage::HobbingLinkage;
 use crate::machine::Motion as _;
 use crate::machine_errors::{
-    ActualMotion, Course, Guide, MachineErrors, MachineMoment, ToolMounting, WorkMounting, refuse_fast_noise,
+    ActualMotion, Course, Guide, MachineErrors, MachineMoment, ToolMounting, WorkMounting, noise_knots_s,
+    refuse_fast_noise,
 };
 use gearcut_core::error::Refusal;
 use gearcut_core::frame::Rigid3;
@@ -51,13 +52,15 @@ impl ActualHobbing {
         let linkage = commanded.linkage;
         refuse_fast_waves(errors, linkage)?;
         let beyond_s = BEYOND_TURNS * linkage.end_s() / (linkage.axes::<1>(linkage.end_s()).hob_rad.value() / TURN_RAD);
-        refuse_fast_noise(errors.axes.iter().zip(SECTIONS), BEYOND_TURNS / beyond_s)?;
+        let hob_turns_per_s = BEYOND_TURNS / beyond_s;
+        refuse_fast_noise(errors.axes.iter().zip(SECTIONS), hob_turns_per_s)?;
         let cycles = (commanded.end_s() + 2.0 * beyond_s) / linkage.cycle_s();
         let course = Course {
             from_s: -beyond_s,
             to_s: commanded.end_s() + beyond_s,
             corners_s: commanded.corners_s(),
             cells: (linkage.curve().samples_per_turn().clamp(64, 2048) as f64 * cycles).ceil() as usize,
+            noise_knots_s: Some(noise_knots_s(hob_turns_per_s)),
         };
         Ok(Self {
             motion: ActualMotion::new(&errors.axes, &course, |time_s| commanded.motion(time_s)),

@@ -91,6 +91,7 @@ impl Commanded<'_> {
             to_s: schedule.time_s(last),
             corners_s: corners.into_iter().map(|stroke| schedule.time_s(stroke)).collect(),
             cells: (per_turn * turns).ceil().max(64.0) as usize,
+            noise_knots_s: None,
         }
     }
 }

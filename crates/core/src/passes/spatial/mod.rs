@@ -1,6 +1,8 @@
 //! Passes whose rake face turns with the tool: sweeps, and which of them can matter to rays in space.
 
 pub mod motion;
+#[cfg(test)]
+mod straight_hob;
 pub mod sweep;
 mod sweep_bounds;
 mod sweep_near;

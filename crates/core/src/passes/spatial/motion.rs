@@ -11,10 +11,14 @@
 //!
 //! The head is the frame that carries the tool without turning with it: its z axis is the tool's axis, its x axis is
 //! where a blade points at tool angle 0 and blade angle 0.
+//!
+//! Where the motion carries noise, neighbouring panels meet at steps. Tiles that see a sweep through polynomials of
+//! their own ([`super::sweep`]) then disagree on it; [`MotionTable::cubic_error_mm`] bounds by how much.
 
 use crate::frame::Rigid3;
 use glam::{DMat3, DVec3};
 use rayon::prelude::*;
+use std::array::from_fn;
 use std::f64::consts::{PI, TAU};
 use std::ops::Range;
 
@@ -24,8 +28,22 @@ const TERMS: usize = 8;
 const PANELS_PER_TURN: f64 = 8.0;
 /// Entries of a pose: nine of the rotation, column by column, and three of the translation.
 const ENTRIES: usize = 12;
+/// By how much a polynomial through the four places of a sweep may miss a step of height 1 in the motion itself, in its
+/// first, second or third rate, over -1 to 1, wherever the step is: cubic, and cut down to a quadratic. Found by
+/// going through all places of step and point; the test does it again.
+const STEP_ERRORS: [f64; 4] = [1.0, 0.14, 0.045, 0.042];
 
 type PosePanel = [[f64; ENTRIES]; TERMS];
+
+/// How far a panel is from what polynomials of low degree follow. Of each: rotation (norm of the matrix), translation
+/// (mm); per rad of the tool to some power.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Roughness {
+    /// Bounds of the third and fourth rates.
+    rates: [[f64; 2]; 2],
+    /// Steps from the panel before it in the same piece, in the motion and its first three rates.
+    steps: [[f64; 2]; 4],
+}
 
 /// `head_from_work` over a range of tool angles.
 #[derive(Debug, Clone, PartialEq)]
@@ -35,6 +53,8 @@ pub struct MotionTable {
     panels: Vec<PosePanel>,
     /// First panel of every piece, and the number of panels.
     pieces: Vec<usize>,
+    /// One of each panel.
+    roughness: Vec<Roughness>,
 }
 
 impl MotionTable {
@@ -50,14 +70,64 @@ impl MotionTable {
             ends_rad.extend((1..=count).map(|i| pair[0] + (pair[1] - pair[0]) * i as f64 / count as f64));
             pieces.push(ends_rad.len() - 1);
         }
-        let panels = ends_rad
+        let panels: Vec<PosePanel> = ends_rad
             .par_windows(2)
             .map(|ends| {
                 let (middle, half) = (0.5 * (ends[0] + ends[1]), 0.5 * (ends[1] - ends[0]));
                 panel(|u| entries(&head_from_work(middle + half * u)))
             })
             .collect();
-        Self { ends_rad, panels, pieces }
+        let half_rad = |panel: usize| 0.5 * (ends_rad[panel + 1] - ends_rad[panel]);
+        let roughness = (0..panels.len()).into_par_iter().map(|panel| {
+            let rates = largest_rates(&panels[panel], half_rad(panel), 1.0);
+            let rate = |panel: usize, order: usize, at: f64| rate_at(&panels[panel], half_rad(panel), order, at);
+            let steps = from_fn(|order| {
+                if pieces.binary_search(&panel).is_ok() {
+                    return [0.0; 2];
+                }
+                let [before, after] = [rate(panel - 1, order, 1.0), rate(panel, order, -1.0)];
+                norms(&from_fn(|entry| after[entry] - before[entry]))
+            });
+            Roughness { rates, steps }
+        });
+        let roughness = roughness.collect();
+        Self { ends_rad, panels, pieces, roughness }
+    }
+
+    /// How far a sweep's polynomials may be from the law of a piece, mm, within `half_rad` of a tool angle: cubic for a
+    /// point of the work `from_origin_mm` away from its origin, quadratic in what turns within `reach_mm` of that point.
+    ///
+    /// Where f has the fourth rate M, a cubic through Chebyshev's four nodes is off by at most M d^4 / 192, d the half
+    /// width; the quadratic without the cubic's T3 lacks M' d^3 / 24 more, M' the third rate. A motion with steps is
+    /// smooth but for sums of (x - c)^k / k! from each step on.
+    pub fn cubic_error_mm(
+        &self,
+        piece: u32,
+        tool_angle_rad: f64,
+        half_rad: f64,
+        [from_origin_mm, reach_mm]: [f64; 2],
+    ) -> f64 {
+        let of_piece = self.pieces[piece as usize]..self.pieces[piece as usize + 1];
+        let ends = [-half_rad, half_rad].map(|to| panel_at(&self.ends_rad, tool_angle_rad + to, of_piece.clone()));
+        let [(first, from), (last, to)] = ends;
+        let (mut rates, mut steps) = (self.roughness[first].rates, [[0.0; 2]; 4]);
+        for panel in &self.roughness[first + 1..=last] {
+            rates = from_fn(|of| from_fn(|part| rates[of][part].max(panel.rates[of][part])));
+            steps = from_fn(|order| from_fn(|part| steps[order][part] + panel.steps[order][part]));
+        }
+        // Beyond the ends of its piece a panel's polynomial goes on.
+        for (panel, at) in [(first, -from), (last, to)].into_iter().filter(|&(_, at)| at > 1.0) {
+            let panel_rad = 0.5 * (self.ends_rad[panel + 1] - self.ends_rad[panel]);
+            let beyond = largest_rates(&self.panels[panel], panel_rad, at);
+            rates = from_fn(|of| from_fn(|part| rates[of][part].max(beyond[of][part])));
+        }
+        let powers: [f64; 5] = from_fn(|k| half_rad.powi(k as i32));
+        let cubic: [f64; 2] = from_fn(|part| {
+            let of_steps: f64 = (0..4).map(|k| STEP_ERRORS[k] * powers[k] * steps[k][part]).sum();
+            rates[1][part] * powers[4] / 192.0 + of_steps
+        });
+        let quadratic = cubic[0] + rates[0][0] * powers[3] / 24.0;
+        cubic[0] * from_origin_mm + cubic[1] + quadratic * reach_mm
     }
 
     /// First and last tool angle of the table.
@@ -144,6 +214,35 @@ impl MotionTable {
     }
 }
 
+/// A rate of a panel's polynomials at u, per rad of the tool.
+fn rate_at(panel: &PosePanel, half_rad: f64, order: usize, u: f64) -> [f64; ENTRIES] {
+    let scale = half_rad.powi(-(order as i32));
+    from_fn(|entry| scale * rate(panel.map(|term| term[entry]), order, u))
+}
+
+/// Bounds of a panel's third and fourth rates for |u| up to this.
+fn largest_rates(panel: &PosePanel, half_rad: f64, u: f64) -> [[f64; 2]; 2] {
+    let sizes = panel.map(|term| norms(&term));
+    [3, 4].map(|order| {
+        let scale = half_rad.powi(-(order as i32));
+        from_fn(|part| scale * rate(sizes.map(|size| size[part]), order, u))
+    })
+}
+
+/// Sizes of a pose's rotation and translation, or of a rate of them.
+fn norms(entries: &[f64; ENTRIES]) -> [f64; 2] {
+    let (turn, shift) = entries.split_at(9);
+    [turn, shift].map(|part| part.iter().map(|entry| entry * entry).sum::<f64>().sqrt())
+}
+
+/// The `order`-th rate of a polynomial at a place; of the coefficients' sizes a bound for all places up to there.
+fn rate(coefficients: [f64; TERMS], order: usize, at: f64) -> f64 {
+    (order..TERMS).rev().fold(0.0, |value, k| {
+        let falling: f64 = (k + 1 - order..=k).map(|factor| factor as f64).product();
+        value * at + falling * coefficients[k]
+    })
+}
+
 /// Where a point of the work stands in the head at any tool angle: three polynomials where a pose has twelve, for who
 /// asks about one point at many angles.
 #[derive(Debug, Clone)]
@@ -225,6 +324,7 @@ fn panel(values: impl Fn(f64) -> [f64; ENTRIES]) -> PosePanel {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::passes::planar::strokes::{NODES, cubic_through};
 
     /// A work that turns thirty times slower than the tool, 140 mm away, on a path that wobbles.
     fn pose(angle: f64) -> Rigid3 {
@@ -251,6 +351,69 @@ mod tests {
         }
         // The measure is alive: another motion is seen.
         assert!(table.error_mm(150.0, |angle| pose(angle + 1e-9)) > 1e-9);
+    }
+
+    /// A cubic through a sweep's nodes, within `half` of a place: how far it is from f, and without its T3.
+    fn fitted_errors(f: impl Fn(f64) -> f64, middle: f64, half: f64) -> [f64; 2] {
+        let [c0, c1, c2, c3] = cubic_through(&NODES.map(|node| f(middle + half * node)));
+        let errors = (0..=200).map(|i| f64::from(i) / 100.0 - 1.0).map(|x| {
+            let (cubic, exact) = (c0 + x * (c1 + x * (c2 + x * c3)), f(middle + half * x));
+            [exact - cubic, exact - cubic + 0.25 * c3 * x * (4.0 * x * x - 3.0)].map(f64::abs)
+        });
+        errors.fold([0.0, 0.0], |[a, b], [c, d]| [a.max(c), b.max(d)])
+    }
+
+    #[test]
+    fn steps_are_missed_by_no_more_than_they_are_said_to_be() {
+        let mut factorial = 1.0;
+        for (k, said) in STEP_ERRORS.into_iter().enumerate() {
+            factorial *= (k as f64).max(1.0);
+            let of_step = |at: f64| {
+                let step = |x: f64| if x > at { (x - at).powi(k as i32) / factorial } else { 0.0 };
+                fitted_errors(step, 0.0, 1.0)
+            };
+            let worst = (0..=400).map(|i| of_step(f64::from(i) / 200.0 - 1.0 + 1e-9)).flatten().fold(0.0, f64::max);
+            assert!(worst <= said + 1e-9 && worst > 0.95 * said, "{k}: {worst}, not {said}");
+        }
+    }
+
+    /// Motions that are smooth, that wave, and that tremble: fits over any part of the table are within the bound, and
+    /// somewhere not far below it.
+    #[test]
+    fn polynomials_of_sweeps_are_as_near_as_they_are_said_to_be() {
+        let tremble = |angle: f64| 1e-3 * (1e3 * (12.9898 * (16.0 * angle).floor()).sin()).fract();
+        let wave = |angle: f64| 2e-3 * (8.0 * angle).sin();
+        let none = |_: f64| 0.0;
+        let of_more: [(&(dyn Fn(f64) -> f64 + Sync), f64); 3] = [(&none, 3.0), (&wave, 30.0), (&tremble, 1e3)];
+        for (more, slack) in of_more {
+            let table = MotionTable::new([-3.0, 20.0], &[9.0], |angle| {
+                let mut at = pose(angle);
+                at.translation_mm.x += more(angle);
+                at
+            });
+            let point = DVec3::new(40.0, 30.0, 0.0);
+            for (half, piece) in [0.02, 0.1, 0.4].into_iter().flat_map(|half| [(half, 0), (half, 1)]) {
+                let ends = [[-3.0, 9.0], [9.0, 20.0]][piece as usize];
+                let at = |angle: f64| table.head_from_work_on(piece, angle).point(point).x;
+                let said_at = |middle: f64| table.cubic_error_mm(piece, middle, half, [50.0, 0.0]);
+                let places = 200;
+                let middle =
+                    |i: i32| ends[0] + half + (ends[1] - ends[0] - 2.0 * half) * f64::from(i) / f64::from(places);
+                let mut found = 0.0_f64;
+                for middle in (0..=places).map(middle) {
+                    let [error, _] = fitted_errors(at, middle, half);
+                    assert!(error <= said_at(middle) + 1e-13, "{half} rad at {middle}: {error:e}");
+                    found = found.max(error);
+                }
+                let said = (0..=places).map(|i| said_at(middle(i))).fold(0.0, f64::max);
+                println!("{half} rad: {found:e} mm, at most {said:e}");
+                assert!(said < slack * found + 1e-12, "{half} rad: {found:e}, not {said:e}");
+                let beyond = [ends[1] + half, ends[0] - half][piece as usize];
+                let found = fitted_errors(at, beyond, half)[0];
+                let said = said_at(beyond);
+                assert!(found <= said + 1e-13, "beyond a corner, {half} rad: {found:e}, not {said:e}");
+            }
+        }
     }
 
     /// A work whose turning changes its speed at a corner: every piece goes on smoothly beyond it.

@@ -19,6 +19,9 @@
 //! Where the rates of slide or shift jump during a sweep, each of the two motions makes a sweep of its own, smooth, and
 //! good up to that moment or from it on.
 //!
+//! Two tiles see one sweep through two polynomials, and a motion that is not smooth makes them differ: by how much at
+//! most goes with the sweep, for whoever compares heights of one tile with those of another.
+//!
 //! Road not taken: eliminating t beforehand by a polynomial in the tile's three coordinates. It needs order four in one
 //! of them, and long rays leave its range.
 
@@ -79,6 +82,8 @@ pub struct Sweep {
     half_window_rad: f64,
     /// Distance of the blade's origin from the tool's axis, mm.
     radial_mm: f64,
+    /// See [`SweepRecord::off_mm`].
+    off_mm: f64,
     /// Angle of the rake face from the head's x axis where it holds the tile's origin, in the direction of rotation.
     pub sweep_angle_rad: f64,
 }
@@ -105,6 +110,8 @@ pub struct SweepRecord {
     pub turn: [[[f64; 3]; 3]; 3],
     /// Tile's origin in (r, q, y): coefficients of u^0 to u^3, mm.
     pub place_mm: [[f64; 3]; 4],
+    /// How far the polynomials may be from the motion, mm.
+    pub off_mm: f64,
 }
 
 /// Heights and moments from which Newton's method starts on a tile: polynomials in columns x and rows y from the tile's
@@ -204,6 +211,8 @@ impl Sweep {
             let [c0, c1, c2, c3] = cubic_through(&values);
             [c0, c1 / largest_u, c2 / largest_u.powi(2), c3 / largest_u.powi(3)]
         });
+        let angle_rad = pass.tool_angle_rad + set.turn * swept;
+        let off_mm = set.motion.cubic_error_mm(piece, angle_rad, 2.0 * range.atan(), [origin_mm.length(), reach_mm]);
         Some(Self {
             turn: [0, 1, 2].map(|k| DMat3::from_cols_array(&turns.map(|entry| entry[k]))),
             place_mm: [0, 1, 2, 3].map(|k| DVec3::from_array(places.map(|entry| entry[k]))),
@@ -211,6 +220,7 @@ impl Sweep {
             t_range,
             half_window_rad: set.half_window_rad,
             radial_mm: place.radial_mm,
+            off_mm,
             sweep_angle_rad: swept,
         })
     }
@@ -234,6 +244,7 @@ impl Sweep {
             t_range: self.t_range,
             turn: self.turn.map(|turn| (turned * turn).transpose().to_cols_array_2d()),
             place_mm,
+            off_mm: self.off_mm,
         }
     }
 

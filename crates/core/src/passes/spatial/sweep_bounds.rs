@@ -11,6 +11,10 @@
 //! that turned within a cell would be missed by more than the safety holds. The comparison with all passes, bit for
 //! bit, on regions of all sizes stands for it (`tests/suite/hobbing/spatial.rs`).
 //!
+//! Heights are those that the region's frame sees, and the kernel cuts in the tile's. Where the motion is not smooth
+//! the two differ, by no more than their polynomials are off ([`SweepRecord::off_mm`]), over the cosine at which rays
+//! enter; every comparison has this as a margin.
+//!
 //! A sweep is undecided where one of the rays has no root, or where it ends at a corner of the motion. It is kept
 //! unless its segment stays clear of all that the rays pass below the lowest certain surface.
 
@@ -19,7 +23,7 @@
     reason = "the instruction set of the dispatching function holds only for what is inlined into it"
 )]
 
-use super::sweep::LARGEST_T;
+use super::sweep::{LARGEST_T, SweepRecord};
 use super::sweep_regions::{ALL, RAYS, Region, SIDE};
 use super::sweep_roots::{LANES, Rays};
 use super::sweep_samples::{Sampled, SweepCandidate, SweepFrame};
@@ -86,6 +90,8 @@ struct Bounded<'a> {
     certain: u8,
     /// Cells in which it may.
     possible: u8,
+    /// What its heights in the kernel may be from those sampled, mm.
+    off_mm: f64,
 }
 
 impl RegionBounds<'_> {
@@ -120,23 +126,26 @@ impl RegionBounds<'_> {
         if sampled.left == ALL {
             return None;
         }
-        if sampled.entered != ALL || self.frame.records[sampled.index as usize].ends_in_tile() {
+        let record = &self.frame.records[sampled.index as usize];
+        if sampled.entered != ALL || record.ends_in_tile() {
             return Some(Err(()));
         }
+        let off_mm = off_mm(record) / sampled.cosine;
         let floor_mm = 2.0 * self.field.low_mm;
         let [lowest, highest] = range(sampled.height_mm);
         if lowest <= floor_mm {
-            return if highest < floor_mm - FLOOR_SHARE * (highest - lowest) - FLOOR_MM { None } else { Some(Err(())) };
+            let margin_mm = FLOOR_SHARE * (highest - lowest) + FLOOR_MM + off_mm;
+            return if highest < floor_mm - margin_mm { None } else { Some(Err(())) };
         }
         let [y_start, y_end] = self.segment(sampled).y_range_mm;
-        let tolerance_mm = BEND_SAFETY * self.region.bend(&sampled.y_mm) + END_MARGIN_MM;
+        let tolerance_mm = BEND_SAFETY * self.region.bend(&sampled.y_mm) + END_MARGIN_MM + 2.0 * off_mm;
         let (mut certain, mut possible) = (0, 0);
         for (bit, cell) in CELLS.into_iter().enumerate() {
             let [low, high] = range(corners(cell).map(|corner| sampled.y_mm[corner]));
             certain |= u8::from(low - tolerance_mm > y_start && high + tolerance_mm < y_end) << bit;
             possible |= u8::from(low - tolerance_mm <= y_end && high + tolerance_mm >= y_start) << bit;
         }
-        (possible != 0).then_some(Ok(Bounded { sampled, certain, possible }))
+        (possible != 0).then_some(Ok(Bounded { sampled, certain, possible, off_mm }))
     }
 
     /// A height that the surface left is below everywhere.
@@ -149,7 +158,7 @@ impl RegionBounds<'_> {
             for (bit, cell) in CELLS.into_iter().enumerate() {
                 if known.certain >> bit & 1 == 1 {
                     let top = range(corners(cell).map(|c| heights[c]))[1];
-                    uppers[bit] = uppers[bit].min(top + bend_mm);
+                    uppers[bit] = uppers[bit].min(top + bend_mm + known.off_mm);
                 }
             }
         }
@@ -173,12 +182,12 @@ impl RegionBounds<'_> {
             lowest
         });
         // Whether a candidate stays above other heights in a cell.
-        let above = |heights: &[f64; RAYS], others: &[f64; RAYS], cell: usize| {
+        let above = |heights: &[f64; RAYS], others: &[f64; RAYS], off_mm: f64, cell: usize| {
             let difference: [f64; RAYS] = std::array::from_fn(|i| heights[i] - others[i]);
-            if corners(cell).into_iter().any(|corner| difference[corner] <= ROUNDING_MM) {
+            if corners(cell).into_iter().any(|corner| difference[corner] <= ROUNDING_MM + off_mm) {
                 return false;
             }
-            let margin_mm = BEND_SAFETY * self.region.bend(&difference) + ROUNDING_MM;
+            let margin_mm = BEND_SAFETY * self.region.bend(&difference) + ROUNDING_MM + off_mm;
             corners(cell).into_iter().all(|corner| difference[corner] > margin_mm)
         };
         let upper = [upper_bound_mm; RAYS];
@@ -186,15 +195,15 @@ impl RegionBounds<'_> {
             .iter()
             .enumerate()
             .filter_map(|(index, known)| {
-                let heights = &known.sampled.height_mm;
+                let (heights, off_mm) = (&known.sampled.height_mm, known.off_mm);
                 let mut alive = 0;
                 for (bit, &cell) in CELLS.iter().enumerate() {
                     let dead = known.possible >> bit & 1 == 0
-                        || above(heights, &upper, cell)
-                        || above(heights, &self.region.blank_mm, cell)
-                        || dominating[bit]
-                            .iter()
-                            .any(|&r| r != index && above(heights, &bounded[r].sampled.height_mm, cell));
+                        || above(heights, &upper, off_mm, cell)
+                        || above(heights, &self.region.blank_mm, off_mm, cell)
+                        || dominating[bit].iter().map(|&r| (r, &bounded[r])).any(|(r, other)| {
+                            r != index && above(heights, &other.sampled.height_mm, off_mm + other.off_mm, cell)
+                        });
                     alive |= u8::from(!dead) << bit;
                 }
                 (alive != 0).then_some((*known.sampled, alive))
@@ -292,7 +301,7 @@ impl pulp::NullaryFnOnce for RakeFaceBoxes<'_, '_> {
             // An arc of radius R leaves its chord of length L by L^2 / 8 R; boxes count from the blade's origin.
             let nearest_mm = low[0] + (record.radius_mm - base_mm.x);
             let radius_mm = PATH_RADIUS_SHARE * nearest_mm.max(LEAST_RADIUS_MM);
-            let margin_mm = cell_mm * cell_mm / (8.0 * radius_mm) + BOX_MARGIN_MM;
+            let margin_mm = cell_mm * cell_mm / (8.0 * radius_mm) + BOX_MARGIN_MM + off_mm(record);
             self.boxes.push(if known {
                 RakeFaceBox { low: low.map(|v| v - margin_mm), high: high.map(|v| v + margin_mm) }
             } else {
@@ -318,6 +327,12 @@ impl RakeFaceBox {
         let reach = [(half * y).abs() + bulge, (half * x).abs() + bulge];
         (0..2).all(|axis| self.low[axis] <= center[axis] + reach[axis] && self.high[axis] >= center[axis] - reach[axis])
     }
+}
+
+/// How far two tiles may see a point of a sweep apart, mm: the one whose frame this is, and one within it.
+#[inline(always)]
+fn off_mm(record: &SweepRecord) -> f64 {
+    2.0 * record.off_mm
 }
 
 /// Corners of a cell.

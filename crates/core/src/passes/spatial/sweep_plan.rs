@@ -351,3 +351,58 @@ impl SweepPlanner<'_> {
         plan.tiles.push(tile);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cut::Backend as _;
+    use crate::cut::cpu::Cpu;
+    use crate::frame::Rigid3;
+    use crate::passes::spatial::motion::MotionTable;
+    use crate::passes::spatial::straight_hob::StraightHob;
+    use glam::DMat3;
+    use std::f64::consts::{PI, TAU};
+
+    /// A machine that trembles by steps, which no polynomials follow: every frame sees another surface, and what one of
+    /// them culls may be lowest in another.
+    #[test]
+    fn a_motion_with_steps_loses_no_pass() {
+        let (module_mm, teeth, pitch_radius_mm) = (2.0, 40.0, 30.0);
+        let radius_mm = 0.5 * module_mm * teeth;
+        let hob = StraightHob::new(module_mm, 1, pitch_radius_mm);
+        // A flank of the space that is cut about tool angle 0, as a plane through the pitch point.
+        let (sin, cos) = 20_f64.to_radians().sin_cos();
+        let out = DVec3::new(-1.0, 0.0, 0.0);
+        let around = DVec3::Z.cross(out);
+        let pitch_mm = radius_mm * out + 0.25 * PI * module_mm * around;
+        let (normal, along) = (sin * out - cos * around, cos * out + sin * around);
+        for seed in 0..2 {
+            let of = |angle: f64, axis: f64| (1e3 * (1.7 * angle).floor() + 7.0 * axis + f64::from(seed)).sin();
+            let turns = 3.0 * teeth;
+            let motion = MotionTable::new([-0.5 * turns * TAU, 0.5 * turns * TAU], &[], |angle| Rigid3 {
+                rotation: DMat3::from_rotation_y(-angle / teeth) * DMat3::from_cols(DVec3::X, DVec3::NEG_Z, DVec3::Y),
+                translation_mm: DVec3::new(pitch_radius_mm + radius_mm, angle / (TAU * teeth), 0.0)
+                    + 3e-3 * DVec3::new(of(angle, 0.0), of(angle, 1.0), of(angle, 2.0)),
+            });
+            let set = TurningPasses::new(0, &hob, 1.0, motion).expect("a hob");
+            for (columns, apart_mm) in [(40, 0.05), (33, 0.08)] {
+                let field = SpatialField::new(columns, 40, -0.5, |column, row| {
+                    let place = [column as f64 - 0.5 * columns as f64, row as f64 - 20.0];
+                    let origin_mm = pitch_mm + place[0] * apart_mm * along + place[1] * 0.05 * DVec3::Z;
+                    (Ray { origin_mm, normal }, 3.0)
+                });
+                let cut = |plan: &SweepPlan| {
+                    let mut layer = field.blank_layer();
+                    Cpu::default().cut_spatial(&field, plan, &mut layer).expect("cuts");
+                    layer
+                };
+                let [plan, all] = [SweepPlan::new, SweepPlan::brute_force].map(|make| make(&field, &set));
+                let (few, every) = (cut(&plan), cut(&all));
+                let lost = (0..field.len()).filter(|&i| few.heights_mm[i] != every.heights_mm[i]);
+                let lost: Vec<usize> = lost.collect();
+                assert!(lost.is_empty(), "seed {seed}, {columns} columns: {} dexels, {:?}", lost.len(), lost[0]);
+                assert!(few.passes == every.passes && 8 * plan.records.len() < all.records.len());
+            }
+        }
+    }
+}

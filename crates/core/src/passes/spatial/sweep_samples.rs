@@ -95,7 +95,7 @@ impl SweepFrame {
 }
 
 /// A candidate on the nine rays of a region.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 pub struct Sampled {
     /// Its place in the frame.
     pub index: u32,
@@ -103,6 +103,8 @@ pub struct Sampled {
     pub entered: u32,
     /// Rays that run out of it at their lowest height and wherever they meet it, as bits.
     pub left: u32,
+    /// Least cosine at which any ray searched so far enters it.
+    pub cosine: f64,
     /// Heights of the entries, mm.
     pub height_mm: [f64; RAYS],
     /// Places of the entries along the segment, mm.
@@ -113,13 +115,15 @@ pub struct Sampled {
 struct Fine {
     entered: u32,
     left: u32,
+    cosine: f64,
     height_mm: [f64; FINE * FINE],
     y_mm: [f64; FINE * FINE],
 }
 
 impl Fine {
     fn of(sampled: &Sampled) -> Self {
-        let mut fine = Self { entered: 0, left: 0, height_mm: [0.0; FINE * FINE], y_mm: [0.0; FINE * FINE] };
+        let cosine = sampled.cosine;
+        let mut fine = Self { entered: 0, left: 0, cosine, height_mm: [0.0; FINE * FINE], y_mm: [0.0; FINE * FINE] };
         for ray in 0..RAYS {
             let at = 2 * (ray / SIDE) * FINE + 2 * (ray % SIDE);
             fine.height_mm[at] = sampled.height_mm[ray];
@@ -132,7 +136,7 @@ impl Fine {
 
     /// What a part sees: the rays at these places of the fine grid.
     fn part(&self, index: u32, [columns, rows]: [[usize; SIDE]; 2]) -> Sampled {
-        let mut part = Sampled { index, entered: 0, left: 0, height_mm: [0.0; RAYS], y_mm: [0.0; RAYS] };
+        let mut part = Sampled { index, cosine: self.cosine, ..Sampled::default() };
         for ray in 0..RAYS {
             let at = columns[ray / SIDE] * FINE + rows[ray % SIDE];
             part.height_mm[ray] = self.height_mm[at];
@@ -185,6 +189,7 @@ impl pulp::NullaryFnOnce for SampledRays<'_> {
                     let (height_mm, cosine) = (roots.height_mm[l], roots.cosine[l]);
                     let sure = entered(&roots, l) && cosine >= GRAZING_COSINE;
                     fine.entered |= u32::from(sure) << place.fine;
+                    fine.cosine = if sure { fine.cosine.min(cosine) } else { fine.cosine };
                     let leaves = !roots.falls[l] && roots.step_mm[l].abs() < LAST_STEP && cosine < -LEAVING_COSINE;
                     fine.left |= u32::from(leaves) << place.fine;
                     fine.height_mm[place.fine] = height_mm;
@@ -220,7 +225,7 @@ impl Region<'_> {
             })
             .collect();
         let indices: Vec<u32> = (0..frame.records.len() as u32).collect();
-        let nothing = Sampled { index: 0, entered: 0, left: 0, height_mm: [0.0; RAYS], y_mm: [0.0; RAYS] };
+        let nothing = Sampled { cosine: 1.0, ..Sampled::default() };
         let mut fine: Vec<Fine> = indices.iter().map(|_| Fine::of(&nothing)).collect();
         self.search(frame, segments, &places, &indices, &mut fine);
         indices.iter().zip(&fine).map(|(&index, fine)| fine.part(index, [even, even])).collect()
