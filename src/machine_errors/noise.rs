@@ -20,8 +20,8 @@
 //! A tool that is in the work all the time cuts with polynomials in its angle ([`gearcut_core::passes::MotionTable`]),
 //! and an axis with a mass does not jump: there the process is made **smooth**, a quintic B-spline with its values at
 //! even knots as coefficients (de Boor, *A Practical Guide to Splines*, 1978), over the spline's own standard deviation
-//! at the moment. Four rates are continuous, the variance is sigma^2 at every moment, and what is slower than some knots
-//! stays as it is.
+//! at the moment. Four rates are continuous, the variance is sigma^2 at every moment, and what is slower than some
+//! knots stays as it is.
 //!
 //! Road not taken: stepping forwards from the beginning and keeping all values. It takes memory that grows with time
 //! and bandwidth, and would need a limit.
@@ -160,8 +160,8 @@ mod tests {
         products.sum::<f64>() / f64::from(count)
     }
 
-    /// The variance is that of the process wherever the moment is between knots; what is slow against the knots stays; and
-    /// fourth differences shrink with the fourth power of their step, as those of a smooth course do.
+    /// The variance is that of the process wherever the moment is between knots; what is slow against the knots stays;
+    /// and fourth differences shrink with the fourth power of their step, as those of a smooth course do.
     #[test]
     fn smoothed_noise_has_its_variance_and_four_rates() {
         let tau_s = 2.0;

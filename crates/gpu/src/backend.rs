@@ -4,7 +4,8 @@ use crate::adapter::AdapterFacts;
 use crate::context::Gpu;
 use crate::spatial;
 use gearcut_core::cut::sweep_chips::SweepsCut;
-use gearcut_core::cut::{Backend, BlankCut, BlankOperation, CutStats, MakeField, StageTime, TakeField};
+use gearcut_core::cut::{Backend, BlankCut, BlankOperation, CutStats, StageTime};
+use gearcut_core::cut::{MakeField, MakeSwept, TakeField, TakeSwept};
 use gearcut_core::dexel::{BlankField, Field, Layer, SpatialField};
 use gearcut_core::error::Error;
 use gearcut_core::passes::sections::swept_sections::SweptSections;
@@ -58,6 +59,10 @@ impl Backend for Gpu {
             |layer| spatial::cut_on_device(self, field, plan, layer),
             |layer| self.native.cut_spatial(field, plan, layer),
         )
+    }
+
+    fn cut_swept<'p>(&self, count: usize, make: &MakeSwept<'_, 'p>, take: &TakeSwept<'_, 'p>) -> Result<(), Error> {
+        self.cut_in_flight(count, make, take)
     }
 
     fn incidents(&self) -> Vec<String> {

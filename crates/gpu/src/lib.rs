@@ -20,6 +20,7 @@
 //! - [`compose`]: from the plan's f64 records to f32 records
 //! - [`batches`]: fields of any size in batches and rounds
 //! - `context`: the device, its pipelines, and what it has met
+//! - `in_flight`: fields that the device takes whole, some at a time
 //! - `planar`: flanks cut by strokes
 //! - [`edge_cells`]: tables of an edge for the spatial shader
 //! - `spatial`: flanks cut by sweeps
@@ -40,6 +41,7 @@ pub mod compose;
 mod context;
 mod device;
 pub mod edge_cells;
+mod in_flight;
 pub mod near_edge;
 mod pipeline;
 mod planar;

@@ -1,121 +1,66 @@
 //! Flanks cut by strokes: plans in turn over whole fields, or batches of columns where a field is too large for that.
 //!
 //! In: fields with their plans. Out: what each plan leaves, or figures of it. Dexels of a field are made on the device,
-//! all its plans run over them there, and several fields share a submission. Two submissions are on their way while the
-//! next is made ready.
+//! and all its plans run over them there ([`crate::in_flight`]).
 
 use crate::batches::{self, Allowance, Batch, Round};
-use crate::context::{Gpu, IN_FLIGHT, OnGpuFailure};
+use crate::context::{Gpu, IN_FLIGHT};
+use crate::in_flight::WholeField;
 use crate::problem::GpuProblem;
 use crate::readback::{
-    self, Before, FigureInputs, InFlight, Input, ReadbackJob, ReadbackStep, Returned, Shipment, StageLaunch, Wanted,
+    Before, FigureInputs, InFlight, Input, ReadbackJob, ReadbackStep, Returned, StageLaunch, Wanted,
 };
 use crate::records::FigureColumn;
 use crate::{compose, records};
-use gearcut_core::cut::{Backend, CutLayers, CutStats, MakeField, PlannedField, TakeField, cut_in_turn};
+use gearcut_core::cut::cpu::Cpu;
+use gearcut_core::cut::{CutLayers, CutStats, PlannedField, cut_in_turn};
 use gearcut_core::dexel::figures::{FieldFigures, LinesAt};
 use gearcut_core::dexel::{Field, Layer};
 use gearcut_core::error::Error;
 use gearcut_core::passes::CutPlan;
 use gearcut_shaders::{QUAD_ROWS, Rows, WORKGROUP_THREADS, planar_flank};
-use rayon::prelude::*;
-use std::collections::VecDeque;
 use wgpu::BufferUsages as Use;
 
 /// Bytes of a dexel: height and pass.
 const DEXEL_BYTES: usize = 8;
-/// Name of the stage.
-const NAME: &str = planar_flank(Rows::Many).name;
-/// Fields that are made ready together: enough that waiting for them costs little.
-const FIELDS_AT_ONCE: usize = 12;
-/// Bytes of dexels that a submission of some fields keeps on the device at most.
-const SUBMISSION_BYTES: u64 = 192 << 20;
 /// Columns of a field that is made on the device at most: workgroups in one dimension.
 const MOST_COLUMNS: usize = 65_535;
 
-/// Fields that go to the device together, each with its index.
-type Group = Vec<(usize, PlannedField)>;
-/// A group on its way.
-type SentGroup = (Group, Result<InFlight, GpuProblem>);
+impl WholeField for PlannedField {
+    type Inputs = FieldInputs;
+    const STAGE: &'static str = planar_flank(Rows::Many).name;
+    const RECORD_USAGE: Use = Use::UNIFORM;
+
+    /// It fits if its dexels do through all plans, and every plan is one batch.
+    fn compose(&self, gpu: &Gpu) -> Option<FieldInputs> {
+        let Allowance { buffer_bytes, batch_bytes } = gpu.allowance();
+        let bytes = held_bytes(self);
+        let fits = self.field.columns.len() <= MOST_COLUMNS && bytes <= buffer_bytes && 2 * bytes <= batch_bytes;
+        if fits { FieldInputs::compose(gpu, self, bytes) } else { None }
+    }
+
+    fn bytes(inputs: &FieldInputs) -> u64 {
+        inputs.bytes
+    }
+
+    fn job<'a>(inputs: &'a FieldInputs, gpu: &'a Gpu) -> ReadbackJob<'a> {
+        inputs.job(gpu)
+    }
+
+    fn layers(&self, _: FieldInputs, left: Returned) -> CutLayers {
+        cut_layers(self, left)
+    }
+
+    fn cut_in_batches(&self, gpu: &Gpu) -> Result<CutLayers, Error> {
+        cut_in_turn(gpu, self, |_, _| ())
+    }
+
+    fn cut_natively(&self, native: Cpu) -> Result<CutLayers, Error> {
+        cut_in_turn(&native, self, |_, _| ())
+    }
+}
 
 impl Gpu {
-    /// Cuts fields as a backend does: while some are on the device, the next ones are made ready, and what is left of
-    /// those before is taken. A field that does not fit the device goes plan by plan in batches.
-    pub(crate) fn cut_in_flight(&self, count: usize, make: &MakeField, take: &TakeField) -> Result<(), Error> {
-        let mut waiting: VecDeque<SentGroup> = VecDeque::new();
-        for first in (0..count).step_by(FIELDS_AT_ONCE) {
-            let make_some = || -> Result<Group, Error> {
-                let indices = (first..count.min(first + FIELDS_AT_ONCE)).into_par_iter();
-                let made = indices.map(|index| Ok(make(index)?.map(|planned| (index, planned))));
-                Ok(made.collect::<Result<Vec<_>, Error>>()?.into_iter().flatten().collect())
-            };
-            let oldest = if waiting.len() == IN_FLIGHT { waiting.pop_front() } else { None };
-            let take_oldest = || oldest.map_or(Ok(()), |sent| self.take_group(sent, take));
-            let (made, taken) = rayon::join(make_some, take_oldest);
-            taken?;
-            let (whole, large): (Group, Group) = made?.into_iter().partition(|(_, planned)| self.takes_whole(planned));
-            for (index, planned) in large {
-                let left = cut_in_turn(self, &planned, |_, _| ())?;
-                take(index, planned, left)?;
-            }
-            for group in groups(whole) {
-                if waiting.len() == IN_FLIGHT {
-                    waiting.pop_front().map_or(Ok(()), |sent| self.take_group(sent, take))?;
-                }
-                let sent = self.send_group(&group);
-                waiting.push_back((group, sent));
-            }
-        }
-        waiting.into_iter().try_for_each(|sent| self.take_group(sent, take))
-    }
-
-    /// Whether the dexels of a field fit the device together through all its plans.
-    fn takes_whole(&self, planned: &PlannedField) -> bool {
-        let Allowance { buffer_bytes, batch_bytes } = self.allowance();
-        let one_batch = |plan| batches::batches(plan, self.allowance(), self.rows).is_ok_and(|all| all.len() == 1);
-        let bytes = held_bytes(planned);
-        let fits = planned.field.columns.len() <= MOST_COLUMNS && bytes <= buffer_bytes && 2 * bytes <= batch_bytes;
-        fits && planned.plans.iter().all(one_batch)
-    }
-
-    fn send_group(&self, group: &Group) -> Result<InFlight, GpuProblem> {
-        self.device.alive()?;
-        let composed: Vec<FieldInputs> = group
-            .par_iter()
-            .map(|(_, planned)| FieldInputs::compose(self, planned))
-            .collect::<Result<_, GpuProblem>>()?;
-        let jobs: Vec<ReadbackJob> = composed.iter().map(|inputs| inputs.job(self)).collect();
-        self.send_planar(&jobs)
-    }
-
-    /// Waits for a group; cuts it natively if that is what a failure asks for.
-    fn take_group(&self, (group, sent): SentGroup, take: &TakeField) -> Result<(), Error> {
-        match sent.and_then(|in_flight| in_flight.collect(&self.device)) {
-            Ok((left, device_ns)) => {
-                self.log().count(NAME, device_ns);
-                group.into_par_iter().zip(left).try_for_each(|((index, planned), left)| {
-                    let left = cut_layers(&planned, left);
-                    take(index, planned, left)
-                })
-            }
-            Err(problem) if self.options.on_failure == OnGpuFailure::Stop => Err(problem.into()),
-            Err(problem) => {
-                self.log().incidents.push(format!("{problem}; cut again on {}", self.native.name()));
-                group.into_par_iter().try_for_each(|(index, planned)| {
-                    let left = cut_in_turn(&self.native, &planned, |_, _| ())?;
-                    take(index, planned, left)
-                })
-            }
-        }
-    }
-
-    fn send_planar(&self, jobs: &[ReadbackJob]) -> Result<InFlight, GpuProblem> {
-        readback::send(
-            &self.device,
-            &Shipment { stage: NAME, record_usage: Use::UNIFORM, jobs, poison: self.options.poison_outputs },
-        )
-    }
-
     /// Heights and passes of a field of any size, the layer untouched.
     pub(crate) fn cut_on_device(
         &self,
@@ -138,7 +83,7 @@ impl Gpu {
                 result.passes[dexels].copy_from_slice(&passes[there]);
             }
             unconverged += u64::from(short[0]);
-            self.log().count(NAME, device_ns);
+            self.log().count(PlannedField::STAGE, device_ns);
             Ok(())
         };
         for batch in batches::batches(plan, self.allowance(), self.rows)? {
@@ -149,8 +94,9 @@ impl Gpu {
             let dexels = batch.columns.start * rows..batch.columns.end * rows;
             let heights_mm = padded_columns(&layer.heights_mm[dexels.clone()], rows);
             let passes = padded_columns(&layer.passes[dexels], rows);
-            let in_flight = self.send_planar(&[ReadbackJob {
+            let in_flight = self.send_jobs::<PlannedField>(&[ReadbackJob {
                 before: Before::Layer(&heights_mm, &passes),
+                rays: &[],
                 steps: vec![composed.step(self)],
                 wanted: Wanted::Dexels,
             }])?;
@@ -171,23 +117,6 @@ fn held_bytes(planned: &PlannedField) -> u64 {
     let PlannedField { field, plans, .. } = planned;
     let layers = if figures_at(planned).is_some() { plans.len() } else { plans.len() + 1 };
     (DEXEL_BYTES * batches::padded(field.rows()) * field.columns.len() * layers) as u64
-}
-
-/// Fields in runs that share a submission.
-fn groups(fields: Group) -> Vec<Group> {
-    let (mut groups, mut bytes): (Vec<Group>, u64) = (Vec::new(), 0);
-    for field in fields {
-        let own = held_bytes(&field.1);
-        bytes += own;
-        match groups.last_mut().filter(|_| bytes <= SUBMISSION_BYTES) {
-            Some(group) => group.push(field),
-            None => {
-                groups.push(vec![field]);
-                bytes = own;
-            }
-        }
-    }
-    groups
 }
 
 /// What is left of a field.
@@ -255,7 +184,9 @@ fn launch(gpu: &Gpu, rows: usize) -> records::Launch {
 }
 
 /// What a field needs that the device takes whole, composed.
-struct FieldInputs {
+pub(crate) struct FieldInputs {
+    /// Bytes of its dexels through all plans.
+    bytes: u64,
     launch: records::Launch,
     /// Height of every column before the first plan.
     blank_mm: Vec<f32>,
@@ -267,22 +198,22 @@ struct FieldInputs {
 }
 
 impl FieldInputs {
-    fn compose(gpu: &Gpu, planned: &PlannedField) -> Result<Self, GpuProblem> {
+    fn compose(gpu: &Gpu, planned: &PlannedField, bytes: u64) -> Option<Self> {
         let PlannedField { field, plans, .. } = planned;
         let launch = launch(gpu, field.rows());
-        let step = |plan| {
-            let whole = batches::batches(plan, gpu.allowance(), gpu.rows)?;
-            Ok(StepInputs::compose(gpu, field, plan, &whole[0]))
-        };
+        let whole = |plan| batches::batches(plan, gpu.allowance(), gpu.rows).ok().filter(|all| all.len() == 1);
+        let whole: Vec<Vec<Batch>> = plans.iter().map(whole).collect::<Option<_>>()?;
+        let steps = plans.iter().zip(&whole).map(|(plan, whole)| StepInputs::compose(gpu, field, plan, &whole[0]));
         let figures = figures_at(planned).map(|lines| {
             let records::Launch { rows, quads, .. } = launch;
             (records::FigureLaunch { rows, quads, profile_row: lines.row as u32 }, lines)
         });
-        Ok(Self {
+        Some(Self {
+            bytes,
             launch,
             blank_mm: field.columns.iter().map(|column| column.blank_mm as f32).collect(),
             low_mm: field.columns.iter().map(|column| column.low_mm as f32).collect(),
-            steps: plans.iter().map(step).collect::<Result<_, GpuProblem>>()?,
+            steps: steps.collect(),
             figures,
         })
     }
@@ -301,6 +232,7 @@ impl FieldInputs {
                 workgroups,
                 bytes: column_bytes * self.blank_mm.len(),
             },
+            rays: &[],
             steps: self.steps.iter().map(|step| step.step(gpu)).collect(),
             wanted: self.figures.as_ref().map_or(Wanted::Dexels, |(figure_launch, lines)| {
                 let bytes = bytemuck::bytes_of(figure_launch);

@@ -35,6 +35,8 @@ pub enum Input<'a> {
         /// `UNIFORM` or `STORAGE`.
         usage: Use,
     },
+    /// The job's rays.
+    Rays,
     /// The launch's tiles.
     Tiles,
     /// The launch's records.
@@ -118,6 +120,8 @@ impl FigureInputs<'_> {
 pub struct ReadbackJob<'a> {
     /// What they are before.
     pub before: Before<'a>,
+    /// Rays as bytes; nothing where every step has its own.
+    pub rays: &'a [u8],
     /// Steps in order.
     pub steps: Vec<ReadbackStep<'a>>,
     /// What comes back.

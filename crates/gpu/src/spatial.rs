@@ -1,22 +1,25 @@
 //! Rays in space on the device: composed tile by tile, sent in batches, brought back.
 //!
-//! In: field, plan of sweeps, layer. Out: the layer lowered. Some rows of a column make a **group**, the lanes of one
-//! thread: four on software adapters, one on GPUs; the groups of a tile follow each other, so that a batch is a run of
-//! tiles. As in [`super::compose`], everything large is subtracted here in f64: a record counts from the tile's middle
-//! ray at its start height on one side, from a base point of the segment near it on the other.
+//! In: fields with the passes that run over them, or one plan of sweeps over a layer. Out: what is left. Some rows of a
+//! column make a **group**, the lanes of one thread: four on software adapters, one on GPUs; the groups of a tile
+//! follow each other. All plans of a field have the same tiles, so that rays and dexels lie there once, through all
+//! operations ([`super::in_flight`]); a field that does not fit goes plan by plan in batches, which are runs of tiles.
+//! As in [`super::compose`], everything large is subtracted here in f64: a record counts from the tile's middle ray at
+//! its start height on one side, from a base point of the segment near it on the other.
 //!
-//! A tile's dexels stay on the device while its records come in **rounds**, in their order: what is left does not
-//! depend on how they are split.
+//! A tile's records come in **rounds**, in their order: what is left does not depend on how they are split.
 
 use super::batches::Allowance;
 use super::context::{Gpu, IN_FLIGHT};
 use super::edge_cells::EdgeCells;
+use super::in_flight::WholeField;
 use super::problem::GpuProblem;
-use super::readback::{
-    self, Before, InFlight, Input, ReadbackJob, ReadbackStep, Returned, Shipment, StageLaunch, Wanted,
-};
+use super::readback::{Before, InFlight, Input, ReadbackJob, ReadbackStep, Returned, StageLaunch, Wanted};
 use super::sweep_records::{SpatialPass, SpatialTile};
+use gearcut_core::cut::cpu::Cpu;
+use gearcut_core::cut::{CutLayers, CutStats, SweptField};
 use gearcut_core::dexel::{Layer, SpatialField};
+use gearcut_core::error::Error;
 use gearcut_core::passes::SweepPlan;
 use gearcut_core::passes::spatial::sweep;
 use gearcut_core::passes::spatial::sweep_tile::SweepTile;
@@ -24,11 +27,12 @@ use gearcut_core::tool::edge::{Segment, SegmentShape};
 use gearcut_shaders::{Rows, WORKGROUP_THREADS, spatial_flank};
 use glam::{DVec2, DVec3};
 use std::ops::Range;
+use wgpu::BufferUsages as Use;
 
-/// Name of the stage.
-const NAME: &str = spatial_flank(Rows::Many).name;
 /// Bytes of a row of a group: six numbers of its ray; height and pass on the device and on their way back.
 const ROW_BYTES: usize = (6 + 2 + 2) * 4;
+/// Bytes of a dexel on its way back: height and pass.
+const DEXEL_BYTES: usize = 8;
 /// (Dexel, pass) pairs of a launch at most: as for planar fields; a pair costs a few times as much.
 const LAUNCH_PAIRS: u64 = 1 << 27;
 /// Workgroups in one dimension: what every WebGPU device has.
@@ -52,25 +56,98 @@ pub fn cut_on_device(
     let mut collect = |(tiles, in_flight): (Range<usize>, InFlight)| -> Result<(), GpuProblem> {
         let (jobs, device_ns) = in_flight.collect(&gpu.device)?;
         let Returned { layers, unconverged: short, .. } = &jobs[0];
-        let Layer { heights_mm, passes } = &layers[0];
-        for (at, dexel) in lanes(field, &plan.tiles[tiles], gpu.rows.lanes()).enumerate() {
-            // Lanes beyond the last row repeat it, values and all.
-            result.heights_mm[dexel] = heights_mm[at];
-            result.passes[dexel] = passes[at];
-        }
+        spread(field, &plan.tiles[tiles], gpu.rows.lanes(), &layers[0], &mut result);
         unconverged += u64::from(short[0]);
-        gpu.log().count(NAME, device_ns);
+        gpu.log().count(SweptField::STAGE, device_ns);
         Ok(())
     };
-    for tiles in batches(plan, gpu.allowance(), gpu.rows.lanes())? {
+    for tiles in batches(&plan.tiles, gpu.allowance(), gpu.rows.lanes())? {
         if waiting.len() == IN_FLIGHT {
             collect(waiting.remove(0))?;
         }
-        let in_flight = send(gpu, field, plan, layer, &cells, tiles.clone())?;
+        let dexels = TileDexels::new(field, &plan.tiles[tiles.clone()], gpu.rows.lanes(), layer);
+        let step = SweptStep::compose(gpu, field, plan, &cells, tiles.clone());
+        let in_flight = gpu.send_jobs::<SweptField>(&[dexels.job(vec![step.step(gpu)])])?;
         waiting.push((tiles, in_flight));
     }
     waiting.into_iter().try_for_each(collect)?;
     Ok((result, unconverged))
+}
+
+impl WholeField for SweptField<'_> {
+    type Inputs = SweptInputs;
+    const STAGE: &'static str = spatial_flank(Rows::Many).name;
+    const RECORD_USAGE: Use = Use::STORAGE;
+
+    fn compose(&self, gpu: &Gpu) -> Option<SweptInputs> {
+        let Self { field, operations, .. } = self;
+        let of_rows = gpu.rows.lanes();
+        let mut inputs = SweptInputs::default();
+        for set in operations.iter().flatten() {
+            let plan = SweepPlan::in_tiles(field, set);
+            let whole = batches(&plan.tiles, gpu.allowance(), of_rows).ok()?;
+            if whole.len() != 1 || plan.records.len() > records_at_most(gpu.allowance()) {
+                return None;
+            }
+            let cells = EdgeCells::new(&plan.segments);
+            inputs.steps.push(SweptStep::compose(gpu, field, &plan, &cells, whole[0].clone()));
+            inputs.dexel_passes += plan.tile_passes();
+            if inputs.tiles.is_empty() {
+                inputs.dexels = TileDexels::new(field, &plan.tiles, of_rows, &field.blank_layer());
+                inputs.tiles = plan.tiles;
+            }
+        }
+        Some(inputs)
+    }
+
+    fn bytes(inputs: &SweptInputs) -> u64 {
+        let records = inputs.steps.iter().flat_map(|step| &step.rounds).map(|round| round.records.len());
+        let dexels = inputs.dexels.heights_mm.len();
+        (dexels * (ROW_BYTES + DEXEL_BYTES * inputs.steps.len()) + records.sum::<usize>() * size_of::<SpatialPass>())
+            as u64
+    }
+
+    fn job<'a>(inputs: &'a SweptInputs, gpu: &'a Gpu) -> ReadbackJob<'a> {
+        inputs.dexels.job(inputs.steps.iter().map(|step| step.step(gpu)).collect())
+    }
+
+    fn layers(&self, inputs: SweptInputs, left: Returned) -> CutLayers {
+        let field = &self.field;
+        let stats = CutStats {
+            dexels: (field.len() * inputs.steps.len()) as u64,
+            dexel_passes: inputs.dexel_passes,
+            unconverged: left.unconverged.iter().map(|&of_step| u64::from(of_step)).sum(),
+        };
+        // Every set is a step; an operation ends with its last one.
+        let mut last = 0;
+        let ends = self.operations.iter().map(|sets| {
+            last += sets.len();
+            last - 1
+        });
+        let layer = |step: usize| {
+            let mut layer = Layer { heights_mm: vec![0.0; field.len()], passes: vec![0; field.len()] };
+            spread(field, &inputs.tiles, inputs.dexels.of_rows, &left.layers[step], &mut layer);
+            layer
+        };
+        CutLayers { layers: ends.map(layer).collect(), figures: None, stats }
+    }
+
+    fn cut_in_batches(&self, gpu: &Gpu) -> Result<CutLayers, Error> {
+        self.cut_in_turn(gpu, |set| [SweepPlan::in_tiles(&self.field, set)])
+    }
+
+    fn cut_natively(&self, native: Cpu) -> Result<CutLayers, Error> {
+        self.cut_in_turn(&native, |set| self.by.plans(&self.field, set))
+    }
+}
+
+/// Puts dexels in the order of tiles where they belong in the field.
+fn spread(field: &SpatialField, tiles: &[SweepTile], of_rows: usize, from: &Layer, to: &mut Layer) {
+    for (group, (_, dexels)) in group_dexels(field, tiles, of_rows).enumerate() {
+        let lanes = group * of_rows..group * of_rows + dexels.len();
+        to.heights_mm[dexels.clone()].copy_from_slice(&from.heights_mm[lanes.clone()]);
+        to.passes[dexels].copy_from_slice(&from.passes[lanes]);
+    }
 }
 
 /// Groups of a tile.
@@ -78,15 +155,28 @@ fn groups(tile: &SweepTile, of_rows: usize) -> usize {
     tile.columns.len() * tile.rows.len().div_ceil(of_rows)
 }
 
-/// Dexel of every lane of every group of some tiles.
-fn lanes<'a>(field: &'a SpatialField, tiles: &'a [SweepTile], of_rows: usize) -> impl Iterator<Item = usize> + 'a {
+/// Dexels of every group of some tiles: fewer than lanes where rows end.
+fn group_dexels<'a>(
+    field: &'a SpatialField,
+    tiles: &'a [SweepTile],
+    of_rows: usize,
+) -> impl Iterator<Item = (&'a SweepTile, Range<usize>)> + 'a {
     tiles.iter().flat_map(move |tile| {
         tile.columns.clone().flat_map(move |column| {
-            tile.rows.clone().step_by(of_rows).flat_map(move |first| {
-                (first..first + of_rows).map(move |row| field.index(column, row.min(tile.rows.end - 1)))
-            })
+            let end = field.index(column, tile.rows.end - 1) + 1;
+            let from = field.index(column, tile.rows.start);
+            (from..end).step_by(of_rows).map(move |first| (tile, first..end.min(first + of_rows)))
         })
     })
+}
+
+/// Adds the lanes of a group; those beyond the last row repeat it.
+fn extend_lanes<T: Copy>(lanes: &mut Vec<T>, own: impl ExactSizeIterator<Item = T>, of_rows: usize) {
+    let end = lanes.len() + of_rows;
+    lanes.extend(own);
+    if let Some(&last) = lanes.last() {
+        lanes.resize(end, last);
+    }
 }
 
 /// Records that fit the device together.
@@ -94,43 +184,88 @@ fn records_at_most(Allowance { buffer_bytes, batch_bytes }: Allowance) -> usize 
     buffer_bytes.min(batch_bytes / 2) as usize / size_of::<SpatialPass>()
 }
 
-/// Runs of tiles that fit the device together. Their records keep to half of its memory, unless a single tile has more.
-fn batches(plan: &SweepPlan, allowance: Allowance, of_rows: usize) -> Result<Vec<Range<usize>>, GpuProblem> {
+/// Runs of tiles whose dexels fit the device together.
+fn batches(tiles: &[SweepTile], allowance: Allowance, of_rows: usize) -> Result<Vec<Range<usize>>, GpuProblem> {
     let Allowance { buffer_bytes, batch_bytes } = allowance;
     let groups_at_most =
         (buffer_bytes as usize / (6 * of_rows * 4)).min(batch_bytes as usize / 2 / (ROW_BYTES * of_rows));
     let records_at_most = records_at_most(allowance);
     let mut batches: Vec<Range<usize>> = Vec::new();
-    let (mut in_groups, mut in_records, mut in_pairs) = (0, 0, 0);
-    for (index, tile) in plan.tiles.iter().enumerate() {
+    let (mut in_groups, mut in_records) = (0, 0);
+    for (index, tile) in tiles.iter().enumerate() {
         let (groups, records) = (groups(tile, of_rows), tile.records.len());
         if groups > groups_at_most || records_at_most == 0 {
             let reason = format!("a tile of {groups} groups of rays; there is room for {groups_at_most}");
             return Err(GpuProblem::OutOfMemory { reason });
         }
-        let pairs = (groups * of_rows * records) as u64;
-        let fits = in_groups + groups <= groups_at_most
-            && in_records + records <= records_at_most
-            && in_pairs + pairs <= LAUNCH_PAIRS;
-        match batches.last_mut().filter(|batch| fits && batch.len() < WORKGROUPS) {
+        let fits = in_groups + groups <= groups_at_most && in_records + records <= records_at_most;
+        match batches.last_mut().filter(|_| fits) {
             Some(batch) => batch.end = index + 1,
             None => {
                 batches.push(index..index + 1);
-                (in_groups, in_records, in_pairs) = (0, 0, 0);
+                (in_groups, in_records) = (0, 0);
             }
         }
         in_groups += groups;
         in_records += records;
-        in_pairs += pairs;
     }
     Ok(batches)
 }
 
-/// One launch: the next records of the tiles that have any left.
+/// What the device needs of a field that it takes whole.
+#[derive(Default)]
+pub(crate) struct SweptInputs {
+    /// Tiles of the plans, which all have the same.
+    tiles: Vec<SweepTile>,
+    dexels: TileDexels,
+    /// One for each set of passes.
+    steps: Vec<SweptStep>,
+    /// (Dexel, pass) pairs.
+    dexel_passes: u64,
+}
+
+/// Rays and dexels of some tiles, lane after lane.
+#[derive(Default)]
+struct TileDexels {
+    of_rows: usize,
+    /// Six numbers for each row of a group, component by component.
+    rays: Vec<f32>,
+    heights_mm: Vec<f32>,
+    passes: Vec<u32>,
+}
+
+impl TileDexels {
+    fn new(field: &SpatialField, tiles: &[SweepTile], of_rows: usize, layer: &Layer) -> Self {
+        let lanes = of_rows * tiles.iter().map(|tile| groups(tile, of_rows)).sum::<usize>();
+        let mut rays = Vec::with_capacity(6 * lanes);
+        let (mut heights_mm, mut passes) = (Vec::with_capacity(lanes), Vec::with_capacity(lanes));
+        for (tile, dexels) in group_dexels(field, tiles, of_rows) {
+            for (origins, from_mm) in field.origins_mm().iter().zip(tile.origin_mm.to_array()) {
+                let against = origins[dexels.clone()].iter().map(|at_mm| (at_mm - from_mm) as f32);
+                extend_lanes(&mut rays, against, of_rows);
+            }
+            for normals in field.normals() {
+                extend_lanes(&mut rays, normals[dexels.clone()].iter().map(|&along| along as f32), of_rows);
+            }
+            extend_lanes(&mut heights_mm, layer.heights_mm[dexels.clone()].iter().copied(), of_rows);
+            extend_lanes(&mut passes, layer.passes[dexels].iter().copied(), of_rows);
+        }
+        Self { of_rows, rays, heights_mm, passes }
+    }
+
+    fn job<'a>(&'a self, steps: Vec<ReadbackStep<'a>>) -> ReadbackJob<'a> {
+        let before = Before::Layer(&self.heights_mm, &self.passes);
+        ReadbackJob { before, rays: bytemuck::cast_slice(&self.rays), steps, wanted: Wanted::Dexels }
+    }
+}
+
+/// One launch: the next records of tiles that have any left.
 #[derive(Default)]
 struct SweepRound {
     tiles: Vec<SpatialTile>,
     records: Vec<SpatialPass>,
+    /// (Dexel, pass) pairs.
+    pairs: u64,
 }
 
 impl SweepRound {
@@ -146,74 +281,59 @@ impl SweepRound {
     }
 }
 
-fn send(
-    gpu: &Gpu,
-    field: &SpatialField,
-    plan: &SweepPlan,
-    layer: &Layer,
-    cells: &EdgeCells,
-    batch: Range<usize>,
-) -> Result<InFlight, GpuProblem> {
-    let plan_tiles = &plan.tiles[batch];
-    let of_rows = gpu.rows.lanes();
-    let round_records = records_at_most(gpu.allowance()).min(ROUND_RECORDS);
-    let (mut rounds, mut rays) = (Vec::<SweepRound>::new(), Vec::<f32>::new());
-    let mut first_group = 0;
-    for tile in plan_tiles {
-        let middle =
-            field.ray((tile.columns.start + tile.columns.end - 1) / 2, (tile.rows.start + tile.rows.end - 1) / 2);
-        let middle = middle.normal.as_vec3();
-        for (round, records) in plan.records[tile.records.clone()].chunks(round_records).enumerate() {
-            rounds.resize_with(rounds.len().max(round + 1), SweepRound::default);
-            let SweepRound { tiles, records: composed } = &mut rounds[round];
-            tiles.push(SpatialTile {
-                middle: middle.extend(field.low_mm as f32).to_array(),
-                first_group,
-                group_count: groups(tile, of_rows) as u32,
-                first_record: composed.len() as u32,
-                record_count: records.len() as u32,
-            });
-            let segment = |record: &sweep::SweepRecord| &plan.segments[record.segment as usize];
-            composed.extend(records.iter().map(|r| compose(cells, r, segment(r), middle.as_dvec3())));
+/// What a plan needs over some tiles, composed.
+struct SweptStep {
+    cells: Vec<[f32; 4]>,
+    rounds: Vec<SweepRound>,
+}
+
+impl SweptStep {
+    fn compose(gpu: &Gpu, field: &SpatialField, plan: &SweepPlan, cells: &EdgeCells, tiles: Range<usize>) -> Self {
+        let of_rows = gpu.rows.lanes();
+        let round_records = records_at_most(gpu.allowance()).min(ROUND_RECORDS);
+        // Launches that have the first records of tiles, those that have the next ones, and so on.
+        let mut rounds: Vec<Vec<SweepRound>> = Vec::new();
+        let mut first_group = 0;
+        for tile in &plan.tiles[tiles] {
+            let [column, row] = tile.middle();
+            let middle = field.ray(column, row).normal.as_vec3();
+            let group_count = groups(tile, of_rows) as u32;
+            for (round, records) in plan.records[tile.records.clone()].chunks(round_records).enumerate() {
+                rounds.resize_with(rounds.len().max(round + 1), Vec::new);
+                let pairs = u64::from(group_count) * (of_rows * records.len()) as u64;
+                let launches = &mut rounds[round];
+                let has_room =
+                    |launch: &SweepRound| launch.tiles.len() < WORKGROUPS && launch.pairs + pairs <= LAUNCH_PAIRS;
+                if !launches.last().is_some_and(has_room) {
+                    launches.push(SweepRound::default());
+                }
+                let last = launches.len() - 1;
+                let launch = &mut launches[last];
+                launch.pairs += pairs;
+                launch.tiles.push(SpatialTile {
+                    middle: middle.extend(field.low_mm as f32).to_array(),
+                    first_group,
+                    group_count,
+                    first_record: launch.records.len() as u32,
+                    record_count: records.len() as u32,
+                });
+                let composed = |record: &sweep::SweepRecord| {
+                    compose(cells, record, &plan.segments[record.segment as usize], middle.as_dvec3())
+                };
+                launch.records.extend(records.iter().map(composed));
+            }
+            first_group += group_count;
         }
-        first_group += groups(tile, of_rows) as u32;
-        let one = std::slice::from_ref(tile);
-        let dexels: Vec<usize> = lanes(field, one, of_rows).collect();
-        for group in dexels.chunks_exact(of_rows) {
-            for axis in 0..3 {
-                let origins = &field.origins_mm()[axis];
-                rays.extend(group.iter().map(|&at| (origins[at] - tile.origin_mm[axis]) as f32));
-            }
-            for axis in 0..3 {
-                rays.extend(group.iter().map(|&at| field.normals()[axis][at] as f32));
-            }
+        Self { cells: cells.cells.clone(), rounds: rounds.into_iter().flatten().collect() }
+    }
+
+    fn step<'a>(&'a self, gpu: &'a Gpu) -> ReadbackStep<'a> {
+        let cells = Input::Shared { label: "cells", bytes: bytemuck::cast_slice(&self.cells), usage: Use::STORAGE };
+        ReadbackStep {
+            launches: self.rounds.iter().map(|round| round.launch(gpu)).collect(),
+            inputs: vec![Input::Tiles, Input::Records, cells, Input::Rays],
         }
     }
-    let dexels: Vec<usize> = lanes(field, plan_tiles, of_rows).collect();
-    let heights_mm: Vec<f32> = dexels.iter().map(|&at| layer.heights_mm[at]).collect();
-    let passes: Vec<u32> = dexels.iter().map(|&at| layer.passes[at]).collect();
-    let launches: Vec<StageLaunch> = rounds.iter().map(|round| round.launch(gpu)).collect();
-    let shared = |label, bytes| Input::Shared { label, bytes, usage: wgpu::BufferUsages::STORAGE };
-    let inputs = vec![
-        Input::Tiles,
-        Input::Records,
-        shared("cells", bytemuck::cast_slice(&cells.cells)),
-        shared("rays", bytemuck::cast_slice(&rays)),
-    ];
-    let job = ReadbackJob {
-        before: Before::Layer(&heights_mm, &passes),
-        steps: vec![ReadbackStep { inputs, launches }],
-        wanted: Wanted::Dexels,
-    };
-    readback::send(
-        &gpu.device,
-        &Shipment {
-            stage: NAME,
-            record_usage: wgpu::BufferUsages::STORAGE,
-            jobs: &[job],
-            poison: gpu.options.poison_outputs,
-        },
-    )
 }
 
 /// A record for the shader; `middle` is the direction of the tile's middle ray as the shader has it.

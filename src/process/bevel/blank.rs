@@ -15,8 +15,10 @@
 //! A ray keeps its **lowest** cut, as flanks do: material that hung over it, as on undercut teeth, is counted as gone.
 //! The ledger of chips ([`super::chips`]) knows several pieces of material on a ray and says how much that is.
 //!
-//! All passes that come near a row go over all its rays. Candidates, as flanks have them, leave the same on what the
-//! tests compare, but planning a row costs more than they save, and their bounds are no proof.
+//! Natively all passes that come near a row go over all its rays. Candidates, as flanks have them, leave the same on
+//! what the tests compare, but planning a row costs more than they save the kernel, and their bounds are no proof. A
+//! device takes the candidates of the whole cell: a record is composed in more time than a candidate is looked at, and
+//! the cells of all slots go over in a few submissions.
 //!
 //! The road not taken: slices across the axis, as hobbing has them. Blades of a face-mill head move nearly along them.
 
@@ -24,16 +26,16 @@ use super::job::{BevelJob, index};
 use crate::interrupt::Interrupt;
 use crate::output::progress::Progress;
 use gearcut_core::bevel::clearance::RollingHead;
-use gearcut_core::cut::{Backend, CutStats};
+use gearcut_core::cut::{Backend, CutLayers, CutStats, SweptBy, SweptField};
 use gearcut_core::dexel::{Layer, NO_PASS, Ray, SpatialField};
 use gearcut_core::error::{Refusal, Result};
-use gearcut_core::passes::SweepPlan;
 use gearcut_core::terms::Side;
 use gearcut_core::units::TURN_RAD;
 use glam::{DMat3, DVec3};
 use rayon::prelude::*;
 use std::f64::consts::PI;
 use std::ops::Range;
+use std::sync::OnceLock;
 
 /// How far below the root cone rays record cuts and the body ends, in outer modules.
 pub const RIM_MODULES: f64 = 1.0;
@@ -214,23 +216,46 @@ impl BevelJob {
         slot: u32,
         beside: bool,
     ) -> Result<(Vec<Layer>, CutStats)> {
-        let teeth = self.blank.teeth;
-        let slots = [slot, (slot + 1) % teeth, (slot + teeth - 1) % teeth];
-        let nothing = || Layer { heights_mm: Vec::new(), passes: Vec::new() };
-        let (mut layers, mut stats) = (vec![nothing(); self.operations.len()], CutStats::default());
-        for row in 0..grid.rows() {
-            let field = grid.field_of_rows(self, slot, row..row + 1);
-            let mut layer = field.blank_layer();
-            for (operation, cell) in layers.iter_mut().enumerate() {
-                for &by in &slots[..if beside { 3 } else { 1 }] {
-                    let plan = SweepPlan::of_near_passes(&field, self.slots.of(operation, by));
-                    stats += backend.cut_spatial(&field, &plan, &mut layer)?;
-                }
-                cell.heights_mm.extend_from_slice(&layer.heights_mm);
-                cell.passes.extend_from_slice(&layer.passes);
-            }
+        let cells = self.cut_cells(backend, grid, slot..slot + 1, beside, [&|| true, &|| true])?;
+        let (mut slots, stats) = cells.unwrap_or_default();
+        Ok((slots.pop().unwrap_or_default(), stats))
+    }
+
+    /// The same of some slots in one job; `goes_on` says before each whether to go on, `advance` is called after it.
+    /// `None`: stopped.
+    fn cut_cells(
+        &self,
+        backend: &dyn Backend,
+        grid: &CellGrid,
+        slots: Range<u32>,
+        beside: bool,
+        [goes_on, advance]: [&(dyn Fn() -> bool + Sync); 2],
+    ) -> Result<Option<(Vec<Vec<Layer>>, CutStats)>> {
+        let done: Vec<OnceLock<CutLayers>> = vec![OnceLock::new(); slots.len()];
+        let make = |index: usize| Ok(goes_on().then(|| self.swept_cell(grid, slots.start + index as u32, beside)));
+        let take = |index: usize, _, left| {
+            let _is_first = done[index].set(left);
+            advance();
+            Ok(())
+        };
+        backend.cut_swept(done.len(), &make, &take)?;
+        let done: Option<Vec<CutLayers>> = done.into_iter().map(OnceLock::into_inner).collect();
+        let Some(done) = done else { return Ok(None) };
+        let mut stats = CutStats::default();
+        for cell in &done {
+            stats += cell.stats;
         }
-        Ok((layers, stats))
+        Ok(Some((done.into_iter().map(|cell| cell.layers).collect(), stats)))
+    }
+
+    /// A slot's cell with the passes of all operations, and those of the slots beside it where they reach into it.
+    pub fn swept_cell(&self, grid: &CellGrid, slot: u32, beside: bool) -> SweptField<'_> {
+        let teeth = self.blank.teeth;
+        let by = [slot, (slot + 1) % teeth, (slot + teeth - 1) % teeth];
+        let by = &by[..if beside { 3 } else { 1 }];
+        let sets = |operation| by.iter().map(|&slot| self.slots.of(operation, slot)).collect();
+        let operations = (0..self.operations.len()).map(sets).collect();
+        SweptField { field: grid.field(self, slot), operations, by: SweptBy::NearPasses }
     }
 
     /// Whether the slots beside one may take anything from its cell, wherever the blades stand: teeth that come to a
@@ -265,29 +290,23 @@ pub fn cut(
     interrupt: &Interrupt,
 ) -> Result<Option<CutCells>> {
     let grid = CellGrid::of_scene(job)?;
-    let step = progress.step("cut the whole blank", u64::from(job.blank.teeth), "slots");
+    let teeth = job.blank.teeth;
+    let step = progress.step("cut the whole blank", u64::from(teeth), "slots");
     let beside = job.neighbours_may_reach(&grid);
-    let cut = (0..job.blank.teeth).into_par_iter().map(|slot| {
-        if interrupt.is_raised() {
-            return Ok(None);
-        }
-        let cell = job.cut_cell(backend, &grid, slot, beside)?;
+    let advance = || {
         step.advance(1);
-        Ok(Some(cell))
-    });
-    let Some(cells) = cut.collect::<Result<Option<Vec<_>>>>()? else { return Ok(None) };
+        true
+    };
+    let cells = job.cut_cells(backend, &grid, 0..teeth, beside, [&|| !interrupt.is_raised(), &advance])?;
+    let Some((slots, stats)) = cells else { return Ok(None) };
     step.finish();
-    let mut stats = CutStats::default();
     let mut left_mm3 = vec![0.0; job.operations.len()];
-    let mut slots = Vec::with_capacity(cells.len());
     let mut neighbours_reach = false;
-    for (slot, (layers, of_cell)) in (0..).zip(cells) {
-        stats += of_cell;
-        neighbours_reach |= beside && others_left_a_place(job, slot, &layers);
-        for (left_mm3, layer) in left_mm3.iter_mut().zip(&layers) {
+    for (slot, layers) in (0..).zip(&slots) {
+        neighbours_reach |= beside && others_left_a_place(job, slot, layers);
+        for (left_mm3, layer) in left_mm3.iter_mut().zip(layers) {
             *left_mm3 += grid.volume_mm3(job, &layer.heights_mm);
         }
-        slots.push(layers);
     }
     let uncut = grid.field(job, 0).blank_mm;
     let blank_mm3 = f64::from(job.blank.teeth) * grid.volume_mm3(job, &uncut);

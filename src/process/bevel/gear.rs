@@ -4,12 +4,13 @@ use super::job::BevelJob;
 use super::measure::{self, BevelReport, SlotRow};
 use crate::interrupt::Interrupt;
 use crate::output::progress::Progress;
-use crate::steps::cut_flanks::{CutFlank, cut_flanks, dexels_of};
+use crate::steps::cut_flanks::{CutFlank, FlankQueue, cut_flanks, dexels_of};
 use crate::steps::gear_maps::GearMaps;
 use crate::steps::pictures::flank::PicturedFlanks;
 use crate::steps::{FlankFiles, Work};
 use crate::surface::SurfaceGrid;
-use gearcut_core::cut::Backend;
+use gearcut_core::cut::{Backend, CutLayers, SweptField};
+use gearcut_core::dexel::FreeRays;
 use gearcut_core::error::{Error, Result};
 use gearcut_core::terms::Side;
 
@@ -41,14 +42,23 @@ pub fn cut_gear(
     interrupt: &Interrupt,
     folder: Option<FlankFiles<'_>>,
 ) -> Result<BevelGear> {
-    let cut_one = |tooth, side| {
-        let rays = job.rays(tooth, side)?;
-        let (layers, stats) = job.cut_field(backend, job.space_of(tooth, side), &rays.field)?;
-        let report = measure::measure(job, tooth, side, &rays, &layers)?;
-        let evaluated_mm = vec![report.evaluated_mm; layers.len()];
-        Ok(CutFlank { dexels: dexels_of(&layers), rays, layers, stats, evaluated_mm, report })
+    let cut_all = |flanks: &FlankQueue<FreeRays, BevelReport>| {
+        let make = |index: usize| {
+            let Some((tooth, side)) = flanks.next(index) else { return Ok(None) };
+            Ok(Some(job.swept(job.space_of(tooth, side), job.rays(tooth, side)?.field)))
+        };
+        let take = |index: usize, swept: SweptField, left: CutLayers| {
+            let (tooth, side) = flanks.list[index];
+            let [arcs_mm, rows_mm] = job.places_mm(side);
+            let rays = FreeRays { field: swept.field, arcs_mm, rows_mm };
+            let CutLayers { layers, stats, .. } = left;
+            let report = measure::measure(job, tooth, side, &rays, &layers)?;
+            let evaluated_mm = vec![report.evaluated_mm; layers.len()];
+            flanks.take(index, CutFlank { dexels: dexels_of(&layers), rays, layers, stats, evaluated_mm, report })
+        };
+        backend.cut_swept(flanks.list.len(), &make, &take)
     };
-    let cut = cut_flanks(job, progress, interrupt, folder, |flanks| flanks.each(cut_one), |_, _, _| Vec::new())?;
+    let cut = cut_flanks(job, progress, interrupt, folder, cut_all, |_, _, _| Vec::new())?;
     if cut.reports.is_empty() {
         return Err(Error::Interrupted);
     }

@@ -124,8 +124,9 @@ pub fn measure(job: &BevelJob, tooth: u32, side: Side, rays: &FreeRays, layers: 
     let lead_trace = trace(rows_mm, &|row| rays.field.index(middle_column, row));
     let ends = |places_mm: &[f64], inner: &Range<usize>| [places_mm[inner.start], places_mm[inner.end - 1]];
     let mut left_by_blade = vec![0; job.head.blades() as usize];
-    for &pass in layers[last].passes.iter().filter(|&&pass| pass != NO_PASS) {
-        left_by_blade[job.slots.blade_of(pass) as usize] += 1;
+    // Along the tooth a pass leaves many dexels in a row.
+    for left in layers[last].passes.chunk_by(|a, b| a == b).filter(|left| left[0] != NO_PASS) {
+        left_by_blade[job.slots.blade_of(left[0]) as usize] += left.len() as u64;
     }
     let [grid_columns, grid_rows] =
         [(&columns, job.spec.grid[0]), (&rows, job.spec.grid[1])].map(|(inner, count)| grid_places(inner, count));

@@ -8,12 +8,11 @@ use super::job::{BevelJob, index};
 use crate::job::{CylindricalGear, GearJob, ToothFrame, rows_z_mm};
 use crate::scene::Scene;
 use gearcut_core::bevel::face_mill::BladeKind;
-use gearcut_core::cut::{Backend, CutStats};
+use gearcut_core::cut::{Backend, CutLayers, CutStats, SweptBy, SweptField};
 use gearcut_core::dexel::{FreeRays, Layer, Ray, SpatialField};
 use gearcut_core::error::{Refusal, Result};
 use gearcut_core::frame::Rigid3;
 use gearcut_core::math::roots::halve;
-use gearcut_core::passes::SweepPlan;
 use gearcut_core::terms::Side;
 use glam::DVec3;
 use rayon::prelude::*;
@@ -62,7 +61,7 @@ impl BevelJob {
         Ok(self.turned(&rays, tooth, side, [arcs_mm, rows_mm]))
     }
 
-    /// Rays with the height of the blank's surface on each, in the gear frame of space 0, row after row.
+    /// Rays with the height of the blank's surface on each, in the gear frame of space 0, column after column.
     fn rays_in_space_0(&self, side: Side, arcs_mm: &[f64], rows_mm: &[f64]) -> Result<Vec<(Ray, f32)>, Refusal> {
         let target = self.target_of(side);
         let shares: Vec<f64> = arcs_mm.iter().map(|&arc_mm| target.share_at(arc_mm)).collect();
@@ -91,7 +90,7 @@ impl BevelJob {
                 .collect::<Result<Vec<_>, Refusal>>()
         };
         let rows: Vec<Vec<(Ray, f32)>> = rows_mm.par_iter().map(row).collect::<Result<_, _>>()?;
-        Ok(rows.into_iter().flatten().collect())
+        Ok((0..arcs_mm.len()).flat_map(|column| rows.iter().map(move |row| row[column])).collect())
     }
 
     /// Rays of space 0 at the place of a tooth.
@@ -99,10 +98,16 @@ impl BevelJob {
         let turn = index(self.space_of(tooth, side), self.blank.teeth);
         let low_mm = -RAY_DEPTH_MODULES * self.blank.outer_module_mm();
         let field = SpatialField::new(arcs_mm.len(), rows_mm.len(), low_mm, |column, row| {
-            let (ray, blank_mm) = rays[row * arcs_mm.len() + column];
+            let (ray, blank_mm) = rays[column * rows_mm.len() + row];
             (placed(&turn, ray), f64::from(blank_mm))
         });
         FreeRays { field, arcs_mm, rows_mm }
+    }
+
+    /// A field that stands in a space, with the passes of all operations.
+    pub fn swept(&self, space: u32, field: SpatialField) -> SweptField<'_> {
+        let operations = (0..self.operations.len()).map(|operation| vec![self.slots.of(operation, space)]).collect();
+        SweptField { field, operations, by: SweptBy::Candidates }
     }
 
     /// Runs all operations over a field that stands in a space.
@@ -110,14 +115,7 @@ impl BevelJob {
     /// # Errors
     /// The backend's.
     pub fn cut_field(&self, backend: &dyn Backend, space: u32, field: &SpatialField) -> Result<(Vec<Layer>, CutStats)> {
-        let mut layers: Vec<Layer> = Vec::with_capacity(self.operations.len());
-        let mut stats = CutStats::default();
-        for operation in 0..self.operations.len() {
-            let plan = SweepPlan::new(field, self.slots.of(operation, space));
-            let mut layer = layers.last().cloned().unwrap_or_else(|| field.blank_layer());
-            stats += backend.cut_spatial(field, &plan, &mut layer)?;
-            layers.push(layer);
-        }
+        let CutLayers { layers, stats, .. } = self.swept(space, field.clone()).cut(backend)?;
         Ok((layers, stats))
     }
 }

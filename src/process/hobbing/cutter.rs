@@ -7,11 +7,11 @@ use super::HobbingJob;
 use crate::job::{RAY_DEPTH_MODULES, RAY_HEIGHT_MODULES, rows_z_mm};
 use crate::process::hobbing::flank_patch::FlankPatch;
 use crate::process::hobbing::kept::ForeseenChip;
-use gearcut_core::cut::{Backend, CutStats};
+use gearcut_core::cut::{Backend, CutLayers, CutStats, SweptBy, SweptField};
 use gearcut_core::dexel::PlacedRays;
 use gearcut_core::dexel::{Layer, SpatialField};
 use gearcut_core::error::{Refusal, Result};
-use gearcut_core::passes::{SweepPlan, TurningPasses};
+use gearcut_core::passes::TurningPasses;
 use gearcut_core::terms::Side;
 use std::borrow::Cow;
 
@@ -135,19 +135,18 @@ impl<'a> HobCutter<'a> {
         PlacedRays { field, arcs_mm, rows_z_mm }
     }
 
+    /// A field with the passes of all operations.
+    pub fn swept(&self, field: SpatialField) -> SweptField<'_> {
+        let operations = self.operations.iter().map(|passes| vec![passes]).collect();
+        SweptField { field, operations, by: SweptBy::Candidates }
+    }
+
     /// Runs all operations over a field.
     ///
     /// # Errors
     /// The backend's.
     pub fn cut_field(&self, backend: &dyn Backend, field: &SpatialField) -> Result<(Vec<Layer>, CutStats)> {
-        let mut layers: Vec<Layer> = Vec::with_capacity(self.operations.len());
-        let mut stats = CutStats::default();
-        for passes in self.operations.iter() {
-            let plan = SweepPlan::new(field, passes);
-            let mut layer = layers.last().cloned().unwrap_or_else(|| field.blank_layer());
-            stats += backend.cut_spatial(field, &plan, &mut layer)?;
-            layers.push(layer);
-        }
+        let CutLayers { layers, stats, .. } = self.swept(field.clone()).cut(backend)?;
         Ok((layers, stats))
     }
 
@@ -156,8 +155,20 @@ impl<'a> HobCutter<'a> {
     /// # Errors
     /// A flank without a target, the backend's.
     pub fn cut(&self, backend: &dyn Backend, tooth: u32, side: Side) -> Result<HobbedFlank<'_>> {
-        let (target, rays) = self.rays(tooth, side)?;
-        let (layers, stats) = self.cut_field(backend, &rays.field)?;
+        let field = self.rays(tooth, side)?.1.field;
+        let left = self.swept(field.clone()).cut(backend)?;
+        self.flank(tooth, side, field, left)
+    }
+
+    /// A flank whose field is cut.
+    ///
+    /// # Errors
+    /// A flank without a target.
+    pub fn flank(&self, tooth: u32, side: Side, field: SpatialField, left: CutLayers) -> Result<HobbedFlank<'_>> {
+        let target = self.target(tooth, side)?;
+        let [arcs_mm, rows_z_mm] = self.places_mm(target);
+        let CutLayers { layers, stats, .. } = left;
+        let rays = PlacedRays { field, arcs_mm, rows_z_mm };
         Ok(HobbedFlank { target, rays, measured_ends_mm: self.measured_ends_mm(target), layers, stats })
     }
 }

@@ -8,12 +8,13 @@ use crate::process::hobbing::HobCutter;
 use crate::process::hobbing::cutter::HobbedFlank;
 use crate::process::hobbing::measure::flank_report::{self, HobbedReport};
 use crate::process::hobbing::measure::offset_curves::{self, CurvePoint};
-use crate::steps::cut_flanks::{CutFlank, cut_flanks, dexels_of};
+use crate::steps::cut_flanks::{CutFlank, FlankQueue, cut_flanks, dexels_of};
 use crate::steps::gear_maps::GearMaps;
 use crate::steps::pictures::flank::PicturedFlanks;
 use crate::steps::{FlankFiles, Work};
 use crate::surface::SurfaceGrid;
-use gearcut_core::cut::Backend;
+use gearcut_core::cut::{Backend, CutLayers, SweptField};
+use gearcut_core::dexel::PlacedRays;
 use gearcut_core::error::{Error, Result};
 use gearcut_core::terms::Side;
 
@@ -50,19 +51,28 @@ pub fn cut_gear(
     interrupt: &Interrupt,
     folder: Option<FlankFiles<'_>>,
 ) -> Result<HobbedGear> {
-    let cut_one = |tooth, side| {
-        let flank = cutter.cut(backend, tooth, side)?;
-        let report = flank_report::measure(tooth, side, &flank);
-        let points = offset_curves::measure(cutter, backend, tooth, side)?;
-        let HobbedFlank { rays, layers, stats, .. } = flank;
-        let evaluated_mm = vec![report.evaluated_mm; layers.len()];
-        Ok(CutFlank { dexels: dexels_of(&layers), rays, layers, stats, evaluated_mm, report: (report, points) })
+    let cut_all = |flanks: &FlankQueue<PlacedRays, HobbedReport>| {
+        let make = |index: usize| {
+            let Some((tooth, side)) = flanks.next(index) else { return Ok(None) };
+            Ok(Some(cutter.swept(cutter.rays(tooth, side)?.1.field)))
+        };
+        let take = |index: usize, swept: SweptField, left: CutLayers| {
+            let (tooth, side) = flanks.list[index];
+            let flank = cutter.flank(tooth, side, swept.field, left)?;
+            let report = flank_report::measure(tooth, side, &flank);
+            let HobbedFlank { rays, layers, stats, .. } = flank;
+            let evaluated_mm = vec![report.evaluated_mm; layers.len()];
+            flanks.take(index, CutFlank { dexels: dexels_of(&layers), rays, layers, stats, evaluated_mm, report })
+        };
+        backend.cut_swept(flanks.list.len(), &make, &take)
     };
-    let cut = cut_flanks(cutter, progress, interrupt, folder, |flanks| flanks.each(cut_one), |_, _, _| Vec::new())?;
+    let cut = cut_flanks(cutter, progress, interrupt, folder, cut_all, |_, _, _| Vec::new())?;
     if cut.reports.is_empty() {
         return Err(Error::Interrupted);
     }
-    let (flanks, points): (Vec<HobbedReport>, Vec<Vec<CurvePoint>>) = cut.reports.into_iter().unzip();
+    let flanks = cut.reports;
+    let finished: Vec<(u32, Side)> = flanks.iter().map(|flank| (flank.tooth, flank.side)).collect();
+    let points = offset_curves::measure(cutter, backend, &finished)?;
     Ok(HobbedGear {
         inspection: inspection(cutter, &flanks, &points),
         flanks,

@@ -2,6 +2,7 @@
 //! passes near a row against all passes; the device against the native backend; the closed body.
 
 use super::jobs::job;
+use crate::fixtures::layers::{frames_apart_mm, same_but_for_frames};
 use gearcut::bevel::face_mill::{BladeKind, FaceMill};
 use gearcut::cut::Backend;
 use gearcut::cut::cpu::Cpu;
@@ -9,7 +10,7 @@ use gearcut::dexel::Layer;
 use gearcut::frame::Rigid3;
 use gearcut::interrupt::Interrupt;
 use gearcut::output::progress::{Progress, ProgressMode};
-use gearcut::passes::SweepPlan;
+use gearcut::passes::{SweepPlan, TurningPasses};
 use gearcut::process::bevel::BevelJob;
 use gearcut::process::bevel::blank::{self, CellGrid, CutCells};
 use gearcut::process::bevel::body::body;
@@ -18,6 +19,7 @@ use gearcut::process::bevel::job::index;
 use gearcut::process::bevel::slots::Slots;
 use gearcut::terms::Side;
 use glam::{DMat3, DVec2, DVec3};
+use std::cell::Cell;
 use std::f64::consts::TAU;
 
 const SIDES: [Side; 2] = [Side::Left, Side::Right];
@@ -273,6 +275,39 @@ fn candidates_and_all_passes_leave_the_same_cell() {
     assert!(visits[1] > 3 * visits[0], "{visits:?}");
 }
 
+/// What a device looks at: the candidates of a whole cell, tile by tile.
+#[test]
+fn candidates_of_whole_cells_leave_what_all_passes_near_their_rows_leave() {
+    let roll = "operation.finish.roll_speed_deg_per_s=10";
+    for (scene, slots) in [("five_linkage_corrected", [0, 40]), ("crown_pinion", [1, 3]), ("hypoid", [0, 5])] {
+        let job = coarse(scene, &[roll, "fields.blank.spacing_mm=0.3"]);
+        let grid = CellGrid::of_scene(&job).expect("rays");
+        for slot in slots {
+            let swept = job.swept_cell(&grid, slot, false);
+            let cpu = Cpu::default();
+            let all_in_turn = |plans: &dyn Fn(&TurningPasses) -> Vec<SweepPlan>| {
+                let apart_mm = Cell::new(0.0_f32);
+                let cut = swept.cut_in_turn(&cpu, |set| {
+                    let plans = plans(set);
+                    let largest_mm = plans.iter().map(|plan| frames_apart_mm([plan])).fold(apart_mm.get(), f32::max);
+                    apart_mm.set(largest_mm);
+                    plans
+                });
+                (cut.expect("cuts"), apart_mm.get())
+            };
+            let (near, off_near) = all_in_turn(&|set| swept.by.plans(&swept.field, set).collect());
+            let (in_tiles, off_in_tiles) = all_in_turn(&|set| vec![SweepPlan::in_tiles(&swept.field, set)]);
+            println!("{scene}: frames may be {off_near} and {off_in_tiles} mm off");
+            println!("{scene}: {} pairs of {}", in_tiles.stats.dexel_passes, near.stats.dexel_passes);
+            assert!(in_tiles.stats.dexel_passes < near.stats.dexel_passes);
+            for (in_tiles, near) in in_tiles.layers.iter().zip(&near.layers) {
+                same_but_for_frames(&format!("{scene}, slot {slot}"), in_tiles, near, off_near + off_in_tiles);
+                assert!(*near != swept.field.blank_layer());
+            }
+        }
+    }
+}
+
 /// Passes that are left out because they stay clear of a row take nothing from it.
 #[test]
 fn passes_near_a_row_and_all_passes_leave_the_same() {
@@ -318,7 +353,8 @@ fn the_body_is_closed_and_has_the_volume_of_the_rays() {
 #[cfg(feature = "gpu")]
 #[test]
 fn the_device_cuts_the_same_cell() {
-    use crate::fixtures::parity::{cut_both_in_space, software_gpu, strict};
+    use crate::fixtures::parity::{Parity, cut_both_in_space, software_gpu, strict};
+    use gearcut::cut::SweptField;
     /// As on flanks, but rays lean by the blades' angle against the surface, which stretches errors by 1 / sin 20 deg.
     const SWEPT_NM: f64 = 6.0;
     let gpu = software_gpu(strict());
@@ -329,4 +365,17 @@ fn the_device_cuts_the_same_cell() {
     let (parity, _, _, _) = cut_both_in_space(&gpu, "slot 2, row 4", &field, &plan);
     println!("{parity}");
     assert_eq!(parity.verdict_within(SWEPT_NM), Ok(()));
+    // The whole cell through both operations, as a run cuts it.
+    let swept = job.swept_cell(&grid, 2, false);
+    let [native, got] =
+        [&Cpu::default() as &dyn Backend, &gpu].map(|backend| swept.clone().cut(backend).expect("cuts"));
+    let mut parity = Parity::default();
+    for (native, got) in native.layers.iter().zip(&got.layers) {
+        parity.add("slot 2", grid.columns, native, &[], got);
+    }
+    println!("{parity}");
+    assert_eq!(parity.verdict_within(SWEPT_NM), Ok(()));
+    // The next slot's blades stand at another phase, and are seen.
+    let other = SweptField { field: swept.field.clone(), ..job.swept_cell(&grid, 3, false) }.cut(&gpu).expect("cuts");
+    assert!(other.layers != got.layers);
 }

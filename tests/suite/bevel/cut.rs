@@ -2,6 +2,7 @@
 //! all passes; the device against the native backend.
 
 use super::jobs::job;
+use crate::fixtures::layers::{frames_apart_mm, same_but_for_frames};
 use gearcut::bevel::ease_off::Setting;
 use gearcut::cut::Backend;
 use gearcut::cut::cpu::Cpu;
@@ -201,14 +202,18 @@ fn candidates_and_all_passes_leave_the_same_flank() {
         let rays = patch(&job, tooth, side, [40, 80], [0.12, 0.4]);
         for operation in 0..2 {
             let set = job.slots.of(operation, job.space_of(tooth, side));
-            let plans = [SweepPlan::new(&rays.field, set), SweepPlan::brute_force(&rays.field, set)];
+            let plans =
+                [SweepPlan::new, SweepPlan::brute_force, SweepPlan::in_tiles].map(|plan| plan(&rays.field, set));
             assert!(plans[1].dexel_passes() > 4 * plans[0].dexel_passes());
-            let [layer, all] = plans.map(|plan| {
+            assert!(plans[1].dexel_passes() > 2 * plans[2].dexel_passes());
+            let apart_mm = frames_apart_mm([&plans[0], &plans[2]]);
+            let [layer, all, in_tiles] = plans.map(|plan| {
                 let mut layer = rays.field.blank_layer();
                 Cpu::default().cut_spatial(&rays.field, &plan, &mut layer).expect("cuts");
                 layer
             });
             assert!(layer == all, "tooth {tooth} {side:?}, operation {operation}");
+            same_but_for_frames(&format!("tooth {tooth} {side:?}"), &in_tiles, &all, apart_mm);
             assert!(layer != rays.field.blank_layer());
         }
     }

@@ -235,7 +235,7 @@ fn plans_in_turn_leave_the_bytes_of_plans_one_by_one() {
         fields.iter().map(|planned| cut_in_turn(&gpu, planned, |_, _| ()).expect("cuts")).collect();
     assert!(together == apart, "layers or counts differ");
     // More fields than go together: three submissions, two of them on their way at once.
-    let many: Vec<PlannedField> = fields.iter().cycle().take(30).cloned().collect();
+    let many: Vec<PlannedField> = fields.iter().cycle().take(40).cloned().collect();
     let before = gpu.stage_times()[0].batches;
     assert!(cut_together(&gpu, &many).iter().zip(together.iter().cycle()).all(|(left, of)| left == of));
     assert_eq!(gpu.stage_times()[0].batches, before + 3);

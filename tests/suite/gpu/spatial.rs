@@ -3,14 +3,16 @@
 
 use crate::fixtures::oracle_cases::*;
 use crate::fixtures::parity::*;
-use gearcut::cut::Backend;
+use gearcut::cut::cpu::Cpu;
+use gearcut::cut::{Backend, SweptBy, SweptField};
 use gearcut::dexel::SpatialField;
-use gearcut::gpu::GpuOptions;
 use gearcut::gpu::shaders::Rows;
+use gearcut::gpu::{GpuOptions, OnGpuFailure};
 use gearcut::passes::{SweepPlan, TurningPasses};
 use gearcut::process::hobbing::{HobCutter, HobbingJob};
 use gearcut::process::load;
 use gearcut::terms::Side;
+use serde_json::Value;
 use std::f64::consts::TAU;
 use std::path::Path;
 
@@ -30,9 +32,12 @@ fn case(name: &str) -> (TurningPasses, SpatialField) {
     let case = Case::new(&file["setup"]);
     let cycle = TAU * f64::from(case.teeth) / number(&file["setup"], "K");
     let passes = case.passes([-3.5 * cycle, 4.5 * cycle]);
-    let (space, flank) = (file["space"].as_i64().expect("space"), number(&file, "flank"));
-    let field = case.patch(space, flank, &even(-26.0, 24.0, 120), &even(-5.0, 5.0, 131));
-    (passes, field)
+    (passes, patch(&file, &case))
+}
+
+fn patch(file: &Value, case: &Case) -> SpatialField {
+    let (space, flank) = (file["space"].as_i64().expect("space"), number(file, "flank"));
+    case.patch(space, flank, &even(-26.0, 24.0, 120), &even(-5.0, 5.0, 131))
 }
 
 #[test]
@@ -50,6 +55,13 @@ fn hobbed_flanks_are_cut_alike() {
         println!("{parity}");
         assert_eq!(parity.verdict_within(ADDED_NM), Ok(()), "{name}");
         all.merge(parity);
+        // As the backend plans for itself: tile by tile.
+        let in_tiles = SweepPlan::in_tiles(&field, &passes);
+        let (parity, _, _, tiled) = cut_both_in_space(&gpu, name, &field, &in_tiles);
+        println!("{parity} in tiles");
+        assert_eq!(parity.verdict_within(ADDED_NM), Ok(()), "{name} in tiles");
+        let swept = SweptField { field: field.clone(), operations: vec![vec![&passes]], by: SweptBy::Candidates };
+        assert!(swept.cut(&gpu).expect("cuts").layers == [tiled], "{name}: a job is its plan");
         let mut alone = field.blank_layer();
         few.cut_spatial(&field, &plan, &mut alone).expect("cuts");
         let mut parity = Parity::default();
@@ -118,6 +130,37 @@ fn small_batches_give_the_same_bytes() {
     let gpu = software_gpu(GpuOptions { memory_limit_bytes: Some(20_000), ..strict() });
     let refused = gpu.cut_spatial(&field, &plan, &mut field.blank_layer());
     assert!(refused.is_err_and(|error| error.to_string().contains("groups")));
+}
+
+/// Operations of a field follow each other where its dexels lie, and fields share a submission; a field that does not
+/// fit is cut alike, and one whose device is lost as natively.
+#[test]
+fn operations_in_turn_leave_the_bytes_of_operations_one_by_one() {
+    let file = data("p11_patch_circle");
+    let case = Case::new(&file["setup"]);
+    let cycle = TAU * f64::from(case.teeth) / number(&file["setup"], "K");
+    let operations = [[-3.5, 0.0], [-3.5, 4.5]].map(|ends: [f64; 2]| case.passes(ends.map(|end| end * cycle)));
+    let field = patch(&file, &case);
+    let swept = SweptField {
+        field: field.clone(),
+        operations: operations.iter().map(|passes| vec![passes]).collect(),
+        by: SweptBy::Candidates,
+    };
+    let gpu = software_gpu(strict());
+    let left = swept.clone().cut(&gpu).expect("cuts");
+    assert_eq!(gpu.stage_times()[0].batches, 1, "one submission");
+    let mut layer = field.blank_layer();
+    for (passes, left) in operations.iter().zip(&left.layers) {
+        let stats = gpu.cut_spatial(&field, &SweepPlan::in_tiles(&field, passes), &mut layer).expect("cuts");
+        assert!(stats.unconverged == 0 && layer == *left, "an operation by itself leaves something else");
+    }
+    assert!(left.layers[0] != left.layers[1]);
+    let small = software_gpu(GpuOptions { memory_limit_bytes: Some(300_000), ..strict() });
+    assert!(swept.clone().cut(&small).expect("cuts") == left, "batches change the result");
+    let lost = software_gpu(GpuOptions { on_failure: OnGpuFailure::RedoNatively, ..strict() });
+    lost.lose_device();
+    let native = swept.clone().cut(&Cpu::default()).expect("cuts");
+    assert!(swept.cut(&lost).expect("cut natively") == native && lost.incidents().len() == 1);
 }
 
 mod slow {

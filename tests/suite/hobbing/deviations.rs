@@ -137,7 +137,8 @@ mod slow {
         let cutter = with_work_error(&job, error);
         let gear = &job.scene.gear;
         let crossings = |side: Side| -> Vec<_> {
-            let cut = |tooth| offset_curves::measure(&cutter, &Cpu::default(), tooth, side).expect("cut");
+            let cut =
+                |tooth| offset_curves::measure(&cutter, &Cpu::default(), &[(tooth, side)]).expect("cut").remove(0);
             let teeth = (1..=gear.teeth).into_par_iter();
             teeth.map(|tooth| offset_curves::pitch_crossing(&cut(tooth), &cutter)).collect()
         };

@@ -28,7 +28,7 @@ fn points_on_five_curves_are_those_of_the_paper_and_agree_with_the_flanks_height
     let file = data("p07_points350_s2");
     let (mut fillets, mut largest_um) = (0, 0.0_f64);
     for (tooth, side) in [(1, Side::Right), (12, Side::Left), (6, Side::Right)] {
-        let points = offset_curves::measure(&cutter, &backend, tooth, side).expect("cut");
+        let points = offset_curves::measure(&cutter, &backend, &[(tooth, side)]).expect("cut").remove(0);
         assert_eq!(points.len(), 5);
         // Targets: the independent implementation's rows of this flank; its x and y are exchanged, its spaces those
         // before (right flanks) or after the tooth.

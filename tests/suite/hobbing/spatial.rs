@@ -1,5 +1,6 @@
 //! The spatial kernel against an independent implementation: heights of hobbed flanks, the passes that left them.
 
+use crate::fixtures::layers::{frames_apart_mm, same_but_for_frames};
 use crate::fixtures::oracle_cases::*;
 use gearcut::cut::Backend;
 use gearcut::cut::cpu::{Cpu, Vectors};
@@ -123,6 +124,8 @@ pub(super) fn same_as_brute_force(name: &str, passes: &TurningPasses, field: &Sp
         differ.len()
     );
     assert!(differ.is_empty(), "{name}: dexel {} of {}", differ[0], field.len());
+    let whole_tiles = SweepPlan::in_tiles(field, passes);
+    same_but_for_frames(name, &run(&whole_tiles, false), &brute, frames_apart_mm([&plan, &whole_tiles]));
     brute
 }
 

@@ -21,7 +21,8 @@ fn job(scene: &str, settings: &[&str]) -> HobbingJob {
 /// flank.
 fn cut_um(job: &HobbingJob, side: Side) -> [f64; 2] {
     let cutter = HobCutter::new(job).expect("passes");
-    let points = offset_curves::measure(&cutter, &Cpu::default(), 1, side).expect("all points are found");
+    let points =
+        offset_curves::measure(&cutter, &Cpu::default(), &[(1, side)]).expect("all points are found").remove(0);
     assert_eq!(points.len(), 5);
     for point in &points {
         let along_um = 1e3 * point.along_mm.expect("cut");

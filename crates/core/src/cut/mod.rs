@@ -8,6 +8,7 @@
 pub mod blank;
 pub mod cpu;
 pub mod sweep_chips;
+pub mod swept;
 
 use crate::dexel::figures::{FieldFigures, LinesAt};
 use crate::dexel::{BlankField, Field, Layer, SpatialField};
@@ -20,6 +21,7 @@ use std::sync::OnceLock;
 use sweep_chips::SweepsCut;
 
 pub use blank::{BlankCut, BlankOperation, BlankStats, CutBlank, Rub};
+pub use swept::{MakeSwept, SweptBy, SweptField, TakeSwept};
 
 /// Heights below this are the kernels' own error and shown as zero, µm.
 pub const KERNEL_UM: f64 = 1e-4;
@@ -184,6 +186,20 @@ pub trait Backend: Send + Sync {
     /// # Errors
     /// As [`Self::cut`].
     fn cut_spatial(&self, field: &SpatialField, plan: &SweepPlan, layer: &mut Layer) -> Result<CutStats, Error>;
+
+    /// Cuts so many fields of rays in space, as [`Self::cut_fields`] does.
+    ///
+    /// # Errors
+    /// As [`Self::cut`]; those of `make` and `take`.
+    fn cut_swept<'p>(&self, count: usize, make: &MakeSwept<'_, 'p>, take: &TakeSwept<'_, 'p>) -> Result<(), Error> {
+        (0..count).into_par_iter().try_for_each(|index| match make(index)? {
+            Some(swept) => {
+                let left = swept.cut_in_turn(self, |set| swept.by.plans(&swept.field, set))?;
+                take(index, swept, left)
+            }
+            None => Ok(()),
+        })
+    }
 
     /// What went wrong so far and was made good: one line each, for the run record.
     fn incidents(&self) -> Vec<String> {

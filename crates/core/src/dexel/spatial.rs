@@ -103,6 +103,14 @@ impl SpatialField {
         Ray { origin_mm: vector(&self.origins_mm), normal: vector(&self.normals) }
     }
 
+    /// One column alone.
+    #[must_use]
+    pub fn column(&self, column: usize) -> Self {
+        Self::new(1, self.rows, self.low_mm, |_, row| {
+            (self.ray(column, row), f64::from(self.blank_mm[self.index(column, row)]))
+        })
+    }
+
     /// Origins, component by component, mm.
     pub fn origins_mm(&self) -> &[Vec<f64>; 3] {
         &self.origins_mm

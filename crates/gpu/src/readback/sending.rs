@@ -44,7 +44,7 @@ impl Sending<'_> {
     fn shared(&self, inputs: &[Input]) -> Vec<Option<wgpu::Buffer>> {
         let own = inputs.iter().map(|input| match *input {
             Input::Shared { label, bytes, usage } => Some(self.buffer(label, bytes, usage)),
-            Input::Tiles | Input::Records => None,
+            Input::Rays | Input::Tiles | Input::Records => None,
         });
         own.collect()
     }
@@ -94,16 +94,22 @@ impl Sending<'_> {
     }
 
     /// Runs the launches of a step; gives its count of iterations that stopped short.
-    fn step(&mut self, step: &ReadbackStep, [heights, passes]: &[wgpu::Buffer; 2]) -> wgpu::Buffer {
+    fn step(
+        &mut self,
+        step: &ReadbackStep,
+        rays: Option<&wgpu::Buffer>,
+        [heights, passes]: &[wgpu::Buffer; 2],
+    ) -> wgpu::Buffer {
         let own = self.shared(&step.inputs);
         let unconverged = self.buffer("unconverged", bytemuck::bytes_of(&0_u32), Use::STORAGE | Use::COPY_SRC);
         for launch in &step.launches {
             let tiles = self.buffer("tiles", launch.tiles, Use::STORAGE);
             let records = self.buffer("records", launch.records, self.shipment.record_usage);
-            let inputs = step.inputs.iter().zip(&own).map(|(input, own)| match (input, own) {
-                (Input::Records, _) => &records,
-                (_, Some(own)) => own,
-                (_, None) => &tiles,
+            let inputs = step.inputs.iter().zip(&own).map(|(input, own)| match (input, own, rays) {
+                (Input::Records, ..) => &records,
+                (Input::Rays, _, Some(rays)) => rays,
+                (_, Some(own), _) => own,
+                (_, None, _) => &tiles,
             });
             let buffers: Vec<&wgpu::Buffer> = inputs.chain([heights, passes, &unconverged]).collect();
             self.run(launch.pipeline, &buffers, launch.workgroups, true);
@@ -114,6 +120,7 @@ impl Sending<'_> {
     /// Runs a job and brings back what is wanted of it.
     pub(super) fn job(&mut self, job: &ReadbackJob) {
         let bytes = job.before.bytes();
+        let rays = (!job.rays.is_empty()).then(|| self.buffer("rays", job.rays, Use::STORAGE));
         let mut dexels = vec![self.before(&job.before)];
         for (index, step) in job.steps.iter().enumerate() {
             if matches!(job.wanted, Wanted::Figures(_)) && index > 0 {
@@ -125,7 +132,7 @@ impl Sending<'_> {
                 dexels.push(next);
             }
             let now = &dexels[dexels.len() - 1];
-            let unconverged = self.step(step, now);
+            let unconverged = self.step(step, rays.as_ref(), now);
             if let Wanted::Dexels = job.wanted {
                 for of in now {
                     self.bring(of, 0..bytes);

@@ -1,8 +1,8 @@
 //! Tooth profiles as Liu et al. (2015, section 6.2) measured them: points in which five curves beside the pitch curve
 //! cross every flank, as cut against as meant.
 //!
-//! In: the hobbing job and a backend. Out: per flank five [`CurvePoint`]s in the middle of the face, and over all of
-//! them the frequencies of their errors with the fitted normal distribution.
+//! In: the hobbing job, a backend, flanks. Out: per flank five [`CurvePoint`]s in the middle of the face, and over all
+//! of them the frequencies of their errors with the fitted normal distribution.
 //!
 //! The curves run along the pitch curve at constant distances, at 3 and 6 mm to both sides on the paper's gear of
 //! module 8; here at the same shares of the normal module, or lower where the tooth is lower ([`offsets_mm`]): a ray
@@ -21,12 +21,14 @@
 use crate::measure::crossing::Crossing;
 use crate::process::hobbing::rack_generation::{ProfileCrossing, ProfilePart};
 use crate::process::hobbing::{HobCutter, HobbingJob};
-use gearcut_core::cut::Backend;
-use gearcut_core::dexel::{NO_PASS, Ray, SpatialField};
+use gearcut_core::cut::{Backend, CutLayers};
+use gearcut_core::dexel::{Layer, NO_PASS, Ray, SpatialField};
 use gearcut_core::error::{NotConverged, Result};
 use gearcut_core::terms::Side;
 use glam::DVec2;
+use rayon::prelude::*;
 use std::f64::consts::PI;
+use std::sync::OnceLock;
 
 /// Distance of the outermost curves from the pitch curve, normal modules.
 const REACH_MODULES: f64 = 0.75;
@@ -79,79 +81,110 @@ pub fn offsets_mm(job: &HobbingJob) -> Vec<f64> {
     SHARES.into_iter().map(offset_mm).filter(|&mm| -depth_mm < mm && mm < height_mm).collect()
 }
 
-/// Points of a flank; curves that do not cross it are left out.
+/// Points of some flanks, cut together; curves that do not cross a flank are left out.
 ///
 /// # Errors
 /// The backend's; a point that is still further than that from its ray after all rounds.
-pub fn measure(cutter: &HobCutter, backend: &dyn Backend, tooth: u32, side: Side) -> Result<Vec<CurvePoint>> {
-    let job = cutter.job;
-    let (curve, blank, gear) = (&job.curve, &job.blank, &job.scene.gear);
-    let space = i64::from(tooth) - i64::from(side == Side::Right);
-    let mut points: Vec<CurvePoint> = Vec::new();
-    let sound_roll_mm = job.target.sound_roll_mm(space, side, 0.0);
-    for offset_mm in offsets_mm(job) {
-        if let Some(target) = job.target.crossing_from(sound_roll_mm, blank, space, side, offset_mm, 0.0) {
-            points.push(CurvePoint { offset_mm, target, cut_mm: None, along_mm: None });
-        }
-    }
-    let reach_mm = 0.5 * PI * gear.module_mm;
-    // Where each point's ray stands, as arc of the pitch curve, and what is still to be cut.
-    let mut arcs_mm: Vec<f64> = points.iter().map(|point| point.target.foot_arc_mm).collect();
-    let mut open: Vec<usize> = (0..points.len()).collect();
-    let mut farthest_mm = 0.0_f64;
+pub fn measure(cutter: &HobCutter, backend: &dyn Backend, flanks: &[(u32, Side)]) -> Result<Vec<Vec<CurvePoint>>> {
+    let mut flanks: Vec<OpenPoints> =
+        flanks.par_iter().map(|&(tooth, side)| OpenPoints::new(cutter, tooth, side)).collect();
     for round in 0.. {
-        if open.is_empty() {
-            break;
-        }
+        let mut open: Vec<&mut OpenPoints> = flanks.iter_mut().filter(|flank| !flank.open.is_empty()).collect();
+        let Some(first) = open.first() else { break };
         if round == ROUNDS {
             // The bend is what is still missing; where the ray stood last is told by the first point that is open.
             return Err(NotConverged {
                 what: "the surface as cut on a curve beside the pitch curve",
                 after: ROUNDS,
-                last: arcs_mm[open[0]],
-                last_step: farthest_mm,
+                last: first.arcs_mm[first.open[0]],
+                last_step: first.farthest_mm,
                 residual: BEND_MM,
             }
             .into());
         }
-        let frames: Vec<_> = arcs_mm.iter().map(|&arc| curve.frame(curve.phi_at_arc(arc))).collect();
-        let ray = |i: usize| Ray {
-            origin_mm: (frames[i].point_mm + points[i].offset_mm * frames[i].normal).extend(0.0),
-            // Out of the tooth: towards larger arcs on the left flank.
-            normal: (side.sign() * frames[i].tangent).extend(0.0),
+        let cut: Vec<OnceLock<Layer>> = vec![OnceLock::new(); open.len()];
+        let make = |index: usize| Ok(Some(cutter.swept(open[index].field(cutter))));
+        let take = |index: usize, _, left: CutLayers| {
+            let _is_first = cut[index].set(left.layers.into_iter().next_back().expect("at least one operation"));
+            Ok(())
         };
-        let field = SpatialField::new(open.len(), 1, -DEPTH_MODULES * gear.module_mm, |column, _| {
-            (ray(open[column]), reach_mm)
-        });
-        let (layers, _) = cutter.cut_field(backend, &field)?;
-        let finished = layers.last().expect("at least one operation");
-        let found: Vec<(usize, f64)> = open
-            .iter()
-            .enumerate()
-            .filter(|&(column, _)| finished.passes[column] != NO_PASS)
-            .map(|(column, &i)| (i, f64::from(finished.heights_mm[column])))
-            .collect();
-        let cuts: Vec<(usize, f64, DVec2)> =
-            found.into_iter().map(|(i, height_mm)| (i, height_mm, ray(i).at(height_mm).truncate())).collect();
-        open.clear();
-        farthest_mm = cuts.iter().map(|(_, height_mm, _)| height_mm.abs()).fold(0.0, f64::max);
-        for (i, height_mm, cut_mm) in cuts {
-            let foot = blank.height(cut_mm, curve.phi_at_arc(arcs_mm[i])).1;
-            let moved_mm = curve.arc_mm(foot) - arcs_mm[i];
-            arcs_mm[i] += moved_mm;
+        backend.cut_swept(open.len(), &make, &take)?;
+        for (flank, finished) in open.iter_mut().zip(&cut) {
+            flank.take(cutter, finished.get().expect("every field is taken"));
+        }
+    }
+    Ok(flanks.into_iter().map(|flank| flank.points).collect())
+}
+
+/// Points of a flank whose rays move to where the surface is found.
+struct OpenPoints {
+    side: Side,
+    points: Vec<CurvePoint>,
+    /// Where each point's ray stands, as arc of the pitch curve, mm.
+    arcs_mm: Vec<f64>,
+    /// What is still to be cut.
+    open: Vec<usize>,
+    /// How far from its ray's origin the surface was found at most, mm.
+    farthest_mm: f64,
+}
+
+impl OpenPoints {
+    fn new(cutter: &HobCutter, tooth: u32, side: Side) -> Self {
+        let job = cutter.job;
+        let space = i64::from(tooth) - i64::from(side == Side::Right);
+        let sound_roll_mm = job.target.sound_roll_mm(space, side, 0.0);
+        let point = |offset_mm| {
+            let target = job.target.crossing_from(sound_roll_mm, &job.blank, space, side, offset_mm, 0.0)?;
+            Some(CurvePoint { offset_mm, target, cut_mm: None, along_mm: None })
+        };
+        let points: Vec<CurvePoint> = offsets_mm(job).into_iter().filter_map(point).collect();
+        let arcs_mm = points.iter().map(|point| point.target.foot_arc_mm).collect();
+        Self { side, open: (0..points.len()).collect(), points, arcs_mm, farthest_mm: 0.0 }
+    }
+
+    /// Ray of a point, out of the tooth: towards larger arcs on the left flank.
+    fn ray(&self, cutter: &HobCutter, point: usize) -> Ray {
+        let curve = &cutter.job.curve;
+        let frame = curve.frame(curve.phi_at_arc(self.arcs_mm[point]));
+        Ray {
+            origin_mm: (frame.point_mm + self.points[point].offset_mm * frame.normal).extend(0.0),
+            normal: (self.side.sign() * frame.tangent).extend(0.0),
+        }
+    }
+
+    /// Rays of the points that are open.
+    fn field(&self, cutter: &HobCutter) -> SpatialField {
+        let module_mm = cutter.job.scene.gear.module_mm;
+        let reach_mm = 0.5 * PI * module_mm;
+        SpatialField::new(self.open.len(), 1, -DEPTH_MODULES * module_mm, |column, _| {
+            (self.ray(cutter, self.open[column]), reach_mm)
+        })
+    }
+
+    /// Takes what is left on the rays over: those stay open that stood too far away.
+    fn take(&mut self, cutter: &HobCutter, finished: &Layer) {
+        let (curve, blank) = (&cutter.job.curve, &cutter.job.blank);
+        let open = std::mem::take(&mut self.open);
+        self.farthest_mm = 0.0;
+        for (column, i) in open.into_iter().enumerate().filter(|&(column, _)| finished.passes[column] != NO_PASS) {
+            let height_mm = f64::from(finished.heights_mm[column]);
+            self.farthest_mm = self.farthest_mm.max(height_mm.abs());
+            let cut_mm = self.ray(cutter, i).at(height_mm).truncate();
+            let foot = blank.height(cut_mm, curve.phi_at_arc(self.arcs_mm[i])).1;
+            let moved_mm = curve.arc_mm(foot) - self.arcs_mm[i];
+            self.arcs_mm[i] += moved_mm;
             let frame = curve.frame(foot);
-            let point = &mut points[i];
+            let point = &mut self.points[i];
             point.cut_mm = Some(frame.point_mm + point.offset_mm * frame.normal);
             // Along the curve an arc of the pitch curve is 1 + offset / rho as long.
             let stretch = 1.0 + point.offset_mm * frame.curvature_per_mm;
-            point.along_mm = Some(side.sign() * (arcs_mm[i] - point.target.foot_arc_mm) * stretch);
+            point.along_mm = Some(self.side.sign() * (self.arcs_mm[i] - point.target.foot_arc_mm) * stretch);
             let bend_per_mm = frame.curvature_per_mm / stretch;
             if 0.5 * height_mm * height_mm * bend_per_mm.abs() > BEND_MM {
-                open.push(i);
+                self.open.push(i);
             }
         }
     }
-    Ok(points)
 }
 
 /// Where the surface as cut crosses the pitch curve, among a flank's points.

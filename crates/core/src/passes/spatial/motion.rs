@@ -95,7 +95,7 @@ impl MotionTable {
     }
 
     /// How far a sweep's polynomials may be from the law of a piece, mm, within `half_rad` of a tool angle: cubic for a
-    /// point of the work `from_origin_mm` away from its origin, quadratic in what turns within `reach_mm` of that point.
+    /// point of the work `from_origin_mm` away from its origin, quadratic in what turns within `reach_mm` of it.
     ///
     /// Where f has the fourth rate M, a cubic through Chebyshev's four nodes is off by at most M d^4 / 192, d the half
     /// width; the quadratic without the cubic's T3 lacks M' d^3 / 24 more, M' the third rate. A motion with steps is
@@ -372,7 +372,8 @@ mod tests {
                 let step = |x: f64| if x > at { (x - at).powi(k as i32) / factorial } else { 0.0 };
                 fitted_errors(step, 0.0, 1.0)
             };
-            let worst = (0..=400).map(|i| of_step(f64::from(i) / 200.0 - 1.0 + 1e-9)).flatten().fold(0.0, f64::max);
+            let places = (0..=400).map(|i| f64::from(i) / 200.0 - 1.0 + 1e-9);
+            let worst = places.flat_map(of_step).fold(0.0, f64::max);
             assert!(worst <= said + 1e-9 && worst > 0.95 * said, "{k}: {worst}, not {said}");
         }
     }

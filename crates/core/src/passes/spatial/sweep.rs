@@ -183,7 +183,10 @@ impl Sweep {
         let radius_mm = at.x.hypot(at.y);
         let range = range(radius_mm);
         let [from, to] = set.motion.piece_rad(piece).map(|angle| set.turn * (angle - pass.tool_angle_rad));
-        let t_at_swept = |angle: f64| (0.5 * (angle - swept)).clamp(-0.25 * PI, 0.25 * PI).tan();
+        let t_at_swept = |angle: f64| match 0.5 * (angle - swept) {
+            half if half.abs() < 0.25 * PI => half.tan(),
+            half => LARGEST_T.copysign(half),
+        };
         let [from, to] = [t_at_swept(from.min(to)) - CORNER_OVERLAP, t_at_swept(from.max(to)) + CORNER_OVERLAP];
         if from > range || to < -range {
             return None;

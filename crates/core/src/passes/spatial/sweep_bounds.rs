@@ -110,11 +110,13 @@ impl RegionBounds<'_> {
         let upper_bound_mm = self.upper_bound_mm(&bounded).min(upper_bound_mm);
         let mut kept = self.undominated(&bounded, upper_bound_mm);
         if !undecided.is_empty() {
-            let mut meeting = self
-                .meeting(undecided.iter().map(|sampled| sampled.index).collect(), upper_bound_mm)
-                .into_iter()
-                .peekable();
-            undecided.retain(|sampled| meeting.next_if_eq(&sampled.index).is_some());
+            let enters: Vec<bool> =
+                undecided.iter().map(|sampled| self.enters_below(sampled, upper_bound_mm)).collect();
+            let unsure = undecided.iter().zip(&enters).filter(|(_, enters)| !**enters);
+            let mut meeting =
+                self.meeting(unsure.map(|(sampled, _)| sampled.index).collect(), upper_bound_mm).into_iter().peekable();
+            let mut enters = enters.into_iter();
+            undecided.retain(|sampled| enters.next().unwrap_or(true) || meeting.next_if_eq(&sampled.index).is_some());
             kept.extend(undecided.into_iter().map(|sampled| (*sampled, ALL_CELLS)));
             kept.sort_unstable_by_key(|(sampled, _)| sampled.index);
         }
@@ -211,6 +213,16 @@ impl RegionBounds<'_> {
             .collect()
     }
 
+    /// Whether a ray enters the segment itself between its lowest height and an upper bound: the box would say as much.
+    fn enters_below(&self, sampled: &Sampled, upper_bound_mm: f64) -> bool {
+        let (lowest_mm, [y_start, y_end]) = (2.0 * self.field.low_mm, self.segment(sampled).y_range_mm);
+        (0..RAYS).any(|ray| {
+            sampled.entered >> ray & 1 == 1
+                && (lowest_mm..=upper_bound_mm).contains(&sampled.height_mm[ray])
+                && (y_start..=y_end).contains(&sampled.y_mm[ray])
+        })
+    }
+
     fn segment(&self, sampled: &Sampled) -> &Segment {
         &self.segments[self.frame.records[sampled.index as usize].segment as usize]
     }
@@ -286,8 +298,7 @@ impl pulp::NullaryFnOnce for RakeFaceBoxes<'_, '_> {
             let base_mm = segments[record.segment as usize].blade_from_segment.translation_mm;
             let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
             let mut known = true;
-            for height_mm in heights_mm {
-                let [t, rho, along, step_t] = record.places(&rays, &[height_mm; LANES], MOMENT_STEPS);
+            for [t, rho, along, step_t] in record.places(&rays, &heights_mm, MOMENT_STEPS) {
                 for l in 0..LANES {
                     // dt is half the angle; the point moves more slowly than the rake face turns.
                     let moved_mm = 2.0 * step_t[l].abs() * (rho[l] + record.radius_mm);

@@ -15,7 +15,7 @@ use super::sweep_near::{Ball, near_passes};
 use super::sweep_regions::{RAYS, Region, SIDE};
 use super::sweep_samples::{Sampled, SweepCandidate, SweepFrame};
 use super::sweep_starts::find_starts;
-use super::sweep_tile::{CELLS, SweepTile, TILE_ROWS, cells_between};
+use super::sweep_tile::{CELLS, SweepTile, TILE_COLUMNS, TILE_ROWS, cells_between};
 use super::turning_passes::{BladePass, TurningPasses};
 use crate::dexel::{Ray, SpatialField};
 use crate::tool::edge::Segment;
@@ -53,10 +53,24 @@ impl SweepPlan {
         SweepPlanner { field, set, passes: Considered::Candidates }.plan()
     }
 
+    /// Plan with those candidates of whole tiles that their nine rays leave, for devices: where in the tile each can be
+    /// lowest is not looked for, and Newton's method starts from one height. Searching cells takes longer than what it
+    /// spares a device, which visits all dexels of a tile.
+    pub fn in_tiles(field: &SpatialField, set: &TurningPasses) -> Self {
+        SweepPlanner { field, set, passes: Considered::CandidatesInTiles }.plan()
+    }
+
     /// Plan with every segment of every pass that can reach the field at all, in tiles as large as they may be: for few
     /// passes, over rays so far apart that nothing would be culled.
     pub fn of_near_passes(field: &SpatialField, set: &TurningPasses) -> Self {
         SweepPlanner { field, set, passes: Considered::NearUnculled }.plan()
+    }
+
+    /// The same for the rays of one column alone: a row of rays is slim, and fewer passes come near it.
+    pub fn of_passes_near_column(field: &SpatialField, column: usize, set: &TurningPasses) -> Self {
+        let mut plan = Self::of_near_passes(&field.column(column), set);
+        plan.tiles.iter_mut().for_each(|tile| tile.columns = column..column + 1);
+        plan
     }
 
     /// The same in the tiles of the candidates: what these are compared with.
@@ -102,6 +116,8 @@ struct SweepPlanner<'a> {
 enum Considered {
     /// Those that may leave the lowest surface.
     Candidates,
+    /// The same, tile by tile and not cell by cell.
+    CandidatesInTiles,
     /// All whose blades come near the field.
     Near,
     /// The same, in tiles as large as they may be.
@@ -117,7 +133,8 @@ impl SweepPlanner<'_> {
             return plan;
         }
         let whole = match self.passes {
-            Considered::NearUnculled => Region::in_tiles(self.field, TILE_ROWS),
+            Considered::NearUnculled => Region::in_tiles(self.field, [TILE_COLUMNS, TILE_ROWS]),
+            Considered::CandidatesInTiles => Region::in_small_tiles(self.field),
             _ => Region::whole(self.field),
         };
         let (origin_mm, reach_mm) = self.surroundings(&whole.dexels());
@@ -126,7 +143,7 @@ impl SweepPlanner<'_> {
             (Ball::of_balls(&parts), parts)
         };
         let near = match self.passes {
-            Considered::Candidates => {
+            Considered::Candidates | Considered::CandidatesInTiles => {
                 let (whole, parts) = parts();
                 near_passes(self.set, &whole, &parts)
             }
@@ -137,7 +154,7 @@ impl SweepPlanner<'_> {
             Considered::All => (0..self.set.count()).map(|index| self.set.pass(index)).collect(),
         };
         let sweeps = near.into_iter().flat_map(|pass| self.set.pieces(&pass).map(move |piece| (pass, piece)));
-        if self.passes == Considered::Candidates {
+        if matches!(self.passes, Considered::Candidates | Considered::CandidatesInTiles) {
             let highest_mm = f64::from(self.field.blank_mm.iter().copied().fold(0.0, f32::max));
             let frame = self.near_frame(&whole, (origin_mm, reach_mm), sweeps, highest_mm);
             let sampled = whole.sample(&frame, self.segments());
@@ -197,6 +214,11 @@ impl SweepPlanner<'_> {
         plan: &mut SweepPlan,
     ) {
         let (alive, upper_bound_mm) = self.bounds(region, frame).keep(sampled, upper_bound_mm);
+        let in_tiles = self.passes == Considered::CandidatesInTiles;
+        if in_tiles && region.is_tile() {
+            self.whole_tile(region, frame, &alive, plan);
+            return;
+        }
         let parts = region.parts(frame, self.segments(), &alive);
         if region.is_tile() {
             self.bounded_tile(region, frame, &parts, upper_bound_mm, plan);
@@ -204,7 +226,9 @@ impl SweepPlanner<'_> {
         }
         for (part, mut sampled) in parts {
             let (origin_mm, reach_mm) = self.surroundings(&part.dexels());
-            if reach_mm > NEW_FRAME * frame.reach_mm {
+            // A tile that keeps its frame as its own stands in its middle.
+            let own_frame = in_tiles && part.is_tile();
+            if reach_mm > NEW_FRAME * frame.reach_mm && !own_frame {
                 self.halve(&part, frame, &sampled, upper_bound_mm, plan);
                 continue;
             }
@@ -286,6 +310,19 @@ impl SweepPlanner<'_> {
 
     fn frame(&self, origin_mm: DVec3, reach_mm: f64, candidates: &[SweepCandidate]) -> (SweepFrame, Vec<Option<u32>>) {
         SweepFrame::new(self.set, origin_mm, reach_mm, candidates)
+    }
+
+    /// A tile in the frame that its candidates were sampled in. Newton's method starts from the mean height of the rays
+    /// that surely enter a candidate, or from the lowest one.
+    fn whole_tile(&self, region: &Region, frame: &SweepFrame, alive: &[(Sampled, u8)], plan: &mut SweepPlan) {
+        let first = plan.records.len();
+        plan.records.extend(alive.iter().map(|(sampled, _)| {
+            let mut record = frame.records[sampled.index as usize].clone();
+            record.start.height_mm[0] = sampled.mean_entry_mm().unwrap_or(2.0 * self.field.low_mm);
+            record
+        }));
+        let (columns, rows) = (region.columns.dexels(), region.rows.dexels());
+        plan.tiles.push(SweepTile { columns, rows, origin_mm: frame.origin_mm, records: first..plan.records.len() });
     }
 
     /// Bounds the parts of a tile: a record costs more in the kernel than here, and it is told in which cells it can be

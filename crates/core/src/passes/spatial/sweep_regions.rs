@@ -25,6 +25,10 @@ pub const ALL: u32 = (1 << RAYS) - 1;
 /// about time alone: of roots with rows 1 mm apart, tiles of 32 rows took 1.9 s, those of one row 0.46 s; of flanks
 /// with rows 0.05 mm apart, tiles of 16 rows take 8 % longer to plan and 5 % less to cut than those of 32.
 const LONGEST_TILE_MM: f64 = 1.7;
+/// Length of a tile of a device at most, along and across the tooth, mm: f32 holds 10 mm to 0.6 nm. Shorter tiles are
+/// culled better and have fewer dexels for a device's threads: of a bevel blank with rays 0.5 mm apart, tiles of 1.7 mm
+/// would have a dozen.
+const LONGEST_FRAME_MM: f64 = 10.0;
 
 /// Lines of dexels in one direction.
 #[derive(Debug, Clone, Copy)]
@@ -116,19 +120,19 @@ pub struct Region<'a> {
 impl<'a> Region<'a> {
     /// All of a field, in tiles short enough for culling.
     pub fn whole(field: &'a SpatialField) -> Self {
-        let along_mm = |row: usize| field.ray(0, row).origin_mm;
-        let apart_mm = if field.rows() > 1 { along_mm(0).distance(along_mm(1)) } else { 0.0 };
-        let mut tile = TILE_ROWS;
-        while tile > 1 && tile as f64 * apart_mm > LONGEST_TILE_MM {
-            tile /= 2;
-        }
-        Self::in_tiles(field, tile)
+        Self::in_tiles(field, [TILE_COLUMNS, short_tile(TILE_ROWS, LONGEST_TILE_MM, field, [0, 1])])
     }
 
-    /// All of a field, in tiles of so many rows.
-    pub fn in_tiles(field: &'a SpatialField, rows: usize) -> Self {
+    /// The same in tiles for frames in f32, which may not reach far in either direction.
+    pub fn in_small_tiles(field: &'a SpatialField) -> Self {
+        let tile = |most, second| short_tile(most, LONGEST_FRAME_MM, field, second);
+        Self::in_tiles(field, [tile(TILE_COLUMNS, [1, 0]), tile(TILE_ROWS, [0, 1])])
+    }
+
+    /// All of a field, in tiles of so many columns and rows.
+    pub fn in_tiles(field: &'a SpatialField, [columns, rows]: [usize; 2]) -> Self {
         let span = |lines: usize, tile: usize| LineSpan::new(0, lines.div_ceil(tile), tile, lines - 1);
-        Self::new(field, span(field.columns(), TILE_COLUMNS), span(field.rows(), rows))
+        Self::new(field, span(field.columns(), columns), span(field.rows(), rows))
     }
 
     pub fn new(field: &'a SpatialField, columns: LineSpan, rows: LineSpan) -> Self {
@@ -181,6 +185,18 @@ impl<'a> Region<'a> {
         let (is_narrow, is_short) = (5.0 * width_mm < length_mm, length_mm < 1.25 * width_mm);
         [wide && !(long && is_narrow), long && !(wide && is_short)]
     }
+}
+
+/// Lines of a tile, at most so many and so long; the field's second line begins with this column and row.
+fn short_tile(most: usize, longest_mm: f64, field: &SpatialField, [column, row]: [usize; 2]) -> usize {
+    let is_there = column < field.columns() && row < field.rows();
+    let to_mm = if is_there { field.ray(column, row).origin_mm } else { field.ray(0, 0).origin_mm };
+    let apart_mm = field.ray(0, 0).origin_mm.distance(to_mm);
+    let mut tile = most;
+    while tile > 1 && tile as f64 * apart_mm > longest_mm {
+        tile /= 2;
+    }
+    tile
 }
 
 #[cfg(test)]

@@ -93,59 +93,90 @@ impl SweepRecord {
     /// `last_step` (in mm, and in t) are the last: the error after them is of their squares.
     #[inline(always)]
     pub fn roots(&self, segment: &Segment, rays: &Rays, start: [&Lanes; 2], lowest_mm: f64, last_step: f64) -> Roots {
+        self.roots_of(&paths(self, rays), segment, start, lowest_mm, last_step)
+    }
+
+    /// The same from starting heights alone: one step finds the moments.
+    #[inline(always)]
+    pub fn roots_from(
+        &self,
+        segment: &Segment,
+        rays: &Rays,
+        start_mm: &Lanes,
+        lowest_mm: f64,
+        last_step: f64,
+    ) -> Roots {
+        let paths = paths(self, rays);
+        let start_t = places(self, &paths, start_mm, 1)[0];
+        self.roots_of(&paths, segment, [start_mm, &start_t], lowest_mm, last_step)
+    }
+
+    #[inline(always)]
+    fn roots_of(&self, paths: &Paths, segment: &Segment, start: [&Lanes; 2], lowest_mm: f64, last_step: f64) -> Roots {
         if self.twist_rad_per_mm == 0.0 {
-            roots::<false>(self, segment, rays, start, lowest_mm, last_step)
+            roots::<false>(self, segment, paths, start, lowest_mm, last_step)
         } else {
-            roots::<true>(self, segment, rays, start, lowest_mm, last_step)
+            roots::<true>(self, segment, paths, start, lowest_mm, last_step)
         }
     }
-}
 
-impl SweepRecord {
     /// Moments, distances from the tool's axis less the segment's, and places along the blade's y less the segment's,
     /// of eight points (of the rays, at these heights), after some steps, and the last steps of the moments. A step
     /// gains as many digits as the tool turns faster than the work; whoever needs the places themselves looks at the
     /// last one.
     #[inline(always)]
-    pub fn places(&self, rays: &Rays, height_mm: &Lanes, steps: usize) -> [Lanes; 4] {
+    pub fn places<const HEIGHTS: usize>(
+        &self,
+        rays: &Rays,
+        heights_mm: &[f64; HEIGHTS],
+        steps: usize,
+    ) -> [[Lanes; 4]; HEIGHTS] {
         let paths = paths(self, rays);
-        let (mut t, mut rho, mut y) = ([0.0; LANES], [0.0; LANES], [0.0; LANES]);
-        let mut step_t = [0.0; LANES];
-        for _ in 0..steps {
-            for l in 0..LANES {
-                let (c, d) = (&paths.place, &paths.along);
-                let [u, _] = half_angle(t[l]);
-                let at = |row: usize| {
-                    c[0][row][l]
-                        + u * (c[1][row][l] + u * (c[2][row][l] + u * c[3][row][l]))
-                        + height_mm[l] * (d[0][row][l] + u * (d[1][row][l] + u * d[2][row][l]))
-                };
-                let (r, q, along) = (at(0), at(1), at(2));
-                let [s, c1] = small_turn(self.twist_rad_per_mm * along);
-                let big = r + self.radius_mm;
-                let (big, q) = (big + c1 * big + s * q, q + c1 * q - s * big);
-                let distance = (big * big + q * q).sqrt();
-                let next = q / (big + distance);
-                step_t[l] = next - t[l];
-                t[l] = next;
-                rho[l] = distance - self.radius_mm;
-                y[l] = along;
-            }
+        let mut all = [[[0.0; LANES]; 4]; HEIGHTS];
+        for (at_height, &height_mm) in all.iter_mut().zip(heights_mm) {
+            *at_height = places(self, &paths, &[height_mm; LANES], steps);
         }
-        [t, rho, y, step_t]
+        all
     }
+}
+
+#[inline(always)]
+fn places(record: &SweepRecord, paths: &Paths, height_mm: &Lanes, steps: usize) -> [Lanes; 4] {
+    let (mut t, mut rho, mut y) = ([0.0; LANES], [0.0; LANES], [0.0; LANES]);
+    let mut step_t = [0.0; LANES];
+    for _ in 0..steps {
+        for l in 0..LANES {
+            let (c, d) = (&paths.place, &paths.along);
+            let [u, _] = half_angle(t[l]);
+            let at = |row: usize| {
+                c[0][row][l]
+                    + u * (c[1][row][l] + u * (c[2][row][l] + u * c[3][row][l]))
+                    + height_mm[l] * (d[0][row][l] + u * (d[1][row][l] + u * d[2][row][l]))
+            };
+            let (r, q, along) = (at(0), at(1), at(2));
+            let [s, c1] = small_turn(record.twist_rad_per_mm * along);
+            let big = r + record.radius_mm;
+            let (big, q) = (big + c1 * big + s * q, q + c1 * q - s * big);
+            let distance = (big * big + q * q).sqrt();
+            let next = q / (big + distance);
+            step_t[l] = next - t[l];
+            t[l] = next;
+            rho[l] = distance - record.radius_mm;
+            y[l] = along;
+        }
+    }
+    [t, rho, y, step_t]
 }
 
 #[inline(always)]
 fn roots<const TWISTED: bool>(
     record: &SweepRecord,
     segment: &Segment,
-    rays: &Rays,
+    paths: &Paths,
     start: [&Lanes; 2],
     lowest: f64,
     last_step: f64,
 ) -> Roots {
-    let paths = paths(record, rays);
     let [cos, sin] = segment.blade_from_segment.rotation.to_array();
     let radius = record.radius_mm;
     let [mut h, mut t] = start.map(|lanes| *lanes);

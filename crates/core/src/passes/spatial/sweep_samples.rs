@@ -111,6 +111,15 @@ pub struct Sampled {
     pub y_mm: [f64; RAYS],
 }
 
+impl Sampled {
+    /// Mean height of the rays that enter it.
+    pub fn mean_entry_mm(&self) -> Option<f64> {
+        let entries = self.height_mm.iter().enumerate().filter(|&(ray, _)| self.entered >> ray & 1 == 1);
+        let sum_mm: f64 = entries.map(|(_, height_mm)| height_mm).sum();
+        (self.entered != 0).then(|| sum_mm / f64::from(self.entered.count_ones()))
+    }
+}
+
 /// A candidate on the rays of a region and of its parts.
 struct Fine {
     entered: u32,
@@ -183,8 +192,7 @@ impl pulp::NullaryFnOnce for SampledRays<'_> {
                 let record = &self.frame.records[index as usize];
                 let segment = &self.segments[record.segment as usize];
                 let start_mm: Lanes = std::array::from_fn(|l| fine.start_mm(&lane[l].neighbours));
-                let start_t = record.places(&rays, &start_mm, 1)[0];
-                let roots = record.roots(segment, &rays, [&start_mm, &start_t], self.lowest_mm, LAST_STEP);
+                let roots = record.roots_from(segment, &rays, &start_mm, self.lowest_mm, LAST_STEP);
                 for (l, place) in places.iter().enumerate() {
                     let (height_mm, cosine) = (roots.height_mm[l], roots.cosine[l]);
                     let sure = entered(&roots, l) && cosine >= GRAZING_COSINE;

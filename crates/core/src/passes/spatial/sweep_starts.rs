@@ -52,8 +52,7 @@ impl pulp::NullaryFnOnce for Starting<'_> {
         let lowest_mm = 2.0 * self.field.low_mm;
         for record in self.records {
             let segment = &self.segments[record.segment as usize];
-            let start_t = record.places(&rays, &[0.0; LANES], 1)[0];
-            let roots = record.roots(segment, &rays, [&[0.0; LANES], &start_t], lowest_mm, LAST_STEP);
+            let roots = record.roots_from(segment, &rays, &[0.0; LANES], lowest_mm, LAST_STEP);
             record.start = if (0..LANES).all(|l| entered(&roots, l)) {
                 SweepStart {
                     height_mm: quadratic(&from_middle, &roots.height_mm),

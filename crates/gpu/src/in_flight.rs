@@ -1,0 +1,176 @@
+//! Fields that the device takes whole: made ready some at a time, sent together, taken back while the next are made.
+//!
+//! In: fields by their index. Out: what is left on each. Dexels of a field stay on the device through all that is cut
+//! from it, and several fields share a submission. Two submissions are on their way while the next is made ready. A
+//! field that does not fit the device goes plan by plan in batches.
+
+use crate::context::{Gpu, IN_FLIGHT, OnGpuFailure};
+use crate::problem::GpuProblem;
+use crate::readback::{self, InFlight, ReadbackJob, Returned, Shipment};
+use gearcut_core::cut::cpu::Cpu;
+use gearcut_core::cut::{Backend, CutLayers};
+use gearcut_core::error::Error;
+use rayon::prelude::*;
+use std::collections::VecDeque;
+use std::ops::Range;
+use wgpu::BufferUsages as Use;
+
+/// Fields that are made ready together at first: enough that waiting for them costs little.
+const FIELDS_AT_ONCE: usize = 12;
+/// Twice as many next time where they take less than this together, bytes: the device is sent enough to work on, and
+/// there is still a next time.
+const FEW_BYTES: u64 = 24 << 20;
+/// Bytes that a submission of some fields keeps on the device at most.
+const SUBMISSION_BYTES: u64 = 256 << 20;
+
+/// A field that may go to the device whole.
+pub(crate) trait WholeField: Send + Sized {
+    /// What goes there.
+    type Inputs: Send + Sync;
+    /// Name of the stage that cuts it.
+    const STAGE: &'static str;
+    /// `UNIFORM` or `STORAGE`, whichever the stage reads records from.
+    const RECORD_USAGE: Use;
+
+    /// What goes to the device; nothing if it does not fit.
+    fn compose(&self, gpu: &Gpu) -> Option<Self::Inputs>;
+
+    /// Bytes on the device.
+    fn bytes(inputs: &Self::Inputs) -> u64;
+
+    /// The job.
+    fn job<'a>(inputs: &'a Self::Inputs, gpu: &'a Gpu) -> ReadbackJob<'a>;
+
+    /// What is left of it.
+    fn layers(&self, inputs: Self::Inputs, left: Returned) -> CutLayers;
+
+    /// Cuts it plan by plan, in batches.
+    fn cut_in_batches(&self, gpu: &Gpu) -> Result<CutLayers, Error>;
+
+    /// Cuts it natively.
+    fn cut_natively(&self, native: Cpu) -> Result<CutLayers, Error>;
+}
+
+/// Makes the field of an index; `None`: it is left out.
+type Make<'a, F> = dyn Fn(usize) -> Result<Option<F>, Error> + Sync + 'a;
+/// Takes the field of an index with what is left on it.
+type Take<'a, F> = dyn Fn(usize, F, CutLayers) -> Result<(), Error> + Sync + 'a;
+
+/// A field that is made ready, with its index.
+struct Ready<F: WholeField> {
+    index: usize,
+    field: F,
+    inputs: F::Inputs,
+}
+
+/// Fields that are on their way together.
+struct Sent<F: WholeField> {
+    fields: Vec<Ready<F>>,
+    in_flight: Result<InFlight, GpuProblem>,
+}
+
+impl Gpu {
+    /// Cuts fields as a backend does: while some are on the device, the next ones are made ready, and what is left of
+    /// those before is taken.
+    pub(crate) fn cut_in_flight<F: WholeField>(
+        &self,
+        count: usize,
+        make: &Make<F>,
+        take: &Take<F>,
+    ) -> Result<(), Error> {
+        let mut waiting: VecDeque<Sent<F>> = VecDeque::new();
+        let (mut next, mut at_once) = (0, FIELDS_AT_ONCE);
+        while next < count {
+            let some = next..count.min(next + at_once);
+            next = some.end;
+            let oldest = if waiting.len() == IN_FLIGHT { waiting.pop_front() } else { None };
+            let take_oldest = || oldest.map_or(Ok(()), |sent| self.take_fields(sent, take));
+            let (made, taken) = rayon::join(|| self.make_some(some, make, take), take_oldest);
+            taken?;
+            let fields = made?;
+            if fields.iter().map(|field| F::bytes(&field.inputs)).sum::<u64>() < FEW_BYTES {
+                at_once *= 2;
+            }
+            for fields in groups(fields, SUBMISSION_BYTES.min(self.allowance().batch_bytes)) {
+                if waiting.len() == IN_FLIGHT {
+                    waiting.pop_front().map_or(Ok(()), |sent| self.take_fields(sent, take))?;
+                }
+                let in_flight = self.send_fields(&fields);
+                waiting.push_back(Sent { fields, in_flight });
+            }
+        }
+        waiting.into_iter().try_for_each(|sent| self.take_fields(sent, take))
+    }
+
+    /// Makes the fields of some indices ready; those that do not fit the device are cut and taken.
+    fn make_some<F: WholeField>(
+        &self,
+        some: Range<usize>,
+        make: &Make<F>,
+        take: &Take<F>,
+    ) -> Result<Vec<Ready<F>>, Error> {
+        let ready = |index: usize| -> Result<Option<Ready<F>>, Error> {
+            let Some(field) = make(index)? else { return Ok(None) };
+            if let Some(inputs) = field.compose(self) {
+                return Ok(Some(Ready { index, field, inputs }));
+            }
+            let left = field.cut_in_batches(self)?;
+            take(index, field, left).map(|()| None)
+        };
+        let made: Vec<Option<Ready<F>>> = some.into_par_iter().map(ready).collect::<Result<_, Error>>()?;
+        Ok(made.into_iter().flatten().collect())
+    }
+
+    fn send_fields<F: WholeField>(&self, fields: &[Ready<F>]) -> Result<InFlight, GpuProblem> {
+        self.device.alive()?;
+        let jobs: Vec<ReadbackJob> = fields.iter().map(|field| F::job(&field.inputs, self)).collect();
+        self.send_jobs::<F>(&jobs)
+    }
+
+    /// Sends jobs of fields of a kind, whole ones or parts.
+    pub(crate) fn send_jobs<F: WholeField>(&self, jobs: &[ReadbackJob]) -> Result<InFlight, GpuProblem> {
+        let poison = self.options.poison_outputs;
+        let shipment = Shipment { stage: F::STAGE, record_usage: F::RECORD_USAGE, jobs, poison };
+        readback::send(&self.device, &shipment)
+    }
+
+    /// Waits for fields; cuts them natively if that is what a failure asks for.
+    fn take_fields<F: WholeField>(&self, sent: Sent<F>, take: &Take<F>) -> Result<(), Error> {
+        let Sent { fields, in_flight } = sent;
+        match in_flight.and_then(|in_flight| in_flight.collect(&self.device)) {
+            Ok((left, device_ns)) => {
+                self.log().count(F::STAGE, device_ns);
+                let fields = fields.into_par_iter().zip(left);
+                fields.try_for_each(|(Ready { index, field, inputs }, left)| {
+                    let left = field.layers(inputs, left);
+                    take(index, field, left)
+                })
+            }
+            Err(problem) if self.options.on_failure == OnGpuFailure::Stop => Err(problem.into()),
+            Err(problem) => {
+                self.log().incidents.push(format!("{problem}; cut again on {}", self.native.name()));
+                fields.into_par_iter().try_for_each(|Ready { index, field, .. }| {
+                    let left = field.cut_natively(self.native)?;
+                    take(index, field, left)
+                })
+            }
+        }
+    }
+}
+
+/// Fields in runs that share a submission of at most so many bytes, or of one field.
+fn groups<F: WholeField>(fields: Vec<Ready<F>>, most_bytes: u64) -> Vec<Vec<Ready<F>>> {
+    let (mut groups, mut bytes): (Vec<Vec<Ready<F>>>, u64) = (Vec::new(), 0);
+    for field in fields {
+        let own = F::bytes(&field.inputs);
+        bytes += own;
+        match groups.last_mut().filter(|_| bytes <= most_bytes) {
+            Some(group) => group.push(field),
+            None => {
+                groups.push(vec![field]);
+                bytes = own;
+            }
+        }
+    }
+    groups
+}
