@@ -280,32 +280,31 @@ mod slow {
                 let whole = cutter.rays(tooth, side).expect("a flank").1.field;
                 let [columns, rows] = [whole.columns() / 8, whole.rows() / 8];
                 // On the one flank from its first ray on, on the other between them.
-                for [from_column, from_row] in [if tooth == 1 { [0, 0] } else { [columns / 2, rows / 2] }] {
-                    let field = SpatialField::new(8, 8, whole.low_mm, |column, row| {
-                        let (column, row) = (from_column + columns * column, from_row + rows * row);
-                        (whole.ray(column, row), f64::from(whole.blank_mm[whole.index(column, row)]))
-                    });
-                    let cut = |plan: &SweepPlan| {
-                        let mut layer = field.blank_layer();
-                        Cpu::default().cut_spatial(&field, plan, &mut layer).expect("cuts");
-                        layer
-                    };
-                    let [plan, all] = [SweepPlan::new, SweepPlan::of_all_passes].map(|make| make(&field, passes));
-                    let (few, every) = (cut(&plan), cut(&all));
-                    println!(
-                        "{}: {} of {} records of {} passes",
-                        sets[0],
-                        plan.records.len(),
-                        all.records.len(),
-                        passes.count()
-                    );
-                    assert!(every.passes.iter().filter(|&&pass| pass != u32::MAX).count() > 32);
-                    let differ: Vec<_> = (0..field.len())
-                        .filter(|&i| few.heights_mm[i] != every.heights_mm[i] || few.passes[i] != every.passes[i])
-                        .map(|i| (i, few.heights_mm[i], every.heights_mm[i], few.passes[i], every.passes[i]))
-                        .collect();
-                    assert!(differ.is_empty(), "{sets:?}, tooth {tooth}: {differ:?}");
-                }
+                let [from_column, from_row] = if tooth == 1 { [0, 0] } else { [columns / 2, rows / 2] };
+                let field = SpatialField::new(8, 8, whole.low_mm, |column, row| {
+                    let (column, row) = (from_column + columns * column, from_row + rows * row);
+                    (whole.ray(column, row), f64::from(whole.blank_mm[whole.index(column, row)]))
+                });
+                let cut = |plan: &SweepPlan| {
+                    let mut layer = field.blank_layer();
+                    Cpu::default().cut_spatial(&field, plan, &mut layer).expect("cuts");
+                    layer
+                };
+                let [plan, all] = [SweepPlan::new, SweepPlan::of_all_passes].map(|make| make(&field, passes));
+                let (few, every) = (cut(&plan), cut(&all));
+                println!(
+                    "{}: {} of {} records of {} passes",
+                    sets[0],
+                    plan.records.len(),
+                    all.records.len(),
+                    passes.count()
+                );
+                assert!(every.passes.iter().filter(|&&pass| pass != u32::MAX).count() > 32);
+                let differ: Vec<_> = (0..field.len())
+                    .filter(|&i| few.heights_mm[i] != every.heights_mm[i] || few.passes[i] != every.passes[i])
+                    .map(|i| (i, few.heights_mm[i], every.heights_mm[i], few.passes[i], every.passes[i]))
+                    .collect();
+                assert!(differ.is_empty(), "{sets:?}, tooth {tooth}: {differ:?}");
             }
         }
     }

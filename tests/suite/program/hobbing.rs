@@ -1,6 +1,6 @@
 //! Hobbing from the command line: bad input explained, and everything that a run gives back.
 
-use crate::fixtures::command::{Outcome, assert_same_files, files, gearcut, gearcut_on_threads, shipped_scenes};
+use crate::fixtures::command::{Outcome, assert_same_files, files, gearcut, gearcut_on_threads};
 use crate::fixtures::json_schema::assert_is_results;
 use serde_json::Value;
 use std::path::Path;
