@@ -166,7 +166,7 @@ mod tests {
     fn smoothed_noise_has_its_variance_and_four_rates() {
         let tau_s = 2.0;
         let noise = noise(NoiseLaw::InTime { bandwidth_hz: 1.0 / (TAU * tau_s) }, 5);
-        let count = 20_000;
+        let count = 5_000;
         for place in [0.0, 0.25, 0.5] {
             let square = |index: i32| {
                 let time_s = (f64::from(index) * 160.0 + place) * 0.4 * tau_s;
