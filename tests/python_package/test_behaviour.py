@@ -79,6 +79,8 @@ def test_arrays_are_those_that_gearcut_filled(gear: dict[str, Any]) -> None:
 
 
 def test_ctrl_c_ends_a_cut_and_keeps_what_is_finished(gear: dict[str, Any], tmp_path: Path) -> None:
+    # Programs that a shell starts in the background ignore the signal.
+    signal.signal(signal.SIGINT, signal.default_int_handler)
     pressed: list[Mapping[str, Any]] = []
 
     def press(event: Mapping[str, Any]) -> None:
