@@ -217,7 +217,7 @@ mod slow {
     fn runs_that_write_everything_lose_nothing_either() {
         let all = Parts::of([Part::Maps, Part::Meshes, Part::Axes, Part::Report]);
         for fault in [Fault::Death, Fault::OneWrite] {
-            let runs = at_steps(fault, all, |n, steps| n + 6 > steps || n % 600 == 0);
+            let runs = at_steps(fault, all, |n, steps| n + 6 > steps || n % 300 == 0);
             assert!(runs >= 7, "{runs}");
         }
     }
