@@ -66,108 +66,183 @@
 //!
 //! # Modules
 //!
-//! What these pages show is for other programs. The remaining modules are the parts of the program: public for its
-//! tests and benchmarks, hidden here, and free to change with the program.
+//! What these pages show is for other programs. The remaining modules are the parts of the program and free to change
+//! with it; the feature `testing` opens them to its own tests and benchmarks, which ask for it.
 //!
 //! From the ground up; each uses only those above it in this list:
 //!
-//! - [`gearcut_core`]: gears, tools, dexels, passes and the native backend; its modules are passed on here
-//! - `gearcut_gpu` as `gpu`: the backend on wgpu, left out without the feature `gpu`
+//! - [`gearcut_core`]: gears, tools, dexels, passes and the native backend
+//! - `gearcut_gpu`: the backend on wgpu, left out without the feature `gpu`
 //! - [`backend`]: which machine cuts
 //! - [`interrupt`]: Ctrl-C as a flag
-//! - [`colormap`]: numbers as colours
-//! - [`wrap`]: texts in lines of a width
-//! - [`regular_file`]: files of others, up to a size
-//! - [`random`]: normal numbers that follow from a key
-//! - [`machine`]: the axes of a machine: kinds, units, motion, limits, peaks
-//! - [`machine_errors`]: from the commanded motion of axes to the actual one
-//! - [`material`]: cutting forces from chip thickness
+//! - `colormap`: numbers as colours
+//! - `wrap`: texts in lines of a width
+//! - `regular_file`: files of others, up to a size
+//! - `random`: normal numbers that follow from a key
+//! - `machine`: the axes of a machine: kinds, units, motion, limits, peaks
+//! - `machine_errors`: from the commanded motion of axes to the actual one
+//! - `material`: cutting forces from chip thickness
 //! - [`scene`]: the scene file as checked values
-//! - [`measure`]: what is left, in numbers
-//! - [`surface`]: what is left, as triangles and pictures
-//! - [`gcode`]: how programs are written and read
+//! - `measure`: what is left, in numbers
+//! - `surface`: what is left, as triangles and pictures
+//! - `gcode`: how programs are written and read
 //! - [`findings`]: what a run found, as one tree of quantities and tables
 //! - [`output`]: files, charts, tables, reports
-//! - [`overlay`]: two surfaces of one place, one laid over the other
-//! - [`job`]: what the shared steps ask of a job, whatever its process
-//! - [`texture`]: texture windows on flanks
-//! - [`steps`]: steps of a run that all processes share
-//! - [`process`]: a folder for each process: tool, linkage, target, passes, and what only it measures
-//! - [`pair`]: two gears rolling on each other
+//! - `overlay`: two surfaces of one place, one laid over the other
+//! - `job`: what the shared steps ask of a job, whatever its process
+//! - `texture`: texture windows on flanks
+//! - `steps`: steps of a run that all processes share
+//! - `process`: a folder for each process: tool, linkage, target, passes, and what only it measures
+//! - `pair`: two gears rolling on each other
 //! - [`pair_job`]: two scenes rolled on each other, and what is written about it
 //! - [`run`]: the order of a whole run
-//! - [`influence`]: what errors of the machine do to a gear, and which errors a measured gear shows
-//! - [`export`]: sections, points and programs for other people's programs
-//! - [`scatter`]: how gears of one scene scatter, layer by layer of errors
+//! - `influence`: what errors of the machine do to a gear, and which errors a measured gear shows
+//! - `export`: sections, points and programs for other people's programs
+//! - `scatter`: how gears of one scene scatter, layer by layer of errors
 //! - [`study`]: many scenes that differ in a few keys, one row of quantities each
-//! - [`library`]: the few items that other programs need
-//! - [`compare`]: results side by side
-//! - [`bench`]: how fast the kernels are on a machine
-//! - [`notices`]: the table of all notices, and what a command line denies and allows of them
-//! - [`quantities`]: the table of all quantities that results can have
+//! - `library`: the few items that other programs need
+//! - `compare`: results side by side
+//! - `bench`: how fast the kernels are on a machine
+//! - `notices`: the table of all notices, and what a command line denies and allows of them
+//! - `quantities`: the table of all quantities that results can have
+//! - `cli`: the command line, a file a command
+
+// What only tests and benchmarks call is no dead code.
+#![cfg_attr(not(feature = "testing"), allow(dead_code, unused_imports))]
 
 pub mod backend;
+#[cfg(not(feature = "testing"))]
+mod bench;
+#[cfg(feature = "testing")]
 #[doc(hidden)]
 pub mod bench;
+mod cli;
+#[cfg(not(feature = "testing"))]
+mod colormap;
+#[cfg(feature = "testing")]
 #[doc(hidden)]
 pub mod colormap;
+#[cfg(not(feature = "testing"))]
+mod compare;
+#[cfg(feature = "testing")]
 #[doc(hidden)]
 pub mod compare;
+#[cfg(not(feature = "testing"))]
+mod export;
+#[cfg(feature = "testing")]
 #[doc(hidden)]
 pub mod export;
 pub mod findings;
+#[cfg(not(feature = "testing"))]
+mod gcode;
+#[cfg(feature = "testing")]
 #[doc(hidden)]
 pub mod gcode;
+#[cfg(not(feature = "testing"))]
+mod influence;
+#[cfg(feature = "testing")]
 #[doc(hidden)]
 pub mod influence;
 pub mod interrupt;
+#[cfg(not(feature = "testing"))]
+mod job;
+#[cfg(feature = "testing")]
 #[doc(hidden)]
 pub mod job;
+#[cfg(not(feature = "testing"))]
+mod library;
+#[cfg(feature = "testing")]
 #[doc(hidden)]
 pub mod library;
+#[cfg(not(feature = "testing"))]
+mod machine;
+#[cfg(feature = "testing")]
 #[doc(hidden)]
 pub mod machine;
+#[cfg(not(feature = "testing"))]
+mod machine_errors;
+#[cfg(feature = "testing")]
 #[doc(hidden)]
 pub mod machine_errors;
+#[cfg(not(feature = "testing"))]
+mod material;
+#[cfg(feature = "testing")]
 #[doc(hidden)]
 pub mod material;
+#[cfg(not(feature = "testing"))]
+mod measure;
+#[cfg(feature = "testing")]
 #[doc(hidden)]
 pub mod measure;
+#[cfg(not(feature = "testing"))]
+mod notices;
+#[cfg(feature = "testing")]
 #[doc(hidden)]
 pub mod notices;
 pub mod output;
+#[cfg(not(feature = "testing"))]
+mod overlay;
+#[cfg(feature = "testing")]
 #[doc(hidden)]
 pub mod overlay;
+#[cfg(not(feature = "testing"))]
+mod pair;
+#[cfg(feature = "testing")]
 #[doc(hidden)]
 pub mod pair;
-#[doc(hidden)]
 pub mod pair_job;
+#[cfg(not(feature = "testing"))]
+mod process;
+#[cfg(feature = "testing")]
 #[doc(hidden)]
 pub mod process;
+#[cfg(not(feature = "testing"))]
+mod quantities;
+#[cfg(feature = "testing")]
 #[doc(hidden)]
 pub mod quantities;
+#[cfg(not(feature = "testing"))]
+mod random;
+#[cfg(feature = "testing")]
 #[doc(hidden)]
 pub mod random;
+#[cfg(not(feature = "testing"))]
+mod regular_file;
+#[cfg(feature = "testing")]
 #[doc(hidden)]
 pub mod regular_file;
 pub mod run;
+#[cfg(not(feature = "testing"))]
+mod scatter;
+#[cfg(feature = "testing")]
 #[doc(hidden)]
 pub mod scatter;
 pub mod scene;
+#[cfg(not(feature = "testing"))]
+mod steps;
+#[cfg(feature = "testing")]
 #[doc(hidden)]
 pub mod steps;
-#[doc(hidden)]
 pub mod study;
+#[cfg(not(feature = "testing"))]
+mod surface;
+#[cfg(feature = "testing")]
 #[doc(hidden)]
 pub mod surface;
+#[cfg(not(feature = "testing"))]
+mod texture;
+#[cfg(feature = "testing")]
 #[doc(hidden)]
 pub mod texture;
+#[cfg(not(feature = "testing"))]
+mod wrap;
+#[cfg(feature = "testing")]
 #[doc(hidden)]
 pub mod wrap;
 
 pub use findings::Findings;
 pub use library::{Flank, Job};
-pub use process::{load, parse};
+pub use process::{load, parse, table as key_table};
 pub use run::{Done, Run};
 pub use scene::{LoadedScene, Scene};
 pub use steps::parts::{Part, Parts};
@@ -175,9 +250,17 @@ pub use steps::parts::{Part, Parts};
 pub use gearcut_core::terms::Side;
 pub use gearcut_core::{Error, Refusal, Result};
 
-// For the program's own tests and benchmarks.
+#[cfg(feature = "testing")]
 #[doc(hidden)]
 pub use gearcut_core::{bevel, cut, dexel, error, frame, gear, math, passes, terms, tool, units};
-#[cfg(feature = "gpu")]
+#[cfg(all(feature = "gpu", feature = "testing"))]
 #[doc(hidden)]
 pub use gearcut_gpu as gpu;
+
+/// The `gearcut` command: reads the arguments, runs the command, says with the exit code how it went.
+///
+/// 0: done. 1: the work was refused or failed, and standard error says why. 2: wrong usage. 3: done, and the verdict is
+/// bad. 130: stopped by Ctrl-C.
+pub fn command() -> std::process::ExitCode {
+    cli::run(<cli::args::CommandLine as clap::Parser>::parse())
+}

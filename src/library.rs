@@ -197,7 +197,6 @@ impl Flank {
 
     /// The arrays alone, for programs that keep them without a copy: target points, normals, and a layer for each
     /// operation.
-    #[doc(hidden)]
     pub fn into_arrays(self) -> (Vec<DVec3>, Vec<DVec3>, Vec<Layer>) {
         (self.points_mm, self.normals, self.layers)
     }

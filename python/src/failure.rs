@@ -45,7 +45,7 @@ pub fn of_problems(py: Python<'_>, errors: &SceneErrors) -> PyErr {
 /// The fields of `gearcut.Problem`.
 fn fields<'py>(py: Python<'py>, problem: &Problem) -> PyResult<Bound<'py, PyDict>> {
     let key = problem.key();
-    let known = key.and_then(|key| gearcut::process::table().displayed(key));
+    let known = key.and_then(|key| gearcut::key_table().displayed(key));
     let fields = PyDict::new(py);
     fields.set_item("key", key)?;
     fields.set_item("message", &problem.message)?;

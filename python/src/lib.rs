@@ -25,7 +25,7 @@ use pyo3::prelude::*;
 #[pymodule]
 fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
-    module.add("NO_PASS", gearcut::dexel::NO_PASS)?;
+    module.add("NO_PASS", gearcut_core::dexel::NO_PASS)?;
     module.add_class::<scene::NativeScene>()?;
     module.add_class::<job::NativeJob>()?;
     module.add_function(wrap_pyfunction!(pair::pair, module)?)?;

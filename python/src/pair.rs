@@ -3,14 +3,14 @@
 use crate::failure;
 use crate::scene::NativeScene;
 use crate::waiting::{EventWatch, waited};
-use gearcut::cut::Backend;
-use gearcut::cut::cpu::Cpu;
 use gearcut::interrupt::Interrupt;
 use gearcut::pair_job::flanks::FlankSource;
 use gearcut::pair_job::options::PairOptions;
 use gearcut::pair_job::watch::Watch as Rolling;
 use gearcut::pair_job::{findings, rolled, spline};
 use gearcut::{Findings, Result};
+use gearcut_core::cut::Backend;
+use gearcut_core::cut::cpu::Cpu;
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;

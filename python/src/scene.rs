@@ -32,7 +32,7 @@ impl NativeScene {
     /// The same with coarser dexels, what `settings` say apart.
     fn draft(&self, py: Python<'_>, settings: Vec<String>) -> PyResult<Self> {
         let settings = [draft_settings(&self.loaded.scene), settings].concat();
-        let read = self.loaded.with_settings(&settings, gearcut::process::table());
+        let read = self.loaded.with_settings(&settings, gearcut::key_table());
         Ok(Self { loaded: Arc::new(read.map_err(|errors| failure::of_problems(py, &errors))?) })
     }
 

@@ -10,8 +10,8 @@ mod texture;
 
 use std::path::PathBuf;
 
-use gearcut::process::PROCESSES;
-use gearcut::steps::parts::Parts;
+use crate::process::PROCESSES;
+use crate::steps::parts::Parts;
 
 use clap::builder::PossibleValuesParser;
 use clap::{Args, Parser, Subcommand};
@@ -322,7 +322,7 @@ pub struct AxesArguments {
 pub struct CompareArguments {
     /// Output folders of the runs (or their results.json), first the one that the others are compared with; or two
     /// surface files of one place, the second laid over the first.
-    #[arg(required = true, num_args = 2..=gearcut::compare::MOST_RESULTS, value_name = "RESULTS")]
+    #[arg(required = true, num_args = 2..=crate::compare::MOST_RESULTS, value_name = "RESULTS")]
     pub results: Vec<PathBuf>,
     /// What is taken off surfaces, on the points that both have.
     #[command(flatten)]

@@ -2,12 +2,12 @@
 
 use std::path::PathBuf;
 
-use gearcut::Error;
-use gearcut::findings::Notice;
-use gearcut::interrupt::Interrupt;
-use gearcut::output::folder::OutputFolder;
-use gearcut::output::text::Sheet;
-use gearcut::process;
+use crate::findings::Notice;
+use crate::interrupt::Interrupt;
+use crate::output::folder::OutputFolder;
+use crate::output::text::Sheet;
+use crate::process;
+use gearcut_core::Error;
 use serde_json::json;
 
 use super::args::AxesArguments;

@@ -2,12 +2,13 @@
 
 use super::args::{BackendChoice, ComputeArguments, GpuFailureChoice};
 use super::drivers;
-use gearcut::backend::{BackendWish, Choice, OnFailure, choose};
-use gearcut::interrupt::Interrupt;
-use gearcut::output::progress::{Progress, ProgressMode};
-use gearcut::scene::Scene;
-use gearcut::steps::backend_trial::BackendTrial;
-use gearcut::{Error, process};
+use crate::backend::{BackendWish, Choice, OnFailure, choose};
+use crate::interrupt::Interrupt;
+use crate::output::progress::{Progress, ProgressMode};
+use crate::process;
+use crate::scene::Scene;
+use crate::steps::backend_trial::BackendTrial;
+use gearcut_core::Error;
 use serde_json::{Value, json};
 
 /// The backend, `auto` unless the command line names one; the program may be started anew for it ([`drivers`]), so that

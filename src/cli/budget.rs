@@ -2,10 +2,11 @@
 
 use std::path::PathBuf;
 
-use gearcut::influence::budget::{self, BudgetOptions};
-use gearcut::output::text::{Sheet, plain};
-use gearcut::terms::Side;
-use gearcut::{Refusal, Result, process};
+use crate::influence::budget::{self, BudgetOptions};
+use crate::output::text::{Sheet, plain};
+use crate::process;
+use gearcut_core::terms::Side;
+use gearcut_core::{Refusal, Result};
 use serde_json::json;
 
 use super::args::BudgetArguments;

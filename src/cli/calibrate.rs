@@ -2,12 +2,13 @@
 
 use std::path::PathBuf;
 
-use gearcut::influence::budget::chosen;
-use gearcut::influence::calibrate::{self, Calibrated, Calibration, MeasuredGear, MeasuredNumber, MeasuredWish};
-use gearcut::output::summary;
-use gearcut::output::text::{Sheet, plain, significant};
-use gearcut::scene::LoadedScene;
-use gearcut::{Refusal, Result, process};
+use crate::influence::budget::chosen;
+use crate::influence::calibrate::{self, Calibrated, Calibration, MeasuredGear, MeasuredNumber, MeasuredWish};
+use crate::output::summary;
+use crate::output::text::{Sheet, plain, significant};
+use crate::process;
+use crate::scene::LoadedScene;
+use gearcut_core::{Refusal, Result};
 use serde_json::json;
 
 use super::args::CalibrateArguments;

@@ -7,9 +7,9 @@
 use super::args::CheckArguments;
 use super::failure::Failure;
 use super::print;
-use gearcut::findings::notice::count_words;
-use gearcut::output::text::Sheet;
-use gearcut::process;
+use crate::findings::notice::count_words;
+use crate::output::text::Sheet;
+use crate::process;
 
 /// Most lines of facts and warnings together, as a terminal shows them.
 const BRIEF_LINES: usize = 50;

@@ -2,13 +2,13 @@
 
 use std::path::{Path, PathBuf};
 
-use gearcut::Refusal;
-use gearcut::compare::{Compared, Comparison, surfaces as surface_folder};
-use gearcut::findings::Findings;
-use gearcut::measure::topography::Chain;
-use gearcut::output::surface_files::read_surface;
-use gearcut::output::text::Sheet;
-use gearcut::overlay::SurfaceComparison;
+use crate::compare::{Compared, Comparison, surfaces as surface_folder};
+use crate::findings::Findings;
+use crate::measure::topography::Chain;
+use crate::output::surface_files::read_surface;
+use crate::output::text::Sheet;
+use crate::overlay::SurfaceComparison;
+use gearcut_core::Refusal;
 use serde_json::json;
 
 use super::args::CompareArguments;
@@ -35,7 +35,7 @@ pub fn run(arguments: &CompareArguments) -> Result<(), Failure> {
     let last = &paths[paths.len() - 1];
     let out = arguments.out.clone().unwrap_or_else(|| beside(last, &format!("compare_{}", names.join("_"))));
     let comparison =
-        Comparison::new(results).map_err(|reason| gearcut::Error::Unreadable { path: last.clone(), reason })?;
+        Comparison::new(results).map_err(|reason| gearcut_core::Error::Unreadable { path: last.clone(), reason })?;
     let (path, ()) = folder::fill(&out, "compare", |output, _| {
         comparison.write(output)?;
         Ok((vec![("results", json!(paths))], ()))

@@ -2,19 +2,19 @@
 
 use std::path::PathBuf;
 
-use gearcut::findings::RESULTS_FILE;
-use gearcut::output::atomic::write_bytes_atomically;
-use gearcut::output::progress::{Progress, ProgressMode};
-use gearcut::output::report::REPORT_FILE;
-use gearcut::output::summary;
-use gearcut::output::table::write_tables;
-use gearcut::output::text::Sheet;
-use gearcut::process::bevel::BevelJob;
-use gearcut::process::bevel::pair::{MountingErrors, bearing, charts, findings, page, roll};
-use gearcut::process::load;
-use gearcut::scene::LoadedScene;
-use gearcut::units::UM_PER_MM;
-use gearcut::{Error, Refusal};
+use crate::findings::RESULTS_FILE;
+use crate::output::atomic::write_bytes_atomically;
+use crate::output::progress::{Progress, ProgressMode};
+use crate::output::report::REPORT_FILE;
+use crate::output::summary;
+use crate::output::table::write_tables;
+use crate::output::text::Sheet;
+use crate::process::bevel::BevelJob;
+use crate::process::bevel::pair::{MountingErrors, bearing, charts, findings, page, roll};
+use crate::process::load;
+use crate::scene::LoadedScene;
+use gearcut_core::units::UM_PER_MM;
+use gearcut_core::{Error, Refusal};
 use serde_json::json;
 
 use super::args::ContactArguments;

@@ -3,11 +3,13 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use gearcut::interrupt::Interrupt;
-use gearcut::output::progress::{Progress, ProgressMode};
-use gearcut::scene::draft;
-use gearcut::steps::parts::{Part, Parts};
-use gearcut::{Error, Job, process};
+use crate::interrupt::Interrupt;
+use crate::library::Job;
+use crate::output::progress::{Progress, ProgressMode};
+use crate::process;
+use crate::scene::draft;
+use crate::steps::parts::{Part, Parts};
+use gearcut_core::Error;
 
 use super::args::{CutArguments, SceneArguments};
 use super::failure::Failure;

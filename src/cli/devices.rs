@@ -1,10 +1,10 @@
 //! `gearcut devices`: what can compute here, what `--backend auto` would take, and how fast each is.
 
-use gearcut::backend;
-use gearcut::backend::bench_machines;
-use gearcut::bench::{KERNELS, KernelRate, kernel_rates};
-use gearcut::output::progress::{Progress, ProgressMode};
-use gearcut::output::text::{Sheet, significant};
+use crate::backend;
+use crate::backend::bench_machines;
+use crate::bench::{KERNELS, KernelRate, kernel_rates};
+use crate::output::progress::{Progress, ProgressMode};
+use crate::output::text::{Sheet, significant};
 
 use super::args::DevicesArguments;
 use super::failure::Failure;

@@ -2,10 +2,11 @@
 
 use std::path::PathBuf;
 
-use gearcut::influence::diagnose::{self, MeasuredCuts};
-use gearcut::influence::measured;
-use gearcut::output::text::{Sheet, plain};
-use gearcut::{Refusal, Result, process};
+use crate::influence::diagnose::{self, MeasuredCuts};
+use crate::influence::measured;
+use crate::output::text::{Sheet, plain};
+use crate::process;
+use gearcut_core::{Refusal, Result};
 use serde_json::json;
 
 use super::args::DiagnoseArguments;

@@ -2,22 +2,22 @@
 
 use std::path::Path;
 
-use gearcut::backend::Choice;
-use gearcut::export::drawing::Drawing;
-use gearcut::export::dxf::dxf;
-use gearcut::export::points::{self, PointsWish};
-use gearcut::export::section::{GearSection, ProfileSource, SectionCurve, SectionWish, profile_mm};
-use gearcut::export::unit::FileUnit;
-use gearcut::export::wire::{WireProgram, WireWish};
-use gearcut::interrupt::Interrupt;
-use gearcut::job::GearJob;
-use gearcut::output::atomic::write_bytes_atomically;
-use gearcut::output::text::{Sheet, plain, significant};
-use gearcut::pair_job::watch::Watch;
-use gearcut::process;
-use gearcut::scene::Scene;
-use gearcut::units::UM_PER_MM;
-use gearcut::{Refusal, Result};
+use crate::backend::Choice;
+use crate::export::drawing::Drawing;
+use crate::export::dxf::dxf;
+use crate::export::points::{self, PointsWish};
+use crate::export::section::{GearSection, ProfileSource, SectionCurve, SectionWish, profile_mm};
+use crate::export::unit::FileUnit;
+use crate::export::wire::{WireProgram, WireWish};
+use crate::interrupt::Interrupt;
+use crate::job::GearJob;
+use crate::output::atomic::write_bytes_atomically;
+use crate::output::text::{Sheet, plain, significant};
+use crate::pair_job::watch::Watch;
+use crate::process;
+use crate::scene::Scene;
+use gearcut_core::units::UM_PER_MM;
+use gearcut_core::{Refusal, Result};
 
 use super::args::{ExportArguments, LengthUnitChoice};
 use super::failure::Failure;

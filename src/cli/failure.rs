@@ -1,15 +1,15 @@
 //! What is printed when a command fails, and with which code it ends.
 
 use super::print::to_stderr;
-use gearcut::findings::{Notice, Severity};
-use gearcut::notices::NoticeRules;
-use gearcut::output::atomic::file_error;
+use crate::findings::{Notice, Severity};
+use crate::notices::NoticeRules;
+use crate::output::atomic::file_error;
 use std::collections::BTreeSet;
 use std::path::Path;
 
-use gearcut::interrupt::INTERRUPTED_EXIT_CODE;
-use gearcut::scene::{LoadedScene, SceneErrors};
-use gearcut::{Error, Refusal};
+use crate::interrupt::INTERRUPTED_EXIT_CODE;
+use crate::scene::{LoadedScene, SceneErrors};
+use gearcut_core::{Error, Refusal};
 
 /// Why a command did not do what it was asked.
 #[derive(Debug)]

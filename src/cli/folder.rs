@@ -9,10 +9,10 @@
 use std::path::{Component, Path, PathBuf};
 
 use super::print::to_stderr;
-use gearcut::influence::known_cuts::KnownCuts;
-use gearcut::interrupt::Interrupt;
-use gearcut::output::folder::OutputFolder;
-use gearcut::{Error, Result};
+use crate::influence::known_cuts::KnownCuts;
+use crate::interrupt::Interrupt;
+use crate::output::folder::OutputFolder;
+use gearcut_core::{Error, Result};
 use serde_json::{Map, Value, json};
 
 /// What a run record says beyond the program and the command.

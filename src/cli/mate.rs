@@ -1,8 +1,8 @@
 //! `gearcut mate`: the scene of the gear that runs with a scene's gear.
 
-use gearcut::gear::GearKind;
-use gearcut::process;
-use gearcut::scene::Mate;
+use crate::process;
+use crate::scene::Mate;
+use gearcut_core::gear::GearKind;
 
 use super::args::MateArguments;
 use super::failure::Failure;

@@ -49,7 +49,7 @@ pub fn run(arguments: CommandLine) -> ExitCode {
         Command::Texture(arguments) => texture::run(&arguments),
         Command::Devices(arguments) => devices::run(&arguments),
         Command::Schema => {
-            print::to_stdout(&gearcut::scene::schema::json_schema(gearcut::process::table())).map_err(Failure::from)
+            print::to_stdout(&crate::scene::schema::json_schema(crate::process::table())).map_err(Failure::from)
         }
         Command::New(arguments) => new::run(&arguments),
         Command::Mate(arguments) => mate::run(&arguments),
@@ -64,8 +64,8 @@ pub fn run(arguments: CommandLine) -> ExitCode {
         Command::Calibrate(arguments) => calibrate::run(&arguments),
     };
     let code = done.map_or_else(|failure| failure.report(), |()| 0);
-    if gearcut::backend::driver_hangs() {
-        gearcut::interrupt::end_now(code);
+    if crate::backend::driver_hangs() {
+        crate::interrupt::end_now(code);
     }
     code.into()
 }

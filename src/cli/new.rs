@@ -4,7 +4,9 @@ use std::fs::OpenOptions;
 use std::io::{ErrorKind, Write};
 use std::path::Path;
 
-use gearcut::{Error, process, scene};
+use crate::process;
+use crate::scene;
+use gearcut_core::Error;
 
 use super::args::NewArguments;
 use super::failure::Failure;

@@ -2,17 +2,18 @@
 
 use std::path::PathBuf;
 
-use gearcut::gear::GearKind;
-use gearcut::output::summary;
-use gearcut::output::text::{Sheet, plain};
-use gearcut::pair_job::flanks::FlankSource;
-use gearcut::pair_job::options::PairOptions;
-use gearcut::pair_job::page::PairRecord;
-use gearcut::pair_job::quantities::{DISTANCE, PAIR};
-use gearcut::pair_job::watch::Watch;
-use gearcut::pair_job::{findings, member, rolled, spline, write};
-use gearcut::scene::{LoadedScene, Mate};
-use gearcut::{Error, Findings};
+use crate::findings::Findings;
+use crate::output::summary;
+use crate::output::text::{Sheet, plain};
+use crate::pair_job::flanks::FlankSource;
+use crate::pair_job::options::PairOptions;
+use crate::pair_job::page::PairRecord;
+use crate::pair_job::quantities::{DISTANCE, PAIR};
+use crate::pair_job::watch::Watch;
+use crate::pair_job::{findings, member, rolled, spline, write};
+use crate::scene::{LoadedScene, Mate};
+use gearcut_core::Error;
+use gearcut_core::gear::GearKind;
 use serde_json::json;
 
 use super::args::{FlankChoice, PairArguments};
@@ -120,7 +121,9 @@ fn options(arguments: &PairArguments) -> Result<PairOptions, Failure> {
         } else {
             "a finite number"
         };
-        return Err(gearcut::Refusal::new(name, format!("{value} is not {allowed}"), format!("give {allowed}")).into());
+        return Err(
+            gearcut_core::Refusal::new(name, format!("{value} is not {allowed}"), format!("give {allowed}")).into()
+        );
     }
     Ok(PairOptions {
         source: match arguments.flanks {

@@ -2,11 +2,11 @@
 
 use std::io::{self, ErrorKind, IsTerminal, Write};
 
-use gearcut::findings::Notice;
-use gearcut::findings::notice::count_words;
-use gearcut::output::progress::{Progress, ProgressMode};
-use gearcut::wrap::{fitted, printable};
-use gearcut::{Error, Result};
+use crate::findings::Notice;
+use crate::findings::notice::count_words;
+use crate::output::progress::{Progress, ProgressMode};
+use crate::wrap::{fitted, printable};
+use gearcut_core::{Error, Result};
 
 /// Characters in a line of a terminal.
 const WIDTH: usize = 80;

@@ -5,18 +5,20 @@
 
 use std::path::PathBuf;
 
-use gearcut::cut::Backend;
-use gearcut::interrupt::Interrupt;
-use gearcut::output::growing_folder::GrowingFolder;
-use gearcut::output::progress::Progress;
-use gearcut::process::ProcessJob;
-use gearcut::scatter::layers::{cases, measure_cases};
-use gearcut::scatter::rows::{self, Rows};
-use gearcut::scatter::seeds::measure_seeds;
-use gearcut::scatter::tolerance::{self, Tolerance};
-use gearcut::scatter::{FlankWish, Scatter, findings, page, printed};
-use gearcut::scene::LoadedScene;
-use gearcut::{Error, Refusal, Side, process};
+use crate::interrupt::Interrupt;
+use crate::output::growing_folder::GrowingFolder;
+use crate::output::progress::Progress;
+use crate::process;
+use crate::process::ProcessJob;
+use crate::scatter::layers::{cases, measure_cases};
+use crate::scatter::rows::{self, Rows};
+use crate::scatter::seeds::measure_seeds;
+use crate::scatter::tolerance::{self, Tolerance};
+use crate::scatter::{FlankWish, Scatter, findings, page, printed};
+use crate::scene::LoadedScene;
+use gearcut_core::cut::Backend;
+use gearcut_core::terms::Side;
+use gearcut_core::{Error, Refusal};
 use serde_json::{Map, Value, json};
 
 use super::args::{FlankSide, ScatterArguments};

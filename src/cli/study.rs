@@ -4,9 +4,9 @@ use super::args::{CasesArguments, StudyArguments, SweepArguments};
 use super::failure::Failure;
 use super::folder::listening;
 use super::{backend, print};
-use gearcut::interrupt::Interrupt;
-use gearcut::study::StudyPlan;
-use gearcut::study::file::{StudyFile, folder_of, read};
+use crate::interrupt::Interrupt;
+use crate::study::StudyPlan;
+use crate::study::file::{StudyFile, folder_of, read};
 
 /// Runs `study`.
 pub fn study(arguments: &StudyArguments) -> Result<(), Failure> {

@@ -5,13 +5,13 @@ mod reading;
 
 use std::path::Path;
 
-use gearcut::Refusal;
-use gearcut::findings::Entry;
-use gearcut::interrupt::Interrupt;
-use gearcut::measure::topography::height_steps::coarse_step_um;
-use gearcut::measure::topography::{Arguments, Chain, Evaluation, Parameter, ProfileTrace, Surface, TextureError};
-use gearcut::output::surface_files::{SurfaceFile, write_surface};
-use gearcut::output::text::{Sheet, plain, significant};
+use crate::findings::Entry;
+use crate::interrupt::Interrupt;
+use crate::measure::topography::height_steps::coarse_step_um;
+use crate::measure::topography::{Arguments, Chain, Evaluation, Parameter, ProfileTrace, Surface, TextureError};
+use crate::output::surface_files::{SurfaceFile, write_surface};
+use crate::output::text::{Sheet, plain, significant};
+use gearcut_core::Refusal;
 use serde_json::{Value, json};
 
 use super::args::TextureArguments;

@@ -1,8 +1,8 @@
 //! What can be typed behind the commands that ask what errors of machine and tool do.
 
 use super::{RunArguments, SceneArguments};
+use crate::scatter::tolerance::Tolerance;
 use clap::{Args, ValueEnum};
-use gearcut::scatter::tolerance::Tolerance;
 use std::path::PathBuf;
 
 /// Arguments of `scatter`.

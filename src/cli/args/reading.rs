@@ -1,7 +1,7 @@
 //! What can be typed on how a surface file is read, and what is done to the surface before it is evaluated.
 
+use crate::output::surface_files::LengthUnit;
 use clap::{Args, ValueEnum};
-use gearcut::output::surface_files::LengthUnit;
 use std::str::FromStr;
 
 /// Arguments of `texture` on reading.

@@ -1,7 +1,7 @@
 //! What can be typed behind several commands.
 
+use crate::notices::{NoticePattern, NoticeRules};
 use clap::{Args, ValueEnum};
-use gearcut::notices::{NoticePattern, NoticeRules};
 use std::path::PathBuf;
 
 /// A scene and what is changed in it.

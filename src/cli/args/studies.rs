@@ -1,10 +1,10 @@
 //! What can be typed behind the commands that make many scenes.
 
 use super::{ComputeArguments, SceneArguments};
+use crate::study::parameter::{GridWords, RangeWords};
+use crate::study::plan::USUAL_CASES;
+use crate::study::{SampleDesign, Shard, StudyCommand};
 use clap::{Args, ValueEnum};
-use gearcut::study::parameter::{GridWords, RangeWords};
-use gearcut::study::plan::USUAL_CASES;
-use gearcut::study::{SampleDesign, Shard, StudyCommand};
 use std::path::PathBuf;
 
 /// Arguments of `study`.

@@ -1,8 +1,8 @@
 //! What can be typed behind the commands that evaluate surfaces.
 
 use super::ReadingArguments;
+use crate::measure::topography::Form;
 use clap::{Args, ValueEnum};
-use gearcut::measure::topography::Form;
 use std::path::PathBuf;
 
 /// What is taken off a surface before it is evaluated.

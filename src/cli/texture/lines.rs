@@ -4,12 +4,12 @@
 //! words and as JSON. Limits of a drawing are judged by the largest value of the lines: no value may be above the limit
 //! unless the drawing says otherwise (the default of ISO 21920-1, from memory).
 
-use gearcut::Refusal;
-use gearcut::measure::topography::line_form::LineForm;
-use gearcut::measure::topography::parameters::{ParameterRange, of_profiles};
-use gearcut::measure::topography::profile_chain::{CutOff, ProfileChain, ProfileKind, Profiles, ShortFilter};
-use gearcut::measure::topography::{ProfileTrace, Surface, TextureError};
-use gearcut::output::text::{Sheet, plain};
+use crate::measure::topography::line_form::LineForm;
+use crate::measure::topography::parameters::{ParameterRange, of_profiles};
+use crate::measure::topography::profile_chain::{CutOff, ProfileChain, ProfileKind, Profiles, ShortFilter};
+use crate::measure::topography::{ProfileTrace, Surface, TextureError};
+use crate::output::text::{Sheet, plain};
+use gearcut_core::Refusal;
 use serde_json::{Value, json};
 
 use super::super::args::{LineArguments, LineFormChoice, ProfileChoice, TextureArguments};

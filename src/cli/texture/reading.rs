@@ -1,9 +1,9 @@
 //! How `gearcut texture` reads its file, what it does to the surface first, and where it saves it.
 
-use gearcut::Refusal;
-use gearcut::measure::topography::prepare::{MirrorAxis, Preparation, RectangleUm, Turn};
-use gearcut::measure::topography::{ProfileTrace, Surface};
-use gearcut::output::surface_files::{Format, Given, MeasuredContent, read};
+use crate::measure::topography::prepare::{MirrorAxis, Preparation, RectangleUm, Turn};
+use crate::measure::topography::{ProfileTrace, Surface};
+use crate::output::surface_files::{Format, Given, MeasuredContent, read};
+use gearcut_core::Refusal;
 use std::path::{Path, PathBuf};
 
 use crate::cli::args::{AxisChoice, ReadingArguments, TextureArguments};

@@ -1,6 +1,6 @@
 //! Spiral bevel gears cut with a face-mill head on a machine that generates them.
 //!
-//! The physics stands in [`crate::bevel`]: blank, head, machines, the flank that they generate. Here are scenes, the
+//! The physics stands in [`gearcut_core::bevel`]: blank, head, machines, the flank that they generate. Here are scenes, the
 //! passes of the head's blades over all slots, flank fields, measures, files and the page.
 
 mod actual;
