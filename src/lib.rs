@@ -103,142 +103,74 @@
 //! - `library`: the few items that other programs need
 //! - `compare`: results side by side
 //! - `bench`: how fast the kernels are on a machine
-//! - `notices`: the table of all notices, and what a command line denies and allows of them
-//! - `quantities`: the table of all quantities that results can have
+//! - [`notices`]: the table of all notices, and what a command line denies and allows of them
+//! - [`quantities`]: the table of all quantities that results can have
 //! - `cli`: the command line, a file a command
 
 // What only tests and benchmarks call is no dead code.
-#![cfg_attr(not(feature = "testing"), allow(dead_code, unused_imports))]
 
 pub mod backend;
-#[cfg(not(feature = "testing"))]
-mod bench;
-#[cfg(feature = "testing")]
-#[doc(hidden)]
-pub mod bench;
 mod cli;
-#[cfg(not(feature = "testing"))]
-mod colormap;
-#[cfg(feature = "testing")]
-#[doc(hidden)]
-pub mod colormap;
-#[cfg(not(feature = "testing"))]
-mod compare;
-#[cfg(feature = "testing")]
-#[doc(hidden)]
-pub mod compare;
-#[cfg(not(feature = "testing"))]
-mod export;
-#[cfg(feature = "testing")]
-#[doc(hidden)]
-pub mod export;
 pub mod findings;
-#[cfg(not(feature = "testing"))]
-mod gcode;
-#[cfg(feature = "testing")]
-#[doc(hidden)]
-pub mod gcode;
-#[cfg(not(feature = "testing"))]
-mod influence;
-#[cfg(feature = "testing")]
-#[doc(hidden)]
-pub mod influence;
 pub mod interrupt;
-#[cfg(not(feature = "testing"))]
-mod job;
-#[cfg(feature = "testing")]
-#[doc(hidden)]
-pub mod job;
-#[cfg(not(feature = "testing"))]
-mod library;
-#[cfg(feature = "testing")]
-#[doc(hidden)]
-pub mod library;
-#[cfg(not(feature = "testing"))]
-mod machine;
-#[cfg(feature = "testing")]
-#[doc(hidden)]
-pub mod machine;
-#[cfg(not(feature = "testing"))]
-mod machine_errors;
-#[cfg(feature = "testing")]
-#[doc(hidden)]
-pub mod machine_errors;
-#[cfg(not(feature = "testing"))]
-mod material;
-#[cfg(feature = "testing")]
-#[doc(hidden)]
-pub mod material;
-#[cfg(not(feature = "testing"))]
-mod measure;
-#[cfg(feature = "testing")]
-#[doc(hidden)]
-pub mod measure;
-#[cfg(not(feature = "testing"))]
-mod notices;
-#[cfg(feature = "testing")]
-#[doc(hidden)]
 pub mod notices;
 pub mod output;
-#[cfg(not(feature = "testing"))]
-mod overlay;
-#[cfg(feature = "testing")]
-#[doc(hidden)]
-pub mod overlay;
-#[cfg(not(feature = "testing"))]
-mod pair;
-#[cfg(feature = "testing")]
-#[doc(hidden)]
-pub mod pair;
 pub mod pair_job;
-#[cfg(not(feature = "testing"))]
-mod process;
-#[cfg(feature = "testing")]
-#[doc(hidden)]
-pub mod process;
-#[cfg(not(feature = "testing"))]
-mod quantities;
-#[cfg(feature = "testing")]
-#[doc(hidden)]
 pub mod quantities;
-#[cfg(not(feature = "testing"))]
-mod random;
-#[cfg(feature = "testing")]
-#[doc(hidden)]
-pub mod random;
-#[cfg(not(feature = "testing"))]
-mod regular_file;
-#[cfg(feature = "testing")]
-#[doc(hidden)]
-pub mod regular_file;
 pub mod run;
-#[cfg(not(feature = "testing"))]
-mod scatter;
-#[cfg(feature = "testing")]
-#[doc(hidden)]
-pub mod scatter;
 pub mod scene;
-#[cfg(not(feature = "testing"))]
-mod steps;
-#[cfg(feature = "testing")]
-#[doc(hidden)]
-pub mod steps;
 pub mod study;
-#[cfg(not(feature = "testing"))]
-mod surface;
-#[cfg(feature = "testing")]
-#[doc(hidden)]
-pub mod surface;
-#[cfg(not(feature = "testing"))]
-mod texture;
-#[cfg(feature = "testing")]
-#[doc(hidden)]
-pub mod texture;
-#[cfg(not(feature = "testing"))]
-mod wrap;
-#[cfg(feature = "testing")]
-#[doc(hidden)]
-pub mod wrap;
+
+cfg_if::cfg_if! {
+    // Tests and benchmarks see them, other programs do not.
+    if #[cfg(feature = "testing")] {
+        pub mod bench;
+        pub mod colormap;
+        pub mod compare;
+        pub mod export;
+        pub mod gcode;
+        pub mod influence;
+        pub mod job;
+        pub mod library;
+        pub mod machine;
+        pub mod machine_errors;
+        pub mod material;
+        pub mod measure;
+        pub mod overlay;
+        pub mod pair;
+        pub mod process;
+        pub mod random;
+        pub mod regular_file;
+        pub mod scatter;
+        pub mod steps;
+        pub mod surface;
+        pub mod texture;
+        pub mod wrap;
+    } else {
+        mod bench;
+        mod colormap;
+        mod compare;
+        mod export;
+        mod gcode;
+        mod influence;
+        mod job;
+        mod library;
+        mod machine;
+        mod machine_errors;
+        mod material;
+        mod measure;
+        mod overlay;
+        mod pair;
+        mod process;
+        mod random;
+        mod regular_file;
+        mod scatter;
+        mod steps;
+        mod surface;
+        mod texture;
+        mod wrap;
+    }
+}
 
 pub use findings::Findings;
 pub use library::{Flank, Job};

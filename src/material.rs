@@ -62,6 +62,7 @@ impl Kienzle {
     }
 
     /// Cutting force per length of edge, N/mm.
+    #[cfg(feature = "testing")]
     pub fn force_n_per_mm(&self, thickness_mm: f64) -> f64 {
         self.force_n_per_mm2 * thickness_mm.powf(1.0 - self.exponent)
     }
@@ -106,6 +107,7 @@ impl CuttingForce {
 
 impl EdgeForce {
     /// Cutting and normal force of an edge element, N.
+    #[cfg(feature = "testing")]
     pub fn on_element(&self, thickness_mm: f64, length_mm: f64) -> [f64; 2] {
         [
             (self.cutting_n_per_mm2 * thickness_mm + self.cutting_edge_n_per_mm) * length_mm,

@@ -190,6 +190,7 @@ impl SurfaceComparison {
         doubts
     }
 
+    /// Parameters of both surfaces, side by side.
     pub fn rows(&self) -> Vec<ComparedRow> {
         let [a, b] = &self.evaluations;
         let row = |p: &Parameter| ComparedRow {

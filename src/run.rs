@@ -5,7 +5,7 @@
 //! it is complete; what Ctrl-C leaves of it, the flanks that are finished and what follows from them, goes to a folder
 //! beside it.
 //!
-//! Nothing here knows a process by name: [`crate::process::ProcessJob`] cuts itself with the shared [`crate::steps`].
+//! Nothing here knows a process by name: its job cuts itself with the shared `crate::steps`.
 
 use crate::backend::Choice;
 use crate::findings::Findings;

@@ -1,7 +1,7 @@
 //! Studies: many scenes that differ in a few keys, and of each the quantities that are kept, as one row.
 //!
-//! In: a [`StudyPlan`], from a file ([`file`]) or a command line ([`parameter`]). Out: `rows.csv`, a row for every case
-//! ([`engine`]), and `columns.csv`, which says what its columns are.
+//! In: a [`StudyPlan`], from a file ([`mod@file`]) or a command line ([`parameter`]). Out: `rows.csv`, a row for every
+//! case ([`engine`]), and `columns.csv`, which says what its columns are.
 //!
 //! The law: case `i` of a plan is always the same scene ([`plan`]), whoever makes it and when; so shards, runs that
 //! were stopped and runs on other machines make the same rows, and merging them is laying their files together. A case

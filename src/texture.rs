@@ -30,7 +30,6 @@ mod window;
 pub use files::{NamedWindow, SURFACE_NOTE, named_windows, sheet_file};
 pub use findings::{findings, foreseen};
 pub use laid_over::Overlaid;
-pub use measured::MeasuredSurface;
 pub use roughness::{roughness, roughness_path};
 pub use sampling::{SampledWindow, sampled};
 pub use traces::{Direction, Traced, of_surface};
@@ -157,6 +156,7 @@ impl WindowTexture {
     }
 
     /// All that a reader must know before trusting its numbers, as sentences of this window alone.
+    #[cfg(feature = "testing")]
     pub fn warnings(&self) -> Vec<String> {
         let marks = LineMarks { count: self.marks, points: self.points_per_mark };
         marks.notes().iter().chain(&self.notes()).map(|note| note.notice(&[note], "").text).collect()

@@ -50,7 +50,7 @@ fn fields<'py>(py: Python<'py>, problem: &Problem) -> PyResult<Bound<'py, PyDict
     fields.set_item("key", key)?;
     fields.set_item("message", &problem.message)?;
     fields.set_item("way_out", &problem.way_out)?;
-    fields.set_item("allowed", known.map(gearcut::scene::keys::Key::allowed))?;
+    fields.set_item("allowed", known.map(gearcut::scene::Key::allowed))?;
     fields.set_item("unit", known.map(|known| known.unit).filter(|unit| !unit.is_empty()))?;
     let (file, line, column, source) = match &problem.place {
         SourcePlace::Line { file, line, column, source, .. } => (Some(file), Some(line), Some(column), Some(source)),

@@ -2,6 +2,8 @@
 //!
 //! Results and reports go to standard output and into files, messages go to standard error.
 
+#![allow(rustdoc::invalid_html_tags)] // help is written for terminals: `<scene>` is a value there
+
 pub mod args;
 mod axes;
 mod backend;

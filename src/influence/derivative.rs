@@ -4,11 +4,9 @@
 //! two checks: the same with half the step, and how much h bends between both sides. Where the scene has no word for p
 //! - s (backlash below 0) the difference is taken forwards.
 
-use super::gear_grid::GearGrid;
 use crate::process;
 use crate::scene::error_parameters::{ErrorParameter, Shifted};
 use crate::scene::{LoadedScene, Scene};
-use gearcut_core::cut::Backend;
 use gearcut_core::error::{Error, Result};
 
 /// Differences up to this share of the largest influence are no matter: marks of strokes and the second order of
@@ -41,12 +39,13 @@ impl Influence {
     ///
     /// # Errors
     /// The scene refuses the shifted value; geometry; the backend's.
+    #[cfg(feature = "testing")]
     pub fn new(
         loaded: &LoadedScene,
-        grid: &GearGrid,
+        grid: &super::gear_grid::GearGrid,
         before_um: &[f64],
         parameter: &ErrorParameter,
-        backend: &dyn Backend,
+        backend: &dyn gearcut_core::cut::Backend,
     ) -> Result<Self> {
         let ready = process::prepare(&loaded.scene)?;
         let heights_um = |scene: &Scene| grid.heights_of_um(ready.with_errors_of(scene)?.as_ref(), backend);
@@ -56,7 +55,7 @@ impl Influence {
     /// The same where `heights_um` gives the heights of a scene's gear.
     ///
     /// # Errors
-    /// As for [`Self::new`].
+    /// The scene refuses the shifted value; those of `heights_um`.
     pub fn by(
         loaded: &LoadedScene,
         before_um: &[f64],
@@ -80,7 +79,7 @@ impl Influence {
     /// The same, compared with what half the step gives.
     ///
     /// # Errors
-    /// As for [`Self::new`].
+    /// The scene refuses the shifted value; those of `heights_um`.
     pub fn checked(self, loaded: &LoadedScene, before_um: &[f64], heights_um: &HeightsOf) -> Result<Self> {
         let halved = self.parameter.clone().with_step(0.5 * self.parameter.step);
         let half = Self::by(loaded, before_um, &halved, heights_um)?;

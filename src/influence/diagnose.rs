@@ -37,14 +37,13 @@ mod shapes;
 mod standing_out;
 
 use fit::LinearFit;
-use gearcut_core::error::Result;
 
 pub use cuts::MeasuredCuts;
 pub use findings::{findings, sheet};
-pub use model::{ErrorModel, ModelledSource};
+pub use model::ErrorModel;
 pub use page::write;
 pub use refit::diagnose;
-pub use shapes::{StandingOut, StandingShape};
+pub use shapes::StandingShape;
 
 /// What explains a measured gear.
 #[derive(Debug, Clone, PartialEq)]
@@ -118,6 +117,7 @@ struct Without {
 
 impl FittedSize {
     /// Whether a size lies in the interval.
+    #[cfg(feature = "testing")]
     pub fn holds(&self, size: f64) -> bool {
         (self.interval[0]..=self.interval[1]).contains(&size)
     }
@@ -129,7 +129,8 @@ impl Diagnosis {
     ///
     /// # Errors
     /// Fewer places than parameters.
-    pub fn new(model: &ErrorModel, measured_um: &[f64], noise_um: f64) -> Result<Self> {
+    #[cfg(feature = "testing")]
+    pub fn new(model: &ErrorModel, measured_um: &[f64], noise_um: f64) -> gearcut_core::Result<Self> {
         LinearFit::new(model, measured_um, noise_um, &Without::default()).diagnosis()
     }
 }

@@ -3,8 +3,7 @@
 //! In: a gear and how its flanks are looked at. Out: [`GearGrid`], and heights at all its places in their order.
 
 use crate::job::GearJob;
-use crate::process::{self, ProcessJob};
-use crate::scene::Scene;
+use crate::process::ProcessJob;
 use crate::steps::flanks_of;
 use gearcut_core::cut::Backend;
 use gearcut_core::dexel::{NO_PASS, Ray};
@@ -122,8 +121,9 @@ impl GearGrid {
     ///
     /// # Errors
     /// Geometry that cannot be cut; the backend's.
-    pub fn heights_um(&self, scene: &Scene, backend: &dyn Backend) -> Result<Vec<f64>> {
-        self.heights_of_um(process::prepare(scene)?.as_ref(), backend)
+    #[cfg(feature = "testing")]
+    pub fn heights_um(&self, scene: &crate::scene::Scene, backend: &dyn Backend) -> Result<Vec<f64>> {
+        self.heights_of_um(crate::process::prepare(scene)?.as_ref(), backend)
     }
 
     /// The same of a scene that is ready.

@@ -50,6 +50,7 @@ impl TargetOutline {
     }
 
     /// The polygon's points.
+    #[cfg(feature = "testing")]
     pub fn points_mm(&self) -> &[DVec2] {
         &self.points_mm
     }

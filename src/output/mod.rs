@@ -20,127 +20,71 @@
 //! | the report: everything on one page that opens offline | `report` |
 //! | progress and Ctrl-C | [`progress`], [`crate::interrupt`] |
 
-#[cfg(not(feature = "testing"))]
-pub(crate) mod apng;
-#[cfg(feature = "testing")]
-#[doc(hidden)]
-pub mod apng;
 pub mod atomic;
 mod axis;
-#[cfg(not(feature = "testing"))]
-pub(crate) mod bar_chart;
-#[cfg(feature = "testing")]
-#[doc(hidden)]
-pub mod bar_chart;
-#[cfg(not(feature = "testing"))]
-pub(crate) mod bar_panels;
-#[cfg(feature = "testing")]
-#[doc(hidden)]
-pub mod bar_panels;
 mod canvas;
-#[cfg(not(feature = "testing"))]
-pub(crate) mod contact_sheet;
-#[cfg(feature = "testing")]
-#[doc(hidden)]
-pub mod contact_sheet;
 mod figure;
-#[cfg(not(feature = "testing"))]
-pub(crate) mod flank_maps;
-#[cfg(feature = "testing")]
-#[doc(hidden)]
-pub mod flank_maps;
 pub mod folder;
 mod font;
-#[cfg(not(feature = "testing"))]
-pub(crate) mod growing;
-#[cfg(feature = "testing")]
-#[doc(hidden)]
-pub mod growing;
-#[cfg(not(feature = "testing"))]
-pub(crate) mod growing_folder;
-#[cfg(feature = "testing")]
-#[doc(hidden)]
-pub mod growing_folder;
 mod heat;
-#[cfg(not(feature = "testing"))]
-pub(crate) mod inspection_sheet;
-#[cfg(feature = "testing")]
-#[doc(hidden)]
-pub mod inspection_sheet;
 mod letters;
 pub mod line_chart;
 mod map_cells;
-#[cfg(not(feature = "testing"))]
-pub(crate) mod map_png;
-#[cfg(feature = "testing")]
-#[doc(hidden)]
-pub mod map_png;
-#[cfg(not(feature = "testing"))]
-pub(crate) mod mesh_file;
-#[cfg(feature = "testing")]
-#[doc(hidden)]
-pub mod mesh_file;
-#[cfg(not(feature = "testing"))]
-pub(crate) mod mesh_glb;
-#[cfg(feature = "testing")]
-#[doc(hidden)]
-pub mod mesh_glb;
-#[cfg(not(feature = "testing"))]
-pub(crate) mod mesh_ply;
-#[cfg(feature = "testing")]
-#[doc(hidden)]
-pub mod mesh_ply;
-#[cfg(not(feature = "testing"))]
-pub(crate) mod mesh_stl;
-#[cfg(feature = "testing")]
-#[doc(hidden)]
-pub mod mesh_stl;
 mod plot;
 pub mod progress;
-#[cfg(not(feature = "testing"))]
-pub(crate) mod range_chart;
-#[cfg(feature = "testing")]
-#[doc(hidden)]
-pub mod range_chart;
 mod raster;
-#[cfg(not(feature = "testing"))]
-pub(crate) mod ratio_chart;
-#[cfg(feature = "testing")]
-#[doc(hidden)]
-pub mod ratio_chart;
 mod relief;
-#[cfg(not(feature = "testing"))]
-pub(crate) mod render_png;
-#[cfg(feature = "testing")]
-#[doc(hidden)]
-pub mod render_png;
-#[cfg(not(feature = "testing"))]
-pub(crate) mod report;
-#[cfg(feature = "testing")]
-#[doc(hidden)]
-pub mod report;
-#[cfg(not(feature = "testing"))]
-pub(crate) mod rolling_picture;
-#[cfg(feature = "testing")]
-#[doc(hidden)]
-pub mod rolling_picture;
-#[cfg(not(feature = "testing"))]
-pub(crate) mod strip_chart;
-#[cfg(feature = "testing")]
-#[doc(hidden)]
-pub mod strip_chart;
-#[cfg(not(feature = "testing"))]
-pub(crate) mod summary;
-#[cfg(feature = "testing")]
-#[doc(hidden)]
-pub mod summary;
 pub mod table;
 pub mod text;
-#[cfg(not(feature = "testing"))]
-pub(crate) mod vector_page;
-#[cfg(feature = "testing")]
-#[doc(hidden)]
-pub mod vector_page;
+
+cfg_if::cfg_if! {
+    // Tests and benchmarks see them, other programs do not.
+    if #[cfg(feature = "testing")] {
+        pub mod apng;
+        pub mod bar_chart;
+        pub mod bar_panels;
+        pub mod contact_sheet;
+        pub mod flank_maps;
+        pub mod growing;
+        pub mod growing_folder;
+        pub mod inspection_sheet;
+        pub mod map_png;
+        pub mod mesh_file;
+        pub mod mesh_glb;
+        pub mod mesh_ply;
+        pub mod mesh_stl;
+        pub mod range_chart;
+        pub mod ratio_chart;
+        pub mod render_png;
+        pub mod report;
+        pub mod rolling_picture;
+        pub mod strip_chart;
+        pub mod summary;
+        pub mod vector_page;
+    } else {
+        pub(crate) mod apng;
+        pub(crate) mod bar_chart;
+        pub(crate) mod bar_panels;
+        pub(crate) mod contact_sheet;
+        pub(crate) mod flank_maps;
+        pub(crate) mod growing;
+        pub(crate) mod growing_folder;
+        pub(crate) mod inspection_sheet;
+        pub(crate) mod map_png;
+        pub(crate) mod mesh_file;
+        pub(crate) mod mesh_glb;
+        pub(crate) mod mesh_ply;
+        pub(crate) mod mesh_stl;
+        pub(crate) mod range_chart;
+        pub(crate) mod ratio_chart;
+        pub(crate) mod render_png;
+        pub(crate) mod report;
+        pub(crate) mod rolling_picture;
+        pub(crate) mod strip_chart;
+        pub(crate) mod summary;
+        pub(crate) mod vector_page;
+    }
+}
 
 /// Surfaces in files, and the maps that are surfaces too, from the crate of their own.
 pub use gearcut_texture::files::{self as surface_files, exr_map, grid};

@@ -36,7 +36,7 @@ use gear_frame::gear_frame;
 use gearcut_core::Result;
 use viewer::Viewer;
 
-pub use blocks::{Block, FileLinks, PageSection, SectionVerdict, Tone};
+pub use blocks::{Block, FileLinks, PageSection, Tone};
 pub use table::PageTable;
 
 /// Name of the file in an output folder.

@@ -25,6 +25,7 @@ pub struct PathOfContact {
 
 /// Passage of one tooth through the mesh.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg(feature = "testing")]
 pub struct ToothPath {
     /// Driver's angle at which the flank leaves (right) or meets (left) the driven gear's tip.
     pub phi_at_driven_tip_rad: f64,
@@ -77,6 +78,7 @@ impl PathOfContact {
 ///
 /// # Errors
 /// Tips that the flank does not reach.
+#[cfg(feature = "testing")]
 pub fn tooth_path(pair: &PitchPair, side: Side, tooth: i64, addendum_mm: [f64; 2]) -> Result<ToothPath, Refusal> {
     let crossing_mm = pair.crossing_mm(side, tooth);
     let phi_at_driver_tip_rad = pair.phi_at_tip(Member::Driver, side, crossing_mm, addendum_mm[0])?;

@@ -1,7 +1,7 @@
 //! `gearcut pair`: two gears of scenes or results rolled on each other, and what is written about it.
 //!
 //! In: two scenes, errors of mounting. Out: findings, tables, charts, contact patterns, an animation and a page. The
-//! mechanics stand in [`crate::pair`].
+//! mechanics are those of `crate::pair`.
 //!
 //! | module | what |
 //! | --- | --- |
@@ -20,7 +20,7 @@
 //! | [`spline`] | a splined shaft in its hub, which do not roll |
 //! | [`findings`] | the tree of findings |
 //! | [`charts`], [`pictures`], [`view`], [`page`] | what is drawn |
-//! | [`write`] | the files |
+//! | [`mod@write`] | the files |
 //!
 //! A pair is two scenes and options of a command, not a scene of its own: each gear stays one file that `cut`, `check`
 //! and `mate` read as well, and what is tried again and again with the same gears is how they are mounted.

@@ -13,23 +13,8 @@ pub(crate) mod build;
 mod check;
 mod checks;
 pub mod draft;
-#[cfg(not(feature = "testing"))]
-pub(crate) mod error_parameters;
-#[cfg(feature = "testing")]
-#[doc(hidden)]
-pub mod error_parameters;
-#[cfg(not(feature = "testing"))]
-pub(crate) mod error_sources;
-#[cfg(feature = "testing")]
-#[doc(hidden)]
-pub mod error_sources;
 pub mod errors;
 mod foreign;
-#[cfg(not(feature = "testing"))]
-pub(crate) mod keys;
-#[cfg(feature = "testing")]
-#[doc(hidden)]
-pub mod keys;
 mod loaded;
 pub(crate) mod machine_errors;
 mod mate;
@@ -39,16 +24,6 @@ mod parameters;
 mod points;
 pub(crate) mod problems;
 mod process;
-#[cfg(not(feature = "testing"))]
-pub(crate) mod reference;
-#[cfg(feature = "testing")]
-#[doc(hidden)]
-pub mod reference;
-#[cfg(not(feature = "testing"))]
-pub(crate) mod schema;
-#[cfg(feature = "testing")]
-#[doc(hidden)]
-pub mod schema;
 mod shop_words;
 mod sources;
 pub mod suggest;
@@ -61,22 +36,30 @@ pub(crate) mod values;
 mod walk;
 mod write;
 
+cfg_if::cfg_if! {
+    // Tests and benchmarks see them, other programs do not.
+    if #[cfg(feature = "testing")] {
+        pub mod error_parameters;
+        pub mod error_sources;
+        pub mod keys;
+        pub mod reference;
+        pub mod schema;
+        pub use mate::{Mate, MateScene};
+        pub use process::{Copied, FINISH_ALONE, ProcessPart, ScenePart, SceneProcess, Senseless, StandardOperation};
+        pub use template::template;
+    } else {
+        pub(crate) mod error_parameters;
+        pub(crate) mod error_sources;
+        pub(crate) mod keys;
+        pub(crate) mod schema;
+        pub(crate) use mate::Mate;
+        pub(crate) use process::{FINISH_ALONE, ProcessPart, ScenePart, SceneProcess, Senseless, StandardOperation};
+        pub(crate) use template::template;
+    }
+}
+
 pub use errors::{Problem, SceneErrors, SourcePlace};
+pub use keys::Key;
 pub use loaded::{LoadedScene, Located, load, parse};
-#[cfg(not(feature = "testing"))]
-pub(crate) use mate::{Mate, MateScene};
-#[cfg(feature = "testing")]
-#[doc(hidden)]
-pub use mate::{Mate, MateScene};
 pub use model::{Post, Scene};
-#[cfg(not(feature = "testing"))]
-pub(crate) use process::{Copied, FINISH_ALONE, ProcessPart, ScenePart, SceneProcess, Senseless, StandardOperation};
-#[cfg(feature = "testing")]
-#[doc(hidden)]
-pub use process::{Copied, FINISH_ALONE, ProcessPart, ScenePart, SceneProcess, Senseless, StandardOperation};
 pub use table::{KeyTable, TableSection};
-#[cfg(not(feature = "testing"))]
-pub(crate) use template::template;
-#[cfg(feature = "testing")]
-#[doc(hidden)]
-pub use template::template;

@@ -1,7 +1,7 @@
 //! The checked scene: every value present, in range and in internal units (mm, rad, s).
 //!
 //! Comes from [`super::load`], goes to the processes. Nothing here knows about TOML, nor what a process has for itself:
-//! its folder gets that back from [`ScenePart`]. Keys of the scene file are the field names with their unit
+//! its folder gets that back from `ScenePart`. Keys of the scene file are the field names with their unit
 //! (`face_width_mm`, `pressure_angle_deg`); angles are radians here.
 
 use super::process::ScenePart;
@@ -24,7 +24,7 @@ pub struct Scene {
     pub process: ScenePart,
     /// Where profiles are evaluated.
     pub measure: Measure,
-    /// Texture windows; empty: those that [`crate::texture`] takes by itself.
+    /// Texture windows; empty: those that `crate::texture` takes by itself.
     pub textures: Vec<TextureWindow>,
     /// Dexel spacing.
     pub fields: Fields,
@@ -266,7 +266,7 @@ pub struct ReportHead {
     pub us_letter: bool,
 }
 
-/// The control that reads an axis program; what each asks for stands in [`crate::gcode`].
+/// The control that reads an axis program; `crate::gcode` has what each expects.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Post {
     /// None in particular: the dialect that gearcut itself reads.

@@ -18,7 +18,6 @@ use gearcut_core::cut::CutStats;
 use gearcut_core::dexel::{Layer, RayGrid};
 use gearcut_core::error::Result;
 use gearcut_core::terms::Side;
-use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
@@ -93,17 +92,6 @@ impl<G, R> FlankQueue<'_, G, R> {
     /// Files.
     pub fn take(&self, index: usize, flank: CutFlank<G, R>) -> Result<()> {
         (self.take)(index, flank)
-    }
-
-    /// Cuts and measures every flank by itself, in parallel; the first failure ends it.
-    ///
-    /// # Errors
-    /// Those of `cut_one`; files.
-    pub fn each(&self, cut_one: impl Fn(u32, Side) -> Result<CutFlank<G, R>> + Sync) -> Result<()> {
-        (0..self.list.len()).into_par_iter().try_for_each(|index| match self.next(index) {
-            Some((tooth, side)) => self.take(index, cut_one(tooth, side)?),
-            None => Ok(()),
-        })
     }
 }
 

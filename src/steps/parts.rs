@@ -141,7 +141,7 @@ impl Parts {
         Self { bits: parts.into_iter().fold(0, |bits, part| bits | 1 << part as u8) }
     }
 
-    /// The parts of these names; [`NUMBERS`] and names of no part add nothing.
+    /// The parts of these names; `numbers` and names of no part add nothing.
     pub fn named<'a>(names: impl IntoIterator<Item = &'a str>) -> Self {
         let part = |name| Part::ALL.into_iter().find(|part| part.name() == name);
         Self::of(names.into_iter().filter_map(part))

@@ -6,7 +6,7 @@
 //!   file `new-joe-kuo-6`), without its first point, which is the corner of the cube. Samples of 2^k - 1 are balanced.
 //!   More samples go on where fewer ended: a study can grow.
 //!
-//! Everything follows from seed, parameter and sample ([`crate::random`]). Road not taken: scrambled sequences, whose
+//! Everything follows from seed, parameter and sample (`crate::random`). Road not taken: scrambled sequences, whose
 //! error bars ask for several studies.
 
 use crate::random::Draws;

@@ -20,7 +20,8 @@ fn read(source: &str) -> Sources {
 /// Names of the crate's own modules in the order of its list, from the ground up.
 fn floors(lib: &str) -> Vec<String> {
     let declared = |line: &str| {
-        let name = ["pub mod ", "pub(crate) mod ", "mod "].iter().find_map(|start| line.strip_prefix(start))?;
+        let name =
+            ["pub mod ", "pub(crate) mod ", "mod "].iter().find_map(|start| line.trim_start().strip_prefix(start))?;
         let name = name.strip_suffix(';')?;
         (name != "tests").then(|| name.to_owned())
     };

@@ -44,6 +44,7 @@ pub struct MeasuredGear {
 
 impl MeasuredGear {
     /// Numbers alone.
+    #[cfg(feature = "testing")]
     pub fn of_numbers(numbers: Vec<MeasuredNumber>) -> Self {
         Self { numbers, ..Self::default() }
     }

@@ -1,7 +1,8 @@
 //! G-code for the six-axis machine: written from the roll of an operation over all slots, and read back.
 //!
 //! In: a prepared operation and the **contour error**, the largest displacement of the blades' tips in the work that
-//! straight lines may cause. Out: a text, and from any such text the axes at every moment ([`read()`]).
+//! straight lines may cause. Out: a text, and from any such text the axes at every moment
+//! ([`super::axis_program::read`]).
 //!
 //! | word | axis | unit |
 //! | --- | --- | --- |
@@ -16,7 +17,7 @@
 mod judge;
 mod program;
 
-pub use super::axis_program::{BevelKnot, BevelProgram, read};
+pub use super::axis_program::{BevelKnot, BevelProgram};
 pub use judge::judged;
 
 use super::job::BevelJob;

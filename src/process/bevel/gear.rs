@@ -24,6 +24,7 @@ pub struct BevelGear {
     /// Maps of all finished flanks at map spacing.
     pub maps: GearMaps,
     /// Their surfaces at mesh spacing; empty where nothing that is written needs them.
+    #[cfg_attr(not(feature = "testing"), expect(dead_code, reason = "tests read it"))]
     pub surfaces: Vec<SurfaceGrid>,
     /// What pictures of single flanks show.
     pub pictured: PicturedFlanks,

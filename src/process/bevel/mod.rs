@@ -1,7 +1,7 @@
 //! Spiral bevel gears cut with a face-mill head on a machine that generates them.
 //!
-//! The physics stands in [`gearcut_core::bevel`]: blank, head, machines, the flank that they generate. Here are scenes, the
-//! passes of the head's blades over all slots, flank fields, measures, files and the page.
+//! The physics is that of [`gearcut_core::bevel`]: blank, head, machines, the flank that they generate. Here are
+//! scenes, the passes of the head's blades over all slots, flank fields, measures, files and the page.
 
 mod actual;
 pub mod axes_report;

@@ -154,6 +154,7 @@ impl<'a> HobCutter<'a> {
     ///
     /// # Errors
     /// A flank without a target, the backend's.
+    #[cfg(feature = "testing")]
     pub fn cut(&self, backend: &dyn Backend, tooth: u32, side: Side) -> Result<HobbedFlank<'_>> {
         let field = self.rays(tooth, side)?.1.field;
         let left = self.swept(field.clone()).cut(backend)?;

@@ -1,7 +1,8 @@
 //! G-code for a five- or six-axis CNC hobbing machine: written from a linkage, and read back into axis positions.
 //!
 //! In: a prepared operation and the **contour error**, the largest displacement of the hob in the work that straight
-//! lines may cause where both meet. Out: two texts, and from any such text the axes at every moment ([`read()`]).
+//! lines may cause where both meet. Out: two texts, and from any such text the axes at every moment
+//! ([`crate::process::hobbing::commanded::read`]).
 //!
 //! | word | axis | unit |
 //! | --- | --- | --- |
@@ -25,7 +26,7 @@ mod judge;
 mod program;
 mod text;
 
-pub use crate::process::hobbing::commanded::{HobbingKnot, HobbingProgram, Positions, read};
+pub use crate::process::hobbing::commanded::HobbingProgram;
 pub use judge::judged;
 pub use program::Gearbox;
 pub use text::program_numbers;

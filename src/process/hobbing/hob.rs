@@ -80,6 +80,7 @@ pub struct Hob {
     /// Length with full teeth, mm.
     pub length_mm: f64,
     /// Radius at which the flank ends and the tip's corner or the protuberance begins, mm.
+    #[cfg_attr(not(feature = "testing"), expect(dead_code, reason = "tests read it"))]
     pub flank_end_radius_mm: f64,
     /// Teeth in blade order.
     pub teeth: Vec<HobTooth>,

@@ -41,7 +41,9 @@ use gearcut_core::error::Result;
 
 pub use blank::HobbedBlank;
 pub use cutter::{HobCutter, HobbedFlank};
-pub use gear::{HobbedGear, cut_gear};
+pub use gear::HobbedGear;
+#[cfg(feature = "testing")]
+pub use gear::cut_gear;
 pub use hob::Hob;
 pub use job::HobbingJob;
 

@@ -179,6 +179,7 @@ impl RackGeneration {
     /// Where the profile of a flank crosses the curve `height_mm` over the pitch curve (along its normals, negative
     /// inwards): on the flank, or on the fillet where the corner has cut deeper into the tooth. `None` where neither
     /// reaches that height.
+    #[cfg(feature = "testing")]
     pub fn crossing(
         &self,
         blank: &Blank,

@@ -244,6 +244,9 @@ impl HobCutter<'_> {
     }
 
     /// Rays from the root of a space, points about `spacing_mm` apart in every section, to the middle of the space.
+    ///
+    /// # Errors
+    /// The hob generates no flank there.
     pub fn root_rays(&self, space: u32, spacing_mm: f64, rows_z_mm: &[f64]) -> Result<PlacedRays> {
         let roots = self.roots(space, spacing_mm, rows_z_mm)?;
         let target = &self.job.target;

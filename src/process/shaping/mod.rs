@@ -42,7 +42,9 @@ use super::Process;
 use crate::steps::axes;
 use axes_report::OperationAxes;
 
-pub use gear::{CutGear, cut_gear};
+pub use gear::CutGear;
+#[cfg(feature = "testing")]
+pub use gear::cut_gear;
 pub use job::{PreparedOperation, ShapingJob};
 pub use tool::cutter::ShaperCutter;
 

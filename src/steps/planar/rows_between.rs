@@ -178,17 +178,6 @@ impl PlanarGear<'_> {
         self.operations.iter().map(|operation| operation.strokes.bend_mm()).fold(0.0, f64::max)
     }
 
-    /// How many of so many rows [`Self::prepare`] cuts, but for columns that ask for all of them.
-    pub fn distinct_rows(&self, rows: usize) -> usize {
-        if self.rows_are_alike() {
-            1
-        } else if self.rests() {
-            Nodes::count(rows, self.bend_mm())
-        } else {
-            rows
-        }
-    }
-
     /// Cuts a field while the axes rest: its nodes, every row of the columns that these do not tell of, and what lies
     /// between.
     ///

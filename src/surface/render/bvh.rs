@@ -113,6 +113,7 @@ impl Bvh {
     }
 
     /// First triangle along a ray, within `limit_mm`; both sides of triangles count.
+    #[cfg(feature = "testing")]
     pub fn first(&self, origin_mm: DVec3, direction: DVec3, limit_mm: f64) -> Option<Hit> {
         self.walk(origin_mm, direction, limit_mm, false)
     }

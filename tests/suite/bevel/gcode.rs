@@ -2,7 +2,8 @@
 
 use super::jobs::job;
 use gearcut::bevel::five_axis::SixAxes;
-use gearcut::process::bevel::gcode::{self, read};
+use gearcut::process::bevel::axis_program::read;
+use gearcut::process::bevel::gcode;
 use gearcut::process::bevel::job::index;
 use gearcut::process::bevel::motion::RollMotion;
 use glam::DVec3;

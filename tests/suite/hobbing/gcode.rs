@@ -3,7 +3,8 @@
 
 use gearcut::process;
 use gearcut::process::hobbing::HobbingJob;
-use gearcut::process::hobbing::gcode::{Gearbox, HobbingProgram, read, texts};
+use gearcut::process::hobbing::commanded::read;
+use gearcut::process::hobbing::gcode::{Gearbox, HobbingProgram, texts};
 use glam::DVec3;
 use std::path::Path;
 

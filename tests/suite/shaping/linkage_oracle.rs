@@ -168,8 +168,8 @@ fn strokes_agree() {
                     .unwrap();
             assert_eq!(schedule.count() as u64, n);
             let (dpsi_b, dl): (Vec<f64>, Vec<f64>) = (0..schedule.count())
-                .map(|i| schedule.increment(i))
-                .map(|d| (d.psi_b_rad, d.center_distance_mm))
+                .map(|i| [i, i + 1].map(|i| schedule.state(i as f64)))
+                .map(|[a, b]| (b.psi_b_rad - a.psi_b_rad, b.center_distance_mm - a.center_distance_mm))
                 .unzip();
             let block = &expected[block];
             for i in 0..5 {

@@ -17,7 +17,7 @@ use gearcut::passes::{SweepPlan, TurningPasses};
 use gearcut::scene::Scene;
 use gearcut::scene::model::{Picture, PictureColour, PictureView};
 use gearcut::steps::attempts::Attempts;
-use gearcut::steps::cut_flanks::{CutFlank, CutFlanks, cut_flanks, dexels_of};
+use gearcut::steps::cut_flanks::{CutFlank, CutFlanks, FlankQueue, cut_flanks, dexels_of};
 use gearcut::steps::parts::{Parts, Stages};
 use gearcut::steps::report::PageGear;
 use gearcut::steps::view_mesh::{ViewFlank, ViewMesh};
@@ -171,7 +171,7 @@ impl GearJob for ConicalJob {
 
 fn cut(job: &ConicalJob, tools: Option<&Tools>) -> CutFlanks<()> {
     let (progress, interrupt) = (Progress::new(ProgressMode::Quiet), Interrupt::default());
-    let cut_one = |_, side| {
+    let cut_one = |_, side| -> Result<CutFlank<_, ()>> {
         let rays = job.all_rays(side);
         let layers = vec![job.cut(&rays)];
         let evaluated_mm = vec![[0.0, f64::INFINITY]];
@@ -185,7 +185,10 @@ fn cut(job: &ConicalJob, tools: Option<&Tools>) -> CutFlanks<()> {
         })
     };
     let folder = tools.map(|tools| (tools.folder, tools.notes, tools.parts));
-    cut_flanks(job, &progress, &interrupt, folder, |flanks| flanks.each(cut_one), |_, _, _| Vec::new()).expect("cuts")
+    let cut_all = |flanks: &FlankQueue<_, _>| {
+        flanks.list.iter().enumerate().try_for_each(|(at, &(tooth, side))| flanks.take(at, cut_one(tooth, side)?))
+    };
+    cut_flanks(job, &progress, &interrupt, folder, cut_all, |_, _, _| Vec::new()).expect("cuts")
 }
 
 #[test]

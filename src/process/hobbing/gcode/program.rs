@@ -196,6 +196,7 @@ impl HobbingProgram {
 
     /// Axes of a program that commands only what is added to the gearbox.
     #[must_use]
+    #[cfg(feature = "testing")]
     pub fn with_gearbox(&self, gearbox: &Gearbox) -> Self {
         self.geared(gearbox, 1.0)
     }

@@ -28,6 +28,7 @@ pub struct FeedPath {
 
 impl FeedPath {
     /// Constant feeds from slide 0 and shift 0 at full depth.
+    #[cfg(feature = "testing")]
     pub fn steady(duration_s: f64, slide_mm_per_s: f64, shift_mm_per_s: f64) -> Self {
         Self {
             start_slide_mm: 0.0,

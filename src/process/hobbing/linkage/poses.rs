@@ -5,7 +5,7 @@
 
 use super::geometry::{work_from_machine, work_from_machine_at};
 use super::{HobbingAxes, HobbingLinkage};
-use gearcut_core::frame::{Rigid3, RigidMotion3};
+use gearcut_core::frame::Rigid3;
 use gearcut_core::math::Jet;
 use glam::{DMat3, DVec3};
 
@@ -45,7 +45,8 @@ impl HobbingLinkage {
     }
 
     /// Pose with velocity, gear frame.
-    pub fn motion(&self, time_s: f64) -> RigidMotion3 {
+    #[cfg(feature = "testing")]
+    pub fn motion(&self, time_s: f64) -> gearcut_core::frame::RigidMotion3 {
         let axes = self.axes::<2>(time_s);
         let machine_from_tool = self.machine_from_tool(&axes);
         let work_from_machine = work_from_machine(&axes);
@@ -58,7 +59,7 @@ impl HobbingLinkage {
         let from_center = machine_from_tool.translation_mm + center;
         let velocity = tool_rate + center_rate - work_turn.cross(from_center);
         let turn = axis * (self.geometry.hob_hand * d(axes.hob_rad)) - work_turn;
-        RigidMotion3 {
+        gearcut_core::frame::RigidMotion3 {
             pose: work_from_machine.after(&machine_from_tool),
             velocity_mm_per_s: work_from_machine.direction(velocity),
             angular_velocity_rad_per_s: work_from_machine.direction(turn),

@@ -71,6 +71,7 @@ impl Engagement {
     }
 
     /// Tooth that takes the most, and its share.
+    #[cfg(feature = "testing")]
     pub fn peak(&self) -> Option<(i64, f64)> {
         let (&passage, _) = self.area_mm2.iter().max_by(|a, b| a.1.total_cmp(b.1))?;
         Some((passage, self.share(passage)))

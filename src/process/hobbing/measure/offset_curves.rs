@@ -8,7 +8,7 @@
 //! module 8; here at the same shares of the normal module, or lower where the tooth is lower ([`offsets_mm`]): a ray
 //! along a curve beside the tooth meets what hob teeth leave elsewhere. Where the tip corner has undercut a flank, the
 //! target is the corner's own path
-//! ([`RackGeneration::crossing`](crate::process::hobbing::rack_generation::RackGeneration::crossing)): 20 of the
+//! (`RackGeneration::crossing`): 20 of the
 //! paper's 350 points lie there.
 //!
 //! **As cut.** A ray along the curve's tangent, out of the tooth, through the target's point is cut by all passes,

@@ -105,6 +105,7 @@ impl<'a> CutSection<'a> {
     }
 
     /// Area of the section, mm^2: the mean of both families of rays.
+    #[cfg(feature = "testing")]
     pub fn area_mm2(&self) -> f64 {
         let [x, y] = self.field.areas_mm2()[0];
         0.5 * (x + y)

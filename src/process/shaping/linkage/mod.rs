@@ -27,6 +27,6 @@ mod shaping_linkage;
 mod tests;
 mod traditional;
 
-pub use axes::{Axes, CutterPose, PoseMotion};
-pub use schedule::{StrokeIncrement, StrokeSchedule, StrokeState};
+pub use axes::{Axes, CutterPose};
+pub use schedule::{StrokeSchedule, StrokeState};
 pub use shaping_linkage::ShapingLinkage;

@@ -61,17 +61,6 @@ pub struct StrokeState {
     pub pose: CutterPose,
 }
 
-/// Movement of the axes from one stroke to the next.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct StrokeIncrement {
-    /// Work angle, rad.
-    pub psi_c_rad: f64,
-    /// Cutter angle, rad.
-    pub psi_b_rad: f64,
-    /// Centre distance, mm.
-    pub center_distance_mm: f64,
-}
-
 impl StrokeSchedule {
     /// Lays out the strokes.
     ///
@@ -177,11 +166,6 @@ impl StrokeSchedule {
         stroke * self.seconds_per_stroke
     }
 
-    /// Work angles of the first and the last stroke, rad: where the witness mark begins and ends.
-    pub fn witness_rad(&self) -> [f64; 2] {
-        [self.state(0.0).psi_c_rad, self.state((self.count - 1) as f64).psi_c_rad]
-    }
-
     /// The linkage that moves the axes.
     pub fn linkage(&self) -> &ShapingLinkage {
         &self.linkage
@@ -218,16 +202,6 @@ impl StrokeSchedule {
             psi_b_rad: axes.psi_b_rad.value(),
             center_distance_mm: axes.center_distance_mm.value(),
             pose: axes.pose(self.linkage.gear()),
-        }
-    }
-
-    /// What the axes move from stroke `index` to the next one.
-    pub fn increment(&self, index: usize) -> StrokeIncrement {
-        let (here, next) = (self.state(index as f64), self.state((index + 1) as f64));
-        StrokeIncrement {
-            psi_c_rad: next.psi_c_rad - here.psi_c_rad,
-            psi_b_rad: next.psi_b_rad - here.psi_b_rad,
-            center_distance_mm: next.center_distance_mm - here.center_distance_mm,
         }
     }
 

@@ -114,11 +114,6 @@ impl ShapingLinkage {
         &self.curve
     }
 
-    /// Which linkage this is.
-    pub fn kind(&self) -> Linkage {
-        self.kind
-    }
-
     /// The linkage in words.
     pub fn words(&self) -> &'static str {
         match self.kind {

@@ -42,6 +42,7 @@ impl Shaping {
     }
 
     /// The same, to try other values.
+    #[cfg(feature = "testing")]
     pub fn of_mut(scene: &mut Scene) -> Option<&mut Self> {
         scene.process.get_mut()
     }

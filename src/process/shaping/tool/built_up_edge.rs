@@ -28,7 +28,6 @@
 
 use crate::process::shaping::scene::model::BuiltUpEdge;
 use crate::random::Draws;
-use std::f64::consts::PI;
 
 /// Size of a cell, mm: a choice; at usual densities some marks lie in it.
 const CELL_MM: f64 = 0.25;
@@ -88,8 +87,9 @@ impl BuiltUpEdge {
 
     /// By how much a flank is lowered in the mean, mm, and the root mean square of the heights about it, where marks
     /// are densest: Campbell's theorem.
+    #[cfg(feature = "testing")]
     pub fn mean_and_rq_mm(&self) -> [f64; 2] {
-        let area_mm2 = |is_scratch: bool| self.half_mm(is_scratch).iter().product::<f64>() * PI;
+        let area_mm2 = |is_scratch: bool| self.half_mm(is_scratch).iter().product::<f64>() * std::f64::consts::PI;
         let share = self.scratch_share;
         let covered = self.density_per_mm2 * (share * area_mm2(true) + (1.0 - share) * area_mm2(false));
         let square_mm2 = 2.0 * self.depth_mm * self.depth_mm;
@@ -125,6 +125,7 @@ impl BuiltUpEdge {
 #[cfg(test)]
 pub(in crate::process::shaping) mod tests {
     use super::*;
+    use std::f64::consts::PI;
 
     /// Marks without a meaning for a gear.
     pub fn some_marks() -> BuiltUpEdge {

@@ -32,15 +32,6 @@ impl EdgeSide {
     /// All sides in the order of the edge.
     pub const ALL: [Self; 3] = [Self::Right, Self::Tip, Self::Left];
 
-    /// `right`, `tip` or `left`.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Right => "right",
-            Self::Tip => "tip",
-            Self::Left => "left",
-        }
-    }
-
     /// The part that a segment belongs to.
     pub fn of(name: SegmentName) -> Self {
         match name {

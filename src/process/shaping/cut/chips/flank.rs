@@ -38,6 +38,7 @@ pub fn side_code(side: Option<EdgeSide>) -> u8 {
 }
 
 /// Chips that left the surface after each operation, in their order.
+#[cfg(feature = "testing")]
 pub fn last_chips(job: &ShapingJob, field: &Field) -> Vec<LastChips> {
     last_chips_on_rays(job, field, Pairing::All, |_, _| true)
 }

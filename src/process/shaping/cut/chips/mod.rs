@@ -10,7 +10,7 @@
 //! whole face; where the feed goes on, the middle section stands for the face, the others being the same a fraction of
 //! a stroke earlier or later.
 //!
-//! Rays on a flank see only the chips that shape it, and those exactly: [`flank::last_chips`] says with how thick a
+//! Rays on a flank see only the chips that shape it, and those exactly: [`flank`] says with how thick a
 //! chip each place of a flank was cut last. Where edges are rounded, what is left depends on the order of passes, and
 //! is found here as well.
 
@@ -35,6 +35,7 @@ pub mod stroke;
 
 pub use deflection::deflections;
 pub use entry::entries;
+#[cfg(feature = "testing")]
 pub use flank::last_chips;
 pub(in crate::process::shaping) use flank::{last_chips_at, last_chips_on_map};
 pub use ledger::{ChipLedger, OperationChips, ThicknessMap};

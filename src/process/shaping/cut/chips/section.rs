@@ -138,6 +138,7 @@ impl<'a> SpaceSection<'a> {
     }
 
     /// Area of material in the window by each family, mm^2, between two coordinates along the rays.
+    #[cfg(feature = "testing")]
     pub fn areas_mm2(&self, window_mm: [DVec2; 2]) -> [f64; 2] {
         [0, 1].map(|f| {
             let side = &self.sides[f];

@@ -81,6 +81,7 @@ impl RetractionPlan {
     }
 
     /// Zones of polar angle, rad, in which `auto` turns the cutter.
+    #[cfg(feature = "testing")]
     pub fn turned_rad(&self) -> &[[f64; 2]] {
         &self.turned_rad
     }
