@@ -8,7 +8,6 @@ use crate::steps::cut_flanks::{CutFlank, FlankQueue, cut_flanks, dexels_of};
 use crate::steps::gear_maps::GearMaps;
 use crate::steps::pictures::flank::PicturedFlanks;
 use crate::steps::{FlankFiles, Work};
-use crate::surface::SurfaceGrid;
 use gearcut_core::cut::{Backend, CutLayers, SweptField};
 use gearcut_core::dexel::FreeRays;
 use gearcut_core::error::{Error, Result};
@@ -23,9 +22,6 @@ pub struct BevelGear {
     pub slot: Vec<SlotRow>,
     /// Maps of all finished flanks at map spacing.
     pub maps: GearMaps,
-    /// Their surfaces at mesh spacing; empty where nothing that is written needs them.
-    #[cfg_attr(not(feature = "testing"), expect(dead_code, reason = "tests read it"))]
-    pub surfaces: Vec<SurfaceGrid>,
     /// What pictures of single flanks show.
     pub pictured: PicturedFlanks,
     /// How much work it was.
@@ -73,7 +69,6 @@ pub fn cut_gear(
         slot,
         flanks: cut.reports,
         maps: cut.maps,
-        surfaces: cut.surfaces,
         pictured: cut.pictured,
         work: cut.work,
     })
