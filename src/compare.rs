@@ -116,8 +116,8 @@ impl Comparison {
         let nothing = if count == 0 { "nothing changed" } else { "nothing changed of what all results have" };
         let one_sided = match count {
             0 => None,
-            1 => Some("1 number stands in some of the results only".to_owned()),
-            _ => Some(format!("{count} numbers stand in some of the results only")),
+            1 => Some("1 number is in some of the results only".to_owned()),
+            _ => Some(format!("{count} numbers are in some of the results only")),
         };
         (!changed).then(|| nothing.to_owned()).into_iter().chain(one_sided).collect()
     }

@@ -133,7 +133,7 @@ fn printed(quantity: Option<&Quantity>) -> String {
     match (quantity.value(), quantity.words()) {
         (Some(value), _) => shown(value),
         // Places are told at length in the file.
-        (None, Some(words)) if words.chars().count() > LONGEST_WORDS => "told in the file".to_owned(),
+        (None, Some(words)) if words.chars().count() > LONGEST_WORDS => "see the file".to_owned(),
         (None, Some(words)) => words.to_owned(),
         (None, None) => "none".to_owned(),
     }

@@ -120,7 +120,7 @@ fn other_spelling(heads: &[&str], names: &[&str]) -> Option<String> {
         if heads.iter().any(|head| head.contains(separator))
             && cells.any(|cell| names.iter().any(|name| cell.eq_ignore_ascii_case(name)))
         {
-            return Some(format!("{word} stand between its columns; write commas there, and points before decimals"));
+            return Some(format!("{word} separate its columns; write commas there, and points before decimals"));
         }
     }
     let other = |head: &&&str| names.iter().find(|name| head.eq_ignore_ascii_case(name) && head != name);

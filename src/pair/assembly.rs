@@ -232,7 +232,7 @@ fn first_of(pairs: Vec<ToothTouch>, side: Side, phi_1_rad: f64) -> Result<SideTo
     let acting = pairs.iter().copied().max_by(|a, b| push(a).total_cmp(&push(b))).ok_or_else(|| {
         Refusal::new(
             "gear.addendum_coefficient",
-            format!("no {} flanks touch when the driver stands at {:.3} deg", side.name(), phi_1_rad.to_degrees()),
+            format!("no {} flanks touch with the driver at {:.3} deg", side.name(), phi_1_rad.to_degrees()),
             "use a smaller centre distance or a larger addendum_coefficient",
         )
     })?;

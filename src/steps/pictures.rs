@@ -189,12 +189,12 @@ fn exr(seen: &Seen, legend: Option<Legend>, pixel_mm: f64, title: &str, notes: &
             channel(
                 "depth_mm",
                 "mm",
-                "distance behind the plane through the picture's target; infinite where nothing stands",
+                "distance behind the plane through the picture's target; infinite where there is no surface",
                 Samples::F32(seen.depth_mm.clone()),
             ),
-            channel("normal_x", "1", "unit normal towards the viewer; zero where nothing stands", normal(0)),
-            channel("normal_y", "1", "unit normal towards the viewer; zero where nothing stands", normal(1)),
-            channel("normal_z", "1", "unit normal towards the viewer; zero where nothing stands", normal(2)),
+            channel("normal_x", "1", "unit normal towards the viewer; zero where there is no surface", normal(0)),
+            channel("normal_y", "1", "unit normal towards the viewer; zero where there is no surface", normal(1)),
+            channel("normal_z", "1", "unit normal towards the viewer; zero where there is no surface", normal(2)),
             channel(
                 "pass_id",
                 "1",

@@ -65,11 +65,5 @@ pub fn cut_gear(
         (Some(before), Some(after)) => measure::slot(job, backend, [before, after])?,
         _ => Vec::new(),
     };
-    Ok(BevelGear {
-        slot,
-        flanks: cut.reports,
-        maps: cut.maps,
-        pictured: cut.pictured,
-        work: cut.work,
-    })
+    Ok(BevelGear { slot, flanks: cut.reports, maps: cut.maps, pictured: cut.pictured, work: cut.work })
 }

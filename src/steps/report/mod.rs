@@ -151,7 +151,7 @@ pub fn record(flanks: usize, work: &Work, run: &RunWords) -> PageSection {
         ["Dexels".to_owned(), work.dexels_in_words()],
     ];
     let lead =
-        "What is needed to repeat the run. Times and the SHA-256 of every file stand in run.json beside this page.";
+        "What is needed to repeat the run. Times and the SHA-256 of every file are in run.json beside this page.";
     record_of(rows, &[(SCENE, run.resolved_scene)], lead)
 }
 

@@ -499,7 +499,7 @@ fn numbers_of_one_side_are_counted() {
     let same = gearcut_in(folder.path(), &["compare", "out/before", "out/same"]).done();
     same.says(&["nothing changed"]);
     let after = gearcut_in(folder.path(), &["compare", "out/before", "out/after"]).done();
-    after.says(&["nothing changed of what all results have", "1 number stands in some of the results only"]);
+    after.says(&["nothing changed of what all results have", "1 number is in some of the results only"]);
 }
 
 /// Marks 0.1 mm apart across 30 deg with two hills; a second surface of the same place, shifted, tilted and mirrored.

@@ -67,7 +67,7 @@ pub static SCENE: SceneProcess = SceneProcess {
         without("gear.kind", "the pitch angle says where teeth stand", "remove it"),
         without("gear.helix_angle_deg", "the machine's settings make the spiral", "remove it"),
         without("gear.hand", "the sign of machine.cradle.cradle_angle_deg chooses the hand", "remove it"),
-        without("gear.addendum_coefficient", "the addendum stands in [gear.bevel]", "write gear.bevel.addendum_mm"),
+        without("gear.addendum_coefficient", "the addendum is a key of [gear.bevel]", "write gear.bevel.addendum_mm"),
         without("gear.profile_shift_coefficient", "the settings make the teeth", "remove it"),
         without("gear.bore_diameter_mm", "the body is the toothed ring", "remove it"),
         without("gear.rim_mm", "no gear is internal", "remove it"),

@@ -19,7 +19,7 @@ pub fn section(job: &ShapingJob, found: &Findings) -> Option<PageSection> {
     let direction = returns.first()?.1.text(&DIRECTION).to_owned();
     let blocks = returns.iter().flat_map(|&(name, section)| {
         let first = match section.of(&RETRACTION_ANGLE).and_then(Quantity::why) {
-            Some(why) => Block::Note(format!("Return strokes of {name}: what is told of them is {why}.")),
+            Some(why) => Block::Note(format!("Return strokes of {name}: {why}.")),
             None => Block::Table(answers::table(section, &format!("Return strokes of {name}"))),
         };
         std::iter::once(first).chain(chart(job, name, section).map(Block::Lines))
@@ -30,7 +30,7 @@ pub fn section(job: &ShapingJob, found: &Findings) -> Option<PageSection> {
     asked.dedup();
     let known = returns.iter().all(|(_, section)| section.value(&RETRACTION_ANGLE).is_some());
     let (tone, words) = match (known, asked.is_empty()) {
-        (false, _) => (Tone::Aside, "nothing is told of them".to_owned()),
+        (false, _) => (Tone::Aside, "no findings".to_owned()),
         (true, true) => (Tone::Fine, "nothing to change".to_owned()),
         (true, false) => (Tone::Wrong, format!("a change is advised: {}", asked.join(", "))),
     };

@@ -21,7 +21,7 @@ pub fn section(job: &ShapingJob, found: &Findings) -> Option<PageSection> {
         blocks.push(Block::Table(answers::table(ring, "Before cutting")));
     }
     if let Some(why) = withheld {
-        blocks.push(Block::Note(format!("What is told of the cutter in the ring is {why}.")));
+        blocks.push(Block::Note(format!("Findings on the cutter in the ring: {why}.")));
     } else if table.len() > 1 {
         blocks.push(Block::Lines(LineChart {
             title: format!("{}: the cutter in the ring, over one period of the pitch curve", job.scene.name),
