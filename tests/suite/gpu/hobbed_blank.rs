@@ -20,11 +20,11 @@ use std::sync::LazyLock;
 /// A round spur gear in one cut, a helical one in two by a hob with helical gashes, and the third-order gear, whose
 /// radius of 170 mm f32 resolves to 15 nm.
 const CASES: [(&str, [&str; 3]); 3] = [
-    ("circular_spur", ["gear.face_width_mm=2", "fields.blank.spacing_mm=0.5", "fields.blank.slice_spacing_mm=2.0"]),
-    ("circular_helical", ["gear.face_width_mm=4", "fields.blank.spacing_mm=0.6", "fields.blank.slice_spacing_mm=4.0"]),
+    ("circular_spur", ["gear.face_width_mm=2", "fields.blank.spacing_mm=0.8", "fields.blank.slice_spacing_mm=2.0"]),
+    ("circular_helical", ["gear.face_width_mm=4", "fields.blank.spacing_mm=1.0", "fields.blank.slice_spacing_mm=4.0"]),
     (
         "third_order_diagonal",
-        ["gear.face_width_mm=50", "fields.blank.spacing_mm=1.5", "fields.blank.slice_spacing_mm=50"],
+        ["gear.face_width_mm=50", "fields.blank.spacing_mm=2.5", "fields.blank.slice_spacing_mm=50"],
     ),
 ];
 
