@@ -19,7 +19,7 @@ use with_gpu as build;
 #[cfg(not(feature = "gpu"))]
 use without_gpu as build;
 
-pub use build::{Devices, bench_machines, devices, driver_hangs};
+pub use build::{Devices, bench_machines, devices, drivers_asked};
 
 /// What `--backend` says.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]

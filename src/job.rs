@@ -68,6 +68,11 @@ pub trait GearJob: Sync {
     /// The tool generates no flank there.
     fn evaluated_profile_mm(&self, tooth: u32, side: Side) -> Result<[f64; 2]>;
 
+    /// Part of the face that is evaluated, mm from its middle: all of it, unless the ends are left out.
+    fn evaluated_face_mm(&self) -> [f64; 2] {
+        [-0.5, 0.5].map(|share| share * self.scene().gear.face_width_mm)
+    }
+
     /// Teeth between whose flanks marks differ most: where a scene names no window, texture is looked at there.
     fn teeth_that_differ_most(&self) -> Vec<u32>;
 

@@ -25,6 +25,7 @@ fn options(on_failure: OnFailure) -> GpuOptions {
 /// # Errors
 /// There is none, or it does not work.
 pub(super) fn gpu(on_failure: OnFailure) -> gearcut_core::error::Result<Choice> {
+    ASKED.store(true, Ordering::SeqCst);
     let found = adapter::choose(AdapterWish::RealFirst)?;
     let why = if found.facts.kind.is_real() {
         "asked for".into()
@@ -38,12 +39,18 @@ pub(super) fn gpu(on_failure: OnFailure) -> gearcut_core::error::Result<Choice> 
 /// they take on a cold start.
 const PATIENCE: Duration = Duration::from_secs(10);
 
-/// Whether a driver was left that did not answer.
-static HANGS: AtomicBool = AtomicBool::new(false);
+/// Whether drivers were asked.
+static ASKED: AtomicBool = AtomicBool::new(false);
 
-/// Whether a driver hangs: the process cannot wait for the ends of its libraries then.
-pub fn driver_hangs() -> bool {
-    HANGS.load(Ordering::SeqCst)
+/// Whether drivers were asked: one that hangs, now or at the process's end, must not keep that from coming.
+pub fn drivers_asked() -> bool {
+    ASKED.load(Ordering::SeqCst)
+}
+
+/// All adapters, best first.
+fn adapters() -> Vec<FoundAdapter> {
+    ASKED.store(true, Ordering::SeqCst);
+    adapter::adapters()
 }
 
 /// A real GPU, else the processor; a driver that hangs is none.
@@ -63,7 +70,6 @@ fn in_time<T: Send + 'static>(patience: Duration, work: impl FnOnce() -> T + Sen
     started.map_err(|reason| format!("the system starts no thread for the graphics driver: {reason}"))?;
     wait.recv_timeout(patience).map_err(|failed| match failed {
         RecvTimeoutError::Timeout => {
-            HANGS.store(true, Ordering::SeqCst);
             format!("the graphics driver did not answer within {} s", patience.as_secs_f64())
         }
         RecvTimeoutError::Disconnected => "the graphics driver failed".to_owned(),
@@ -71,7 +77,7 @@ fn in_time<T: Send + 'static>(patience: Duration, work: impl FnOnce() -> T + Sen
 }
 
 fn answered(on_failure: OnFailure) -> Choice {
-    let found = adapter::adapters();
+    let found = adapters();
     let facts: Vec<AdapterFacts> = found.iter().map(|a| a.facts.clone()).collect();
     match auto(&facts) {
         (Some(index), why) => on_real_gpu(&found[index], options(on_failure), why),
@@ -111,11 +117,12 @@ pub struct Devices {
     pub auto_why: String,
 }
 
-/// The processor and every adapter that opens, each with its name: all whose kernels can be timed.
+/// The processor and every adapter that opens, each with its name: all whose kernels can be timed. Drivers that hang
+/// have none.
 pub fn bench_machines() -> Vec<(String, Box<dyn Backend>)> {
     let native = Cpu::default();
     let mut machines: Vec<(String, Box<dyn Backend>)> = vec![(native.name(), Box::new(native))];
-    for found in adapter::adapters().iter().filter(|found| found.facts.lacks.is_none()) {
+    for found in in_time(PATIENCE, adapters).unwrap_or_default().iter().filter(|found| found.facts.lacks.is_none()) {
         if let Ok(gpu) = Gpu::on(found, options(OnFailure::Stop)) {
             machines.push((found.facts.name.clone(), Box::new(gpu)));
         }
@@ -123,10 +130,12 @@ pub fn bench_machines() -> Vec<(String, Box<dyn Backend>)> {
     machines
 }
 
-/// Looks for adapters.
+/// Looks for adapters; of drivers that hang it says so.
 pub fn devices() -> Devices {
-    let adapters: Vec<AdapterFacts> = adapter::adapters().into_iter().map(|a| a.facts).collect();
-    let (auto_takes, auto_why) = auto(&adapters);
+    let found = in_time(PATIENCE, || adapters().into_iter().map(|found| found.facts).collect::<Vec<_>>());
+    let (adapters, failed) = found.map_or_else(|why| (Vec::new(), Some(why)), |adapters| (adapters, None));
+    let (auto_takes, why) = auto(&adapters);
+    let auto_why = failed.unwrap_or(why);
     Devices { adapters, native: Cpu::default().name(), auto_takes, auto_why }
 }
 
@@ -174,6 +183,8 @@ mod tests {
         let failed: Result<(), String> = in_time(Duration::from_secs(60), || panic!("planted"));
         assert_eq!(failed, Err("the graphics driver failed".to_owned()));
         assert_eq!(in_time(Duration::from_secs(60), || 7), Ok(7));
+        let _listed = devices();
+        assert!(drivers_asked(), "a driver may hang at the process's end");
     }
 
     #[test]

@@ -29,7 +29,7 @@ pub(super) fn any(_: OnFailure) -> Choice {
 }
 
 /// Never a driver.
-pub fn driver_hangs() -> bool {
+pub fn drivers_asked() -> bool {
     false
 }
 

@@ -66,7 +66,7 @@ pub fn run(arguments: CommandLine) -> ExitCode {
         Command::Calibrate(arguments) => calibrate::run(&arguments),
     };
     let code = done.map_or_else(|failure| failure.report(), |()| 0);
-    if crate::backend::driver_hangs() {
+    if crate::backend::drivers_asked() {
         crate::interrupt::end_now(code);
     }
     code.into()

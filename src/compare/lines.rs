@@ -60,7 +60,7 @@ fn named(findings: &Findings, headline: bool) -> Vec<(String, Entry)> {
         let own = Some(section.title.clone()).filter(|_| section.key != OPERATIONS.key);
         let titled: Vec<String> = above.into_iter().chain(own).collect();
         named.extend(section.entries.iter().map(|entry| {
-            let title = plain_title(&titled, &entry.heading());
+            let title = plain_title(&titled, entry);
             (format!("{path}.{}", entry.key), Entry { title, ..entry.clone() })
         }));
         titles.insert(path.to_owned(), titled);
@@ -72,7 +72,7 @@ fn named(findings: &Findings, headline: bool) -> Vec<(String, Entry)> {
 }
 
 /// Titles of sections and of a quantity as a reader says them: `Rough: unevenness, mean, max`.
-fn plain_title(sections: &[String], own: &str) -> String {
+fn plain_title(sections: &[String], own: &Entry) -> String {
     // Symbols stay as they are.
     let small = |title: &str| {
         let mut letters = title.chars();
@@ -83,8 +83,8 @@ fn plain_title(sections: &[String], own: &str) -> String {
             _ => title.to_owned(),
         }
     };
-    let Some((first, others)) = sections.split_first() else { return own.to_owned() };
-    let rest: Vec<String> = others.iter().map(String::as_str).chain([own]).map(small).collect();
+    let Some((first, others)) = sections.split_first() else { return own.heading() };
+    let rest: Vec<String> = others.iter().map(|title| small(title)).chain([own.title.clone()]).collect();
     format!("{first}: {}", rest.join(", "))
 }
 

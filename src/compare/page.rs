@@ -11,7 +11,7 @@ use crate::findings::notice::{Severity, count_words};
 use crate::findings::{Level, unit};
 use crate::output::bar_chart::BarChart;
 use crate::output::line_chart::LineChart;
-use crate::output::report::{Block, KeyNumber, Page, PageSection, PageTable};
+use crate::output::report::{Block, KeyNumber, Page, PageSection, PageTable, Tone};
 
 /// Numbers that stand at the head of the page.
 const HEAD: usize = 4;
@@ -26,7 +26,7 @@ pub(super) fn page(
     let names: Vec<&str> = of.results.iter().map(|one| one.name.as_str()).collect();
     let ranked = ranked::ranked(&of.lines, &ranked::limits_um(&of.results));
     let first: Vec<&Line> = ranked.iter().take(ranked::FIRST).map(|(line, _)| *line).collect();
-    let lines = of.lines.iter().filter(|line| line.level <= Level::Summary);
+    let lines: Vec<&Line> = of.lines.iter().filter(|line| line.level <= Level::Summary).collect();
     let mut changed = Vec::new();
     if !first.is_empty() {
         changed.push(Block::Table(table(of, "Changed most", first.iter().copied())));
@@ -62,8 +62,9 @@ pub(super) fn page(
             "all",
             "Headline and summary",
             "Every other number is in comparison.csv beside this page, with unit and definition.",
-            vec![Block::Table(table(of, "Headline and summary", lines))],
-        ),
+            vec![Block::Table(table(of, "Headline and summary", lines.iter().copied()))],
+        )
+        .judged(Tone::Aside, format!("{} numbers side by side", lines.len())),
     ];
     let stopped = of.results.iter().filter(|one| !one.findings.complete);
     let stopped = stopped.map(|one| Stopped { name: &one.name }.notice());

@@ -48,25 +48,6 @@ pub const CHIPS_SHOWN: [f64; 2] = [0.0, 0.95];
 /// What maps and sheets of chips show.
 pub const CHIP_QUANTITY: &str = "uncut chip thickness, thick end of marks";
 
-/// What maps need to know of an operation.
-#[derive(Debug, Clone, PartialEq)]
-pub struct OperationMaps {
-    /// Its name.
-    pub name: String,
-    /// Colours of its stock over the last operation, the same for all flanks so that they can be compared.
-    pub stock_scale: ColourScale,
-}
-
-impl OperationMaps {
-    /// Maps of an operation whose cutter stands `offset_mm` further back than the last one's: on a straight rack it
-    /// leaves offset sin(alpha) on both flanks, and the colours go from nothing to twice that. Where the fillet leaves
-    /// more, they stay at their end.
-    pub fn new(name: &str, offset_mm: f64, pressure_angle_rad: f64) -> Self {
-        let even_mm = (offset_mm * pressure_angle_rad.sin()).max(1e-3);
-        Self { name: name.to_owned(), stock_scale: ColourScale::Sequential { low: 0.0, high: 2.0 * even_mm as f32 } }
-    }
-}
-
 /// Maps of one flank on its own grid.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FlankMaps {
@@ -219,9 +200,9 @@ impl FlankMaps {
     ///
     /// # Errors
     /// Files that cannot be written.
-    pub fn write(&self, folder: &OutputFolder, operations: &[OperationMaps], notes: &[(String, String)]) -> Result<()> {
+    pub fn write(&self, folder: &OutputFolder, operations: &[String], notes: &[(String, String)]) -> Result<()> {
         let stem = self.file_stem();
-        for (index, OperationMaps { name, .. }) in operations.iter().enumerate() {
+        for (index, name) in operations.iter().enumerate() {
             let mut channels = vec![
                 MapChannel::lengths_mm("height_mm", "normal deviation after this operation", &self.heights_mm[index]),
                 MapChannel::lengths_mm(
@@ -249,7 +230,7 @@ impl FlankMaps {
         }
         let earlier = &operations[..operations.len() - 1];
         if !earlier.is_empty() {
-            let stock = |(index, OperationMaps { name, .. }): (usize, &OperationMaps)| {
+            let stock = |(index, name): (usize, &String)| {
                 let definition = format!("normal stock of {name} over the last operation");
                 MapChannel::lengths_mm(&format!("stock_{name}_mm"), &definition, &self.stock_mm(index))
             };
@@ -261,15 +242,16 @@ impl FlankMaps {
         self.write_exr(&folder.path(format!("deviation/{stem}.exr"))?, vec![channel], notes)
     }
 
-    /// Draws the maps of this flank by themselves; `deviation_scale` (µm) is that of all flanks, so that they can be
-    /// compared.
+    /// Draws the maps of this flank by themselves. The colours of the stock before the last operation (mm) and of
+    /// deviations (µm) are those of all flanks, so that they can be compared.
     ///
     /// # Errors
     /// Files that cannot be written.
     pub fn draw(
         &self,
         folder: &OutputFolder,
-        operations: &[OperationMaps],
+        operations: &[String],
+        stock_scale: Option<ColourScale>,
         deviation_scale: ColourScale,
     ) -> Result<()> {
         let stem = self.file_stem();
@@ -280,14 +262,13 @@ impl FlankMaps {
             let picture = MapPicture { title: &title, quantity, unit, grid, values, scale, missing: NO_PASS_CAME };
             write_map_png(&folder.path(path)?, &picture)
         };
-        for (OperationMaps { name, .. }, highest_mm) in operations.iter().zip(&self.highest_mm) {
+        for (index, (name, highest_mm)) in operations.iter().zip(&self.highest_mm).enumerate() {
             let heights_um = um(highest_mm);
-            let scale = ColourScale::heights_over([heights_um.as_slice()]);
+            let scale = ColourScale::heights_over([self.evaluated(&heights_um, index)]);
             let shown = ["normal deviation, highest of cell", "µm"];
             picture(format!("maps/{name}/{stem}.png"), format!("{name}: {flank}"), shown, &heights_um, scale)?;
         }
-        let Some((last, earlier)) = operations.split_last() else { return Ok(()) };
-        let name = &last.name;
+        let Some((name, earlier)) = operations.split_last() else { return Ok(()) };
         let passes = ColourScale::sequential_over([self.latest_pass.as_slice()]);
         picture(
             format!("maps/{name}/{stem}_pass.png"),
@@ -306,13 +287,13 @@ impl FlankMaps {
                 ColourScale::between_quantiles([thickness_um.as_slice()], CHIPS_SHOWN),
             )?;
         }
-        if let Some(before) = earlier.last() {
+        if let Some((before, scale)) = earlier.last().zip(stock_scale) {
             picture(
                 format!("allowance/{stem}.png"),
-                format!("Stock of {} over {name}: {flank}", before.name),
+                format!("Stock of {before} over {name}: {flank}"),
                 ["normal stock, mean of cell", "mm"],
                 &self.mean_stock_mm(earlier.len() - 1),
-                before.stock_scale,
+                scale,
             )?;
         }
         picture(

@@ -7,7 +7,7 @@
 use super::gear_maps::GearMaps;
 use super::parts::{Part, Parts};
 use super::pictures::flank::PicturedFlanks;
-use super::{FlankFiles, Work, flanks_of, map_operations, meshes, needs_maps, needs_surfaces, pictures};
+use super::{FlankFiles, Work, flanks_of, meshes, needs_maps, needs_surfaces, operation_names, pictures};
 use crate::interrupt::Interrupt;
 use crate::job::GearJob;
 use crate::measure::last_chips::LastChips;
@@ -112,7 +112,7 @@ pub fn cut_flanks<G: RayGrid, R: Send>(
     let parts = folder.map_or(Parts::all(), |(.., parts)| parts);
     let started = Instant::now();
     let output = &job.scene().output;
-    let operations = map_operations(job);
+    let operations = operation_names(job);
     let flanks = flanks_of(job);
     let step = progress.step("cut", flanks.len() as u64, "flanks");
     let finished = Mutex::new(BTreeMap::new());

@@ -28,10 +28,15 @@ const PIXEL_SHARE: f64 = 0.1;
 /// Width that a picture of a tooth shows, in transverse pitches.
 pub const TOOTH_PITCHES: f64 = 3.5;
 
-/// Colours of the stock that the last operation found, the same on maps, meshes and pictures.
-pub fn stock_scale(job: &dyn GearJob) -> ColourScale {
-    let before_last = super::map_operations(job).iter().rev().nth(1).map(|operation| operation.stock_scale);
-    before_last.unwrap_or(ColourScale::Sequential { low: 0.0, high: 1.0 })
+/// Colours of the stock that the last operation found. Flanks are written as they are cut, before the stock of all is
+/// known: on a straight rack a cutter that stands back by d leaves d sin(alpha) on both flanks, and the colours go from
+/// nothing to twice that.
+fn stock_scale(job: &dyn GearJob) -> ColourScale {
+    let [.., (_, before_mm), (_, last_mm)] = &job.operations()[..] else {
+        return ColourScale::Sequential { low: 0.0, high: 1.0 };
+    };
+    let even_mm = (before_mm - last_mm) * job.scene().gear.transverse_pressure_angle_rad().sin();
+    ColourScale::Sequential { low: 0.0, high: 2.0 * even_mm.max(1e-3) as f32 }
 }
 
 /// Quantity that vertices are coloured by: the stock where there is one, else the normal deviation; on bodies from rays

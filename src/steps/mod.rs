@@ -33,11 +33,11 @@ use crate::findings::Notice;
 use crate::findings::notices::{NoBody, Stopped, Unconverged, Untouched};
 use crate::interrupt::Interrupt;
 use crate::job::GearJob;
-use crate::output::flank_maps::OperationMaps;
 use crate::output::folder::OutputFolder;
 use crate::output::progress::Progress;
 use crate::output::text::significant;
 use attempts::Attempts;
+use gear_maps::GearMaps;
 use gearcut_core::cut::{Backend, CutStats};
 use gearcut_core::error::{Error, Result};
 use gearcut_core::terms::Side;
@@ -129,15 +129,9 @@ pub fn flanks_of(job: &dyn GearJob) -> Vec<(u32, Side)> {
     (1..=job.scene().gear.teeth).flat_map(|tooth| [(tooth, Side::Left), (tooth, Side::Right)]).collect()
 }
 
-/// What the maps need to know of the operations.
-pub fn map_operations(job: &dyn GearJob) -> Vec<OperationMaps> {
-    let operations = job.operations();
-    let finishing_mm = operations.last().map_or(0.0, |(_, offset_mm)| *offset_mm);
-    let pressure_angle_rad = job.scene().gear.transverse_pressure_angle_rad();
-    let maps = operations
-        .iter()
-        .map(|(name, offset_mm)| OperationMaps::new(name, offset_mm - finishing_mm, pressure_angle_rad));
-    maps.collect()
+/// Names of the operations, in order.
+pub fn operation_names(job: &dyn GearJob) -> Vec<String> {
+    job.operations().into_iter().map(|(name, _)| name.to_owned()).collect()
 }
 
 /// Whether anything that is written shows maps of flanks.
@@ -151,7 +145,8 @@ pub fn needs_surfaces(job: &dyn GearJob, parts: Parts) -> bool {
 }
 
 /// Meshes of the whole gear and the scene's pictures; whether all pictures were drawn or failed. `bodies` makes the
-/// gear's closed bodies, [`meshes::gear`] for a cylindrical one, where it has one; a note says why not.
+/// gear's closed bodies, [`meshes::gear`] for a cylindrical one, where it has one; a note says why not. `maps` have
+/// the colours of the stock before the last operation.
 ///
 /// # Errors
 /// Ctrl-C while the body is made.
@@ -159,7 +154,7 @@ pub fn write_meshes_and_pictures(
     job: &dyn GearJob,
     tools: &Tools,
     attempts: &mut Attempts,
-    flanks: &PicturedFlanks,
+    (flanks, maps): (&PicturedFlanks, &GearMaps),
     bodies: impl FnOnce() -> Result<Option<ClosedBodies>>,
 ) -> Result<bool> {
     let Tools { progress, folder, parts, notes, .. } = *tools;
@@ -184,7 +179,7 @@ pub fn write_meshes_and_pictures(
         return Ok(true);
     }
     let solid = bodies.as_ref().map(|bodies| bodies.pictured.as_ref().unwrap_or(&bodies.whole));
-    let drawn = pictures::draw(job, solid, flanks, tools, attempts)?;
+    let drawn = pictures::draw(job, solid, (flanks, maps.stock_scales.last().copied()), tools, attempts)?;
     if drawn < asked {
         progress.note(&format!("stopped: {drawn} of {asked} pictures are drawn"));
     }

@@ -7,7 +7,7 @@ pub mod flank;
 
 use super::Tools;
 use super::attempts::Attempts;
-use super::meshes::{TOOTH_PITCHES, stock_scale};
+use super::meshes::TOOTH_PITCHES;
 use crate::colormap::ColourScale;
 use crate::interrupt::Interrupt;
 use crate::job::GearJob;
@@ -36,7 +36,7 @@ const SHOWN: [f64; 2] = [0.01, 0.98];
 pub fn draw(
     job: &dyn GearJob,
     solid: Option<&Mesh>,
-    flanks: &PicturedFlanks,
+    (flanks, stock_scale): (&PicturedFlanks, Option<ColourScale>),
     tools: &Tools,
     attempts: &mut Attempts,
 ) -> Result<usize> {
@@ -52,10 +52,13 @@ pub fn draw(
         let drawn = match (picture.view, solid) {
             (PictureView::Gear | PictureView::Tooth, Some(solid)) => {
                 let shape = shape.get_or_insert_with(|| Shape::new(vec![solid]));
-                Some(draw_solid(job, picture, (solid, shape), interrupt))
+                let look = look(picture.colour, solid, stock_scale);
+                Some(draw_solid(job, picture, (solid, shape), look, interrupt))
             }
             (PictureView::Gear | PictureView::Tooth, None) => None,
-            (PictureView::Flank, _) => flanks.get(&index).map(|grid| draw_flank(job, picture, grid, interrupt)),
+            (PictureView::Flank, _) => {
+                flanks.get(&index).map(|grid| draw_flank(job, picture, grid, stock_scale, interrupt))
+            }
         };
         let written = match drawn {
             Some(Ok(drawn)) => drawn.write(picture, folder, notes),
@@ -100,8 +103,11 @@ impl DrawnPicture {
     }
 }
 
-/// What colours show on a mesh; nothing where it has no such quantity.
-fn look(job: &dyn GearJob, colour: PictureColour, mesh: &Mesh) -> (Appearance, Option<Legend<'static>>) {
+/// Colours of a mesh and what they show.
+type Look = (Appearance, Option<Legend<'static>>);
+
+/// What colours show on a mesh, the stock in the colours of its maps; nothing where it has no such quantity.
+fn look(colour: PictureColour, mesh: &Mesh, stock_scale: Option<ColourScale>) -> Look {
     let (name, quantity, unit) = match colour {
         PictureColour::Clay => return (CLAY, None),
         PictureColour::Stock => ("stock_mm", "normal stock before the last operation", "mm"),
@@ -110,7 +116,10 @@ fn look(job: &dyn GearJob, colour: PictureColour, mesh: &Mesh) -> (Appearance, O
     };
     let Some(scalar) = mesh.scalar(name) else { return (CLAY, None) };
     let scale = match (colour, &scalar.values) {
-        (PictureColour::Stock, _) => stock_scale(job),
+        (PictureColour::Stock, _) => match stock_scale {
+            Some(scale) => scale,
+            None => return (CLAY, None),
+        },
         (_, ScalarValues::F32(values)) => ColourScale::between_quantiles([values.as_slice()], SHOWN),
         (_, ScalarValues::U32(values)) => {
             let cut: Vec<f32> = values.iter().filter(|&&v| v != NO_PASS).map(|&v| v as f32).collect();
@@ -124,9 +133,9 @@ fn draw_solid(
     job: &dyn GearJob,
     picture: &Picture,
     (solid, shape): (&Mesh, &Shape),
+    (look, legend): Look,
     interrupt: &Interrupt,
 ) -> Result<DrawnPicture> {
-    let (look, legend) = look(job, picture.colour, solid);
     let (mut camera, title) = match picture.view {
         PictureView::Tooth => {
             let pitch_mm = PI * job.scene().gear.transverse_module_mm();
@@ -204,5 +213,23 @@ fn exr(seen: &Seen, legend: Option<Legend>, pixel_mm: f64, title: &str, notes: &
             channel("value", value_unit, value_words, Samples::F32(seen.value.clone())),
         ],
         notes,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::surface::mesh::Scalar;
+
+    /// A fillet 1.4 mm deep beside flanks with 0.2 mm of stock takes no colours from these.
+    #[test]
+    fn stock_is_drawn_in_the_colours_of_its_maps() {
+        let values = ScalarValues::F32(vec![0.19, 0.21, 1.4]);
+        let stock = Scalar { name: "stock_mm", unit: "mm", definition: String::new(), values };
+        let mesh = Mesh { scalars: vec![stock], ..Mesh::default() };
+        let of_maps = ColourScale::Sequential { low: 0.19, high: 0.21 };
+        let (look, legend) = look(PictureColour::Stock, &mesh, Some(of_maps));
+        assert_eq!(legend.map(|legend| legend.scale), Some(of_maps));
+        assert!(matches!(look, Appearance::Scalar { scale, .. } if scale == of_maps));
     }
 }

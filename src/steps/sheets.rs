@@ -3,11 +3,11 @@
 
 use super::gear_maps::{GearMaps, finished_heights_um, um};
 use super::parts::Part;
-use super::{Tools, map_operations};
+use super::{Tools, operation_names};
 use crate::colormap::ColourScale;
 use crate::job::GearJob;
 use crate::output::contact_sheet::{ContactSheet, Thumbnail, write_contact_sheet};
-use crate::output::flank_maps::{CHIP_QUANTITY, CHIPS_SHOWN, FlankMaps, NO_PASS_CAME, OperationMaps};
+use crate::output::flank_maps::{CHIP_QUANTITY, CHIPS_SHOWN, FlankMaps, NO_PASS_CAME};
 use crate::output::folder::OutputFolder;
 use crate::texture::SampledWindow;
 use gearcut_core::error::{Error, Result};
@@ -44,9 +44,9 @@ pub fn write_sheets_and_flanks(
         let drawn =
             if job.scene().output.draws_all_flanks { maps.flanks.iter().collect() } else { maps.drawn(&windows) };
         let step = progress.step("flank pictures", drawn.len() as u64, "flanks");
-        let operations = map_operations(job);
+        let operations = operation_names(job);
         drawn.par_iter().try_for_each(|map| {
-            map.draw(folder, &operations, maps.deviation_scale)?;
+            map.draw(folder, &operations, maps.stock_scales.last().copied(), maps.deviation_scale)?;
             step.advance(1);
             Ok::<(), Error>(())
         })?;
@@ -62,13 +62,12 @@ pub fn write_sheets_and_flanks(
 /// Files that cannot be written.
 fn write_contact_sheets(job: &dyn GearJob, gear: &GearMaps, folder: &OutputFolder) -> Result<()> {
     let maps = &gear.flanks;
-    let scales = map_operations(job);
-    let last = scales.len() - 1;
+    let operations = operation_names(job);
+    let Some((name, earlier)) = operations.split_last() else { return Ok(()) };
     let scene = &job.scene().name;
-    for (index, operation) in scales[..last].iter().enumerate() {
+    for (index, operation) in earlier.iter().enumerate() {
         write_stock_sheet(scene, operation, index, gear, folder)?;
     }
-    let name = &scales[last].name;
     write_height_sheet(scene, name, gear, folder)?;
     write_sheet(
         &folder.path(format!("pictures/deviation_{name}.png"))?,
@@ -112,14 +111,7 @@ fn usual_span(passes: &[Vec<f32>]) -> ColourScale {
 }
 
 /// Stock of one earlier operation on all flanks.
-fn write_stock_sheet(
-    scene: &str,
-    operation: &OperationMaps,
-    index: usize,
-    gear: &GearMaps,
-    folder: &OutputFolder,
-) -> Result<()> {
-    let name = &operation.name;
+fn write_stock_sheet(scene: &str, name: &str, index: usize, gear: &GearMaps, folder: &OutputFolder) -> Result<()> {
     write_sheet(
         &folder.path(format!("pictures/stock_{name}.png"))?,
         &format!("{scene}: stock of {name}, all flanks"),

@@ -187,6 +187,7 @@ fn resolve(job: &dyn GearJob, index: usize, spec: &TextureWindow, side: Side) ->
     let flank_mm = job.profile_length_mm(spec.tooth, side)?;
     let [form_mm, tip_mm] = job.evaluated_profile_mm(spec.tooth, side)?;
     let face_mm = job.scene().gear.face_width_mm;
+    let [back_mm, front_mm] = job.evaluated_face_mm();
     let fields = job.scene().fields;
 
     let span = |center: f64, length: Option<f64>, low: f64, high: f64| {
@@ -194,7 +195,7 @@ fn resolve(job: &dyn GearJob, index: usize, spec: &TextureWindow, side: Side) ->
     };
     let middle_mm = spec.center_profile_mm.unwrap_or(0.5 * (form_mm + tip_mm));
     let profile = span(middle_mm, spec.length_profile_mm, form_mm, tip_mm);
-    let along_tooth = span(spec.center_lead_mm, spec.length_lead_mm, -0.5 * face_mm, 0.5 * face_mm);
+    let along_tooth = span(spec.center_lead_mm, spec.length_lead_mm, back_mm, front_mm);
     let where_ = format!("tooth {} {}", spec.tooth, side.name());
     if profile[0] < -1e-9 || profile[1] > flank_mm + 1e-9 {
         return refuse(

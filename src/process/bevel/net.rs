@@ -120,12 +120,15 @@ pub fn svg(flank: &BevelReport, title: &str) -> Option<String> {
             from.x, from.y, to.x, to.y
         );
     }
+    let bar_um = 10_f64.powf(largest_um.log10().floor());
+    // A hundredth of the bar is as fine as it is read.
+    let decimals = (2.0 - bar_um.log10().round()).max(0.0) as usize;
     let last = [rows - 1, columns - 1];
     for (row, column, anchor, down) in
         [(0, 0, "end", 14.0), (last[0], 0, "start", 14.0), (0, last[1], "end", -6.0), (last[0], last[1], "start", -6.0)]
     {
         let at = plane(row, column);
-        let value = significant(um(row, column), 2).replace('-', "−");
+        let value = format!("{:.decimals$}", um(row, column)).replace('-', "−");
         let x_px = at.x + if anchor == "end" { -8.0 } else { 8.0 };
         let _ = writeln!(out, "<text x=\"{x_px:.1}\" y=\"{:.1}\" text-anchor=\"{anchor}\">{value}</text>", at.y + down);
     }
@@ -137,7 +140,6 @@ pub fn svg(flank: &BevelReport, title: &str) -> Option<String> {
     ] {
         let _ = writeln!(out, "<text x=\"{x_px:.1}\" y=\"{below:.1}\" fill=\"#555555\">{words}</text>");
     }
-    let bar_um = 10_f64.powf(largest_um.log10().floor());
     let (x_px, top_px) = (WIDTH_PX - 40.0, HEIGHT_PX - 40.0 - px_per_um * bar_um);
     let _ = writeln!(
         out,

@@ -201,9 +201,11 @@ impl Parabola {
         })
     }
 
-    /// How far it falls from its top to half a pitch beside it, rad; negative where the gear runs behind there.
+    /// How far it falls from its top to half a pitch beside it, rad; negative where the gear runs behind there, 0 where
+    /// it is no more than the search leaves.
     pub fn over_pitch_rad(&self) -> f64 {
-        self.bend_per_rad * (0.5 * self.pitch_rad).powi(2)
+        let over_rad = self.bend_per_rad * (0.5 * self.pitch_rad).powi(2);
+        if over_rad.abs() > KNOWN_RAD { over_rad } else { 0.0 }
     }
 }
 

@@ -78,7 +78,7 @@ pub(super) fn run(job: &BevelJob, tools: &Tools) -> Result<CutDone> {
         let spacing_mm = job.scene.output.mesh_spacing_mm;
         let body = |whole| ClosedBodies { whole: body::body(job, whole, spacing_mm), pictured: None };
         let bodies = || Ok(whole.as_ref().map(body));
-        work.interrupted = !write_meshes_and_pictures(job, tools, &mut attempts, &gear.pictured, bodies)?;
+        work.interrupted = !write_meshes_and_pictures(job, tools, &mut attempts, (&gear.pictured, &gear.maps), bodies)?;
     }
     if parts.has(Part::Axes) {
         for operation in &motion {

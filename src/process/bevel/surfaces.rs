@@ -155,6 +155,10 @@ impl GearJob for BevelJob {
         Ok([MARGIN * length_mm, (1.0 - MARGIN) * length_mm])
     }
 
+    fn evaluated_face_mm(&self) -> [f64; 2] {
+        [MARGIN - 0.5, 0.5 - MARGIN].map(|share| share * self.blank.face_width_mm)
+    }
+
     /// All teeth have the same flanks; marks differ by their phase alone.
     fn teeth_that_differ_most(&self) -> Vec<u32> {
         vec![1]

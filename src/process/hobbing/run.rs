@@ -89,7 +89,7 @@ pub(super) fn run(job: &HobbingJob, tools: &Tools) -> Result<CutDone> {
     if !gear.work.interrupted {
         let flanks = std::mem::take(&mut gear.surfaces);
         let bodies = || bodies(&cutter, flanks, tools);
-        let drawn = write_meshes_and_pictures(&cutter, tools, &mut attempts, &gear.pictured, bodies)?;
+        let drawn = write_meshes_and_pictures(&cutter, tools, &mut attempts, (&gear.pictured, &gear.maps), bodies)?;
         gear.work.interrupted = !drawn;
     }
     if parts.has(Part::Axes) {

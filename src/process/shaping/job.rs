@@ -188,9 +188,7 @@ impl ShapingJob {
         let passes: f64 = shaping.operations.len() as f64;
         let mut operations: Vec<PreparedOperation> = Vec::new();
         let (mut first_pass, mut start_s) = (0, 0.0);
-        // A cutter pulled back by d leaves teeth 2 d tan(alpha) thicker on the pitch curve.
-        let allowance_mm =
-            shift_mm(gear, cutter.teeth) + gear.tooth_thickness_allowance_mm / (2.0 * gear.pressure_angle_rad.tan());
+        let allowance_mm = thickness_offset_mm(gear, cutter.teeth)?;
         for spec in &shaping.operations {
             let mut spec = spec.clone();
             spec.offset_mm += allowance_mm;
@@ -401,23 +399,33 @@ impl ShapingJob {
     }
 }
 
-/// How much further from the pitch curve the cutter's centre stands for the gear's profile shift, mm.
+/// How much further from the pitch curve the cutter's centre stands for the gear's profile shift and the allowance of
+/// its tooth thickness, mm.
 ///
-/// On a round gear teeth are then 2 x m tan(alpha) thicker on the reference circle, exactly:
-/// `inv(alpha') = inv(alpha) + 2 x tan(alpha) / (z + z0)` and `a' = a cos(alpha) / cos(alpha')` (ISO 21771:2007, a mesh
-/// without backlash), a ring's z negative. Road not taken: x m, the law of a rack, which makes teeth of module 3 with
-/// x = 0.5 on 24 teeth some 0.08 mm too thick. On other gears the displacement is that of the round gear with as many
-/// teeth, and the thickness varies with the curvature by that order.
-fn shift_mm(gear: &Gear, cutter_teeth: u32) -> f64 {
-    let shift = gear.profile_shift_coefficient;
-    if shift == 0.0 {
-        return 0.0;
+/// On a round gear teeth are then s = 2 x m tan(alpha) + A thicker on the reference circle, exactly:
+/// `inv(alpha') = inv(alpha) + s / (m (z + z0))` and `a' = a cos(alpha) / cos(alpha')` (ISO 21771:2007, a mesh without
+/// backlash), a ring's z negative. Road not taken: s / (2 tan(alpha)), the law of a rack, which makes teeth of module 3
+/// with x = 0.5 on 24 teeth some 0.08 mm too thick, and takes 0.54 mm for 0.5 from a ring. On other gears the
+/// displacement is that of the round gear with as many teeth, and the thickness varies with the curvature by that
+/// order.
+fn thickness_offset_mm(gear: &Gear, cutter_teeth: u32) -> Result<f64, Refusal> {
+    let thicker_mm = gear.extra_thickness_mm();
+    if thicker_mm == 0.0 {
+        return Ok(0.0);
     }
-    let (alpha, teeth) =
-        (gear.pressure_angle_rad, f64::from(gear.teeth) * gear.kind.tip_sign() + f64::from(cutter_teeth));
-    let wanted = inv(alpha) + 2.0 * shift * alpha.tan() / teeth;
+    let alpha = gear.pressure_angle_rad;
+    let both_mm = gear.module_mm * (f64::from(gear.teeth) * gear.kind.tip_sign() + f64::from(cutter_teeth));
+    let wanted = inv(alpha) + thicker_mm / both_mm;
+    if !wanted.is_finite() || wanted <= 0.0 {
+        let [shift, allowance] = ["gear.profile_shift_coefficient", "gear.tooth_thickness_allowance_mm"];
+        return Err(Refusal::new(
+            if gear.tooth_thickness_allowance_mm == 0.0 { shift } else { allowance },
+            format!("no depth of the cutter changes the tooth thickness by {thicker_mm:.3} mm"),
+            format!("take less than {:.3} mm, by {shift} and {allowance} together", inv(alpha) * both_mm.abs()),
+        ));
+    }
     let working = bisect(|angle| inv(angle) < wanted, 0.0, 0.5 * PI);
-    0.5 * gear.module_mm * teeth * (alpha.cos() / working.cos() - 1.0)
+    Ok(0.5 * both_mm * (alpha.cos() / working.cos() - 1.0))
 }
 
 /// Refuses a ring that the cutter cuts through.

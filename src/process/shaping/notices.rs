@@ -24,7 +24,7 @@ notices! {
     /// The returning cutter scores flanks that it has cut.
     ReturnEnters: Warning "return.enters", "shaping.md", (operation, depth_um, place, overlap_mm2, way_out),
         "operation {operation}: by the surfaces that it generates, the returning cutter stands {depth_um} um deep in \
-         the teeth near {place}, over {overlap_mm2} mm2 of their section: {way_out}";
+         the teeth near {place}, over {overlap_mm2} mm^2 of their section: {way_out}";
         "Draw back another way or further, as the notice says."
     /// The returning cutter scores flanks of the gear as it was cut.
     ReturnRubs: Warning "return.rubs", "blank.md", (operation, stroke, depth_um, tooth, side, volume_mm3, way_out),
@@ -96,6 +96,11 @@ notices! {
     CutterBase: Warning "flank.cutter_base", "shaping.md", (flanks),
         "the cutter's involute ends before the tip of {flanks}: the rest of the tip is cut by the cutter's base; "
         + "use a cutter with more teeth or a smaller gear.addendum_coefficient"
+    /// The teeth are lower than the drawing says, and their tips are the cutter's roots.
+    Topped: Warning or Fault where "the cut is deeper than a gouge" "tip.topped", "shaping.md", (depth_um),
+        "the cutter's root circle takes {depth_um} um off the tips of the teeth: "
+        + "use a larger tool.shaper_cutter.dedendum_coefficient, a smaller gear.addendum_coefficient, or teeth \
+           thinned by less"
     /// Pointed teeth break at their tips and are lower than the drawing says.
     Pointed: Warning "tip.pointed", "shaping.md", (teeth),
         "pointed below the blank's outline: tooth {teeth}"; "Use a smaller addendum of the gear, or more teeth."

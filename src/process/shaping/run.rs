@@ -70,7 +70,7 @@ pub(super) fn run(job: &ShapingJob, tools: &Tools, frames: Option<u32>) -> Resul
             attempts.of("mesh of the blank", meshes::write_blank(job, cut, folder))?;
         }
         let (flanks, roots) = (take(&mut gear.surfaces), take(&mut gear.roots));
-        interrupted |= !write_meshes_and_pictures(job, tools, &mut attempts, &gear.pictured, || {
+        interrupted |= !write_meshes_and_pictures(job, tools, &mut attempts, (&gear.pictured, &gear.maps), || {
             meshes::gear(job, tools.backend, flanks, roots, progress).map(Some)
         })?;
         if let Some(count) = frames {

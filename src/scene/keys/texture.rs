@@ -53,7 +53,12 @@ pub(super) static SECTIONS: &[KeySection] = &[KeySection {
             "2.0",
             "Length of the window along the profile; five marks at least make the numbers mean something.",
         ),
-        length("length_lead_mm", "the whole face", "2.0", "Length of the window along the tooth."),
+        length(
+            "length_lead_mm",
+            "the whole face, of a bevel gear its middle nine tenths",
+            "2.0",
+            "Length of the window along the tooth.",
+        ),
         Key {
             name: "profile_spacing_um",
             kind: Kind::Number(Range::closed(0.1, 1000.0)),

@@ -7,6 +7,7 @@
 //! pixel or between two.
 
 use super::{DrawnPicture, look};
+use crate::colormap::ColourScale;
 use crate::interrupt::Interrupt;
 use crate::job::GearJob;
 use crate::scene::model::{Picture, PictureView};
@@ -87,6 +88,7 @@ pub(super) fn draw_flank(
     job: &dyn GearJob,
     picture: &Picture,
     grid: &SurfaceGrid,
+    stock_scale: Option<ColourScale>,
     interrupt: &Interrupt,
 ) -> Result<DrawnPicture> {
     let profile_mm = job.profile_length_mm(picture.tooth, picture.side)?;
@@ -94,7 +96,7 @@ pub(super) fn draw_flank(
     let exaggeration = picture.exaggeration.unwrap_or_else(|| exaggeration(grid));
     let pixel_mm = 1.04 * extent_mm / f64::from(picture.size_px.0);
     let flat = rolled_out(grid, exaggeration, SHOWN_PX * pixel_mm);
-    let (look, legend) = look(job, picture.colour, &flat);
+    let (look, legend) = look(picture.colour, &flat, stock_scale);
     let towards = Camera::direction(DVec3::NEG_Y, DVec3::X, picture.azimuth_rad, picture.elevation_rad);
     let middle_mm = DVec3::new(0.0, 0.5 * profile_mm, 0.0);
     let camera = Camera::new(middle_mm, towards, DVec3::Y, 1.04 * extent_mm, picture.size_px);

@@ -6,7 +6,7 @@ use crate::output::grid::MapGrid;
 use crate::output::report::viewer::{Thinning, Viewer, ViewerFlank, ViewerQuantity};
 use crate::output::text::significant;
 use crate::steps::gear_maps::{GearMaps, finished_heights_um, um};
-use crate::steps::map_operations;
+use crate::steps::operation_names;
 use crate::steps::report::averaged::averaged;
 use crate::steps::view_mesh::{ViewFlank, ViewMesh};
 
@@ -49,9 +49,9 @@ fn without_marks_um(map: &FlankMaps, spacing_mm: [f64; 2]) -> Vec<f32> {
 }
 
 fn quantities(job: &dyn GearJob, maps: &GearMaps) -> Vec<ViewerQuantity> {
-    let operations = map_operations(job);
+    let operations = operation_names(job);
     let last = operations.len() - 1;
-    let finishing = &operations[last].name;
+    let finishing = &operations[last];
     let over = |values: &dyn Fn(&FlankMaps) -> Vec<f32>| maps.flanks.iter().map(values).collect::<Vec<_>>();
     let evaluated_mm =
         |operation: usize| maps.flanks.iter().map(|map| map.evaluated_mm[operation]).collect::<Vec<[f64; 2]>>();
@@ -59,11 +59,10 @@ fn quantities(job: &dyn GearJob, maps: &GearMaps) -> Vec<ViewerQuantity> {
         .iter()
         .enumerate()
         .map(|(index, operation)| ViewerQuantity {
-            name: format!("Stock of {} for {finishing}", operation.name),
+            name: format!("Stock of {operation} for {finishing}"),
             definition: format!(
-                "What {} leaves over the finished surface, along the target's normal, mean of each cell. {COLOURS} \
-                 {GREY}",
-                operation.name
+                "What {operation} leaves over the finished surface, along the target's normal, mean of each cell. \
+                 {COLOURS} {GREY}"
             ),
             unit: "mm".to_owned(),
             scale: maps.stock_scales[index],

@@ -66,6 +66,7 @@ fn flanks_of_one_crown_gear_turn_evenly() {
     let [long_mm, short_mm] = concave.middle().ellipse.expect("inside the flank").half_axes_mm;
     println!("conjugate: {arcsec:e} arc seconds, {long_mm} by {short_mm} mm");
     assert!(arcsec < 0.1, "{arcsec} arc seconds");
+    assert_eq!(concave.parabola().map(|parabola| parabola.over_pitch_rad()), Some(0.0), "less than is known");
     // A line: as long as differences over places known to 1e-4 mm can tell, far beyond the face of 25 mm.
     assert!(long_mm > 60.0 && short_mm < 2.0, "{long_mm} by {short_mm} mm");
     let arcsec = ARCSEC_PER_RAD * running(0.05).motion_error_rad();

@@ -12,6 +12,21 @@ use gearcut::process::bevel::BevelJob;
 use gearcut::process::bevel::measure::{self, MarkForm};
 use gearcut::process::bevel::net::{self, Position};
 use gearcut::terms::Side;
+use gearcut::texture::{cut_window, windows};
+
+/// The teeth of this pinion are undercut at the toe, 0.1 mm deep and beyond where flanks are evaluated: windows that no
+/// scene asks for show the marks of blades, 0.27 um high, and no pit.
+#[test]
+fn windows_by_default_lie_where_flanks_are_evaluated() {
+    let spacing = ["fields.flank.profile_spacing_um=40", "fields.flank.lead_spacing_um=40"];
+    let job = job("crown_pinion", &spacing).expect("a gear");
+    let windows = windows(&job).expect("windows");
+    let left = windows.iter().find(|window| window.side == Side::Left).expect("a left flank");
+    let surface = cut_window(&job, &Cpu::default(), left).expect("cut").heights.expect("a surface");
+    let ends = |ends: [f64; 2], height_um: &f64| [ends[0].min(*height_um), ends[1].max(*height_um)];
+    let [low_um, high_um] = surface.heights_um().iter().fold([f64::INFINITY, f64::NEG_INFINITY], ends);
+    assert!((0.2..1.0).contains(&(high_um - low_um)), "{low_um} to {high_um} um");
+}
 
 const SIDES: [Side; 2] = [Side::Left, Side::Right];
 /// Numerical resolution of the native backend on face-milled cones, mm.
@@ -284,6 +299,11 @@ fn errors_of_settings_are_cut_and_named() {
         assert!((position.spiral_rad / 3e-4 - 1.0).abs() < 0.05, "{position:?}");
         let drawn = net::svg(&flank, "tooth 1").expect("all of it was cut");
         assert_eq!(drawn.matches("<polyline").count(), 2 * (shares.len() + along_mm.len()));
+        // The corner of toe and root 0.6 pm off the middle: no label is longer than a hundredth of the bar asks for.
+        let others_mm: f64 = flank.own.grid[1..].iter().filter_map(|point| point.deviation_mm).sum();
+        flank.own.grid[0].deviation_mm = Some(others_mm / (flank.own.grid.len() - 1) as f64 + 6e-10);
+        let drawn = net::svg(&flank, "tooth 1").expect("all of it was cut");
+        assert!(drawn.contains("text-anchor=\"end\">0.00</text>"), "{drawn}");
         flank.own.grid[3].deviation_mm = None;
         assert!(Position::of(&flank).is_none() && net::svg(&flank, "tooth 1").is_none());
     }

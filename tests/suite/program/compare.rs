@@ -319,6 +319,9 @@ fn maps_show_what_differs() {
         "{page}"
     );
     assert_eq!(page.matches("src=\"data:image/png;base64,").count(), 1);
+    // What changed is read, the whole table looked up.
+    let section = |id: &str| page.split(&format!("<section id=\"{id}\"")).nth(1).unwrap_or_else(|| panic!("{page}"));
+    assert!(section("all").contains("numbers side by side"));
 }
 
 /// Whether all cells of a sheet differ by this, um, the end of its scale: a field of one colour, as no other sheet has.

@@ -14,10 +14,11 @@ use std::path::Path;
 
 const ALPHA_RAD: f64 = 20.0 * PI / 180.0;
 
-fn job(scene: &str, shift: f64, cutter_shift: f64) -> ShapingJob {
+fn job(scene: &str, shift: f64, cutter_shift: f64, allowance_mm: f64) -> ShapingJob {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes/shaping").join(scene);
     let mut scene = process::load(&path, &[]).expect("a shipped scene").scene;
     scene.gear.profile_shift_coefficient = shift;
+    scene.gear.tooth_thickness_allowance_mm = allowance_mm;
     Shaping::of_mut(&mut scene).expect("shaping").tool.profile_shift_coefficient = cutter_shift;
     ShapingJob::new(scene).expect("a gear")
 }
@@ -26,25 +27,24 @@ fn sizes(job: &ShapingJob) -> RoundGear {
     job.round_gear().expect("flanks").expect("it is round")
 }
 
-/// The tooth that the shifted cutter generates is thicker by 2 x m tan(alpha) on the reference circle, outside and in a
-/// ring; a shift of the cutter itself thins it by as much.
+/// The tooth that the shifted cutter generates is thicker by 2 x m tan(alpha) and the allowance on the reference
+/// circle, outside and in a ring; a shift of the cutter itself thins it by as much.
 #[test]
 fn a_profile_shift_makes_the_tooth_that_its_definition_says() {
     for (scene, kind, shifts) in [
         ("circular_m3_z24.toml", GearKind::External, [-0.2, 0.0, 0.3, 0.6]),
         ("internal_circle.toml", GearKind::Internal, [-0.2, 0.0, 0.1, 0.3]),
     ] {
-        for (shift, cutter_shift) in shifts.into_iter().map(|shift| (shift, 0.0)).chain([(0.3, 0.1)]) {
-            let job = job(scene, shift, cutter_shift);
+        let plain = shifts.into_iter().map(|shift| (shift, 0.0, 0.0));
+        for (shift, cutter_shift, allowance_mm) in plain.chain([(0.3, 0.1, 0.0), (0.0, 0.0, -0.5), (0.1, 0.0, -0.08)]) {
+            let job = job(scene, shift, cutter_shift, allowance_mm);
             let (gear, round) = (&job.scene.gear, sizes(&job));
             assert_eq!(round.kind, kind);
-            let thickness_mm = gear.module_mm * (0.5 * PI + 2.0 * (shift - cutter_shift) * ALPHA_RAD.tan())
-                + gear.tooth_thickness_allowance_mm;
-            // An allowance is put in by the law of a rack; these scenes have none.
-            assert_eq!(gear.tooth_thickness_allowance_mm, 0.0);
+            let thickness_mm =
+                gear.module_mm * (0.5 * PI + 2.0 * (shift - cutter_shift) * ALPHA_RAD.tan()) + allowance_mm;
             let thinned_mm = Shaping::of(&job.scene).expect("shaping").tool.thinning_mm;
             let error_mm = round.thickness_mm - thickness_mm - thinned_mm;
-            assert!(error_mm.abs() < 1e-9, "{scene}, x {shift}, x0 {cutter_shift}: {error_mm} mm");
+            assert!(error_mm.abs() < 1e-9, "{scene}, x {shift}, x0 {cutter_shift}, {allowance_mm} mm: {error_mm} mm");
             let sign = kind.tip_sign();
             let d = gear.module_mm * f64::from(gear.teeth);
             let tip_mm = d + 2.0 * sign * gear.module_mm * (gear.addendum_coefficient + shift);
@@ -57,7 +57,7 @@ fn a_profile_shift_makes_the_tooth_that_its_definition_says() {
 /// by point, is W_k.
 #[test]
 fn the_span_is_the_distance_of_the_generated_flanks() {
-    let job = job("circular_m3_z24.toml", 0.3, 0.0);
+    let job = job("circular_m3_z24.toml", 0.3, 0.0, 0.0);
     let round = sizes(&job);
     let span = round.span().expect("it can be spanned");
     // Right flank of tooth 1 and left flank of tooth k, each where its distance from the axis is the touching radius.

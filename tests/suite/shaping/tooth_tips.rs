@@ -36,6 +36,27 @@ const THIN: &str = "[gear]\nmodule_mm = 3.0\nteeth = 12\nface_width_mm = 5\nprof
 const POINTED: [&str; 2] = ["gear.profile_shift_coefficient=0.4", "gear.addendum_coefficient=2"];
 const COARSE: [&str; 2] = ["fields.flank.profile_spacing_um=20", "fields.flank.lead_spacing_um=2500"];
 
+/// Roots of the cutter below the gear's tips top it by the difference of dedendum and addendum, outside and in a ring,
+/// and by the more the deeper it stands: inv(a') = inv(20 deg) + 0.5 / 60 has it 0.639 mm beyond the ring's distance.
+#[test]
+fn a_cutter_with_short_roots_is_said_to_top_the_gear() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let scene = folder.path().join("short.toml");
+    for (kind, teeth, more, code, words) in [
+        ("external", 30, "tool.shaper_cutter.dedendum_coefficient=0.9", 3, "takes 200 um off the tips"),
+        ("internal", 50, "tool.shaper_cutter.dedendum_coefficient=0.995", 0, "takes 10.0 um off the tips"),
+        ("internal", 50, "gear.tooth_thickness_allowance_mm=-0.5", 3, "takes 139 um off the tips"),
+        ("external", 30, "tool.shaper_cutter.dedendum_coefficient=1", 0, ""),
+    ] {
+        let gear = format!("[gear]\nkind = \"{kind}\"\nmodule_mm = 2.0\nteeth = {teeth}\nface_width_mm = 5\n");
+        std::fs::write(&scene, gear + "[tool.shaper_cutter]\nteeth = 20\n").expect("written");
+        let said = gearcut(&["check", scene.to_str().expect("a path"), "--set", more]);
+        assert_eq!(said.code, code, "{kind}, {more}: {}", said.err);
+        assert!(said.err.contains(words), "{kind}, {more}: {}", said.err);
+        assert_eq!(said.err.contains("off the tips"), !words.is_empty(), "{}", said.err);
+    }
+}
+
 #[test]
 fn a_ray_through_a_thin_tip_is_no_gouge() {
     for more in [&[][..], &POINTED] {

@@ -255,7 +255,7 @@ fn files_pictures_page_and_texture_ask_for_no_pitch_curve() {
     // What stands for the gear's body: here the flank alone.
     let body = done.surfaces[0].mesh("tooth_01_left");
     let mut attempts = Attempts::new(&progress);
-    let drawn = pictures::draw(&job, Some(&body), &done.pictured, &tools, &mut attempts).expect("pictures");
+    let drawn = pictures::draw(&job, Some(&body), (&done.pictured, None), &tools, &mut attempts).expect("pictures");
     assert_eq!(drawn, 2);
 
     let rows_mm = even(-0.5 * FACE_MM, 0.5 * FACE_MM, 11);

@@ -7,9 +7,10 @@
 //! non-circular gear.
 
 use crate::findings::Notice;
+use crate::measure::damage::{LEAST_DEPTH_MM, gouge_mm};
 use crate::output::text::significant;
 use crate::process::shaping::ShapingJob;
-use crate::process::shaping::notices::{CutterBase, NarrowTip, Pointed, Undercut};
+use crate::process::shaping::notices::{CutterBase, NarrowTip, Pointed, Topped, Undercut};
 use crate::process::shaping::target::{FlankEnd, TargetFlank};
 use gearcut_core::terms::Side;
 use gearcut_core::units::UM_PER_MM;
@@ -109,6 +110,14 @@ pub fn warnings(job: &ShapingJob, facts: &[ToothFacts]) -> Vec<Notice> {
     let base = flanks_with(facts, |flank| flank.end == FlankEnd::CutterBase);
     if base != NONE {
         warnings.push(CutterBase { flanks: base }.notice());
+    }
+    // The root circle rolls with the pitch circle: outside and in a ring it ends at one height over the pitch curve.
+    let nearest_mm = job.operations.iter().map(|operation| operation.spec.offset_mm).fold(f64::INFINITY, f64::min);
+    let root_mm = job.cutter.pitch_radius_mm + nearest_mm - job.cutter.root_radius_mm;
+    let topped_mm = job.blank.addendum_mm - root_mm;
+    if topped_mm >= LEAST_DEPTH_MM {
+        let topped = Topped { depth_um: significant(UM_PER_MM * topped_mm, 3) };
+        warnings.push(topped.notice().fault_where(topped_mm > gouge_mm(job.scene.gear.module_mm)));
     }
     let pointed = list(facts.iter().filter(|tooth| tooth.is_pointed()).map(|tooth| tooth.tooth.to_string()));
     if pointed != NONE {

@@ -45,6 +45,8 @@ pub struct ShaperCutter {
     pub base_radius_mm: f64,
     /// Radius of the tip circle.
     pub tip_radius_mm: f64,
+    /// Radius of the root circle.
+    pub root_radius_mm: f64,
     /// Half tooth angle on the base circle.
     pub half_angle_rad: f64,
     /// Rolls where the involute starts (near the base circle) and ends (at the tip corner).
@@ -264,6 +266,7 @@ impl ShaperCutter {
             pitch_radius_mm,
             base_radius_mm,
             tip_radius_mm,
+            root_radius_mm,
             half_angle_rad,
             roll_range: [start_roll, end_roll],
             base_length_mm,

@@ -64,7 +64,8 @@ pub(super) static SECTIONS: &[KeySection] = &[
                 "that of a crown gear in the plane of the root cone",
                 "1.13",
                 "Ratio of roll R_a: work angle per cradle angle. A gear that is cut without roll (Formate, form cut) \
-                 cannot be written: every flank here is generated.",
+                 cannot be written: every flank here is generated. Without the key its cones are those of a generated \
+                 gear.",
             ),
             Key::number(
                 "modified_roll_c",
