@@ -244,7 +244,7 @@ fn master(
         })?,
     };
     let curve = Arc::new(PitchCurve::new(&gear.pitch_curve, gear.transverse_module_mm(), gear.teeth)?);
-    // A master has no shift: as high as the mate, and it would meet the fillet of one gear and miss the root of another.
+    // A master has no shift: as high as the mate, it would meet the fillet of one gear and miss the root of another.
     let mate = &scenes[1 - at].gear;
     let addendum_mm = mate.addendum_coefficient * mate.module_mm;
     double_flank::with_master(&curve, &own, gear.kind, &fit.own, addendum_mm, MASTERS[at], watch)
