@@ -81,7 +81,7 @@ pub enum Command {
         both have. Writes a folder \
         (compare_<A>_<B>... beside the last one unless --out is given): comparison.csv with every number \
         of all results under its path in results.json, with unit and definition, its difference to the \
-        first and the first over it (2 means that this result has half); and bar charts as SVG. \
+        first and its ratio to the first (2 means twice as much); and bar charts as SVG. \
         Shaped gears: unevenness of the allowance by tooth (%), in one chart (first period of the pitch \
         curve, and all teeth) and each on its own scale.\n\
         Hobbed gears: what each tooth of the hob does over the whole process: volume (mm^3), largest \

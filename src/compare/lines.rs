@@ -163,12 +163,11 @@ impl Line {
         self.pairs().map(|pair| pair.map(|[first, other]| other - first))
     }
 
-    /// The first value over those of the results after it: how many times less they have. Over nothing but rounding
-    /// there is none.
+    /// Values of the results after the first one over its value. Over nothing but rounding there is none.
     pub(super) fn ratios(&self) -> impl Iterator<Item = Option<f64>> {
         self.pairs().map(|pair| {
-            let [first, other] = pair.filter(|[_, other]| !is_rounding(*other))?;
-            Some(first / other).filter(|ratio| ratio.is_finite())
+            let [first, other] = pair.filter(|[first, _]| !is_rounding(*first))?;
+            Some(other / first).filter(|ratio| ratio.is_finite())
         })
     }
 }

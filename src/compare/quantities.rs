@@ -17,7 +17,7 @@ rows! {
     VALUE_OF_RESULT: "value", "", "value of the result whose letter is the key";
     DIFFERENCE_TO_FIRST: "difference", "that of the row",
         "value of the result less that of the first" => or(&[NOT_OF_BOTH]);
-    FIRST_OVER_IT: "ratio", "1", "value of the first result over that of the other" => or(&[NOT_OF_BOTH]);
+    RATIO_TO_FIRST: "ratio", "1", "value of the result over that of the first" => or(&[NOT_OF_BOTH]);
     DEFINITION: "definition", "", "definition of the quantity";
     FIGURE_OF_FLANK: "figure", "um", "figure of ISO 1328-1 of the worst flank, with its sign" => shown();
 }

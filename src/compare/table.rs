@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::lines::{Line, is_rounding};
-use super::quantities::{DEFINITION, DIFFERENCE_TO_FIRST, FIRST_OVER_IT, PATH, UNIT, VALUE_OF_RESULT};
+use super::quantities::{DEFINITION, DIFFERENCE_TO_FIRST, PATH, RATIO_TO_FIRST, UNIT, VALUE_OF_RESULT};
 use super::{Comparison, letters};
 use crate::findings::{Quantity, Table};
 use crate::output::table::write_table;
@@ -35,7 +35,7 @@ impl Comparison {
             table = table.column(column, |line| line.and_then(|line| line.differences().nth(index)?));
         }
         for (index, letter) in letters().take(self.results.len()).skip(1).enumerate() {
-            let column = FIRST_OVER_IT.as_column().keyed(format!("ratio_a_to_{letter}"));
+            let column = RATIO_TO_FIRST.as_column().keyed(format!("ratio_{letter}_to_a"));
             table = table.column(column, |line| line.and_then(|line| line.ratios().nth(index)?));
         }
         let definition = |line: &Line| Some(line.either()?.definition().to_owned());

@@ -95,11 +95,11 @@ fn two_results_stand_side_by_side() {
     let written = folder.path().join("out/compare_traditional_normal");
     let csv = std::fs::read_to_string(written.join("comparison.csv")).expect("written");
     assert!(
-        csv.starts_with("quantity,unit,a,b,difference_b_minus_a,ratio_a_to_b,definition\nname,,traditional,normal,,,"),
+        csv.starts_with("quantity,unit,a,b,difference_b_minus_a,ratio_b_to_a,definition\nname,,traditional,normal,,,"),
         "{csv}"
     );
-    // 0.65 - 0.25 and 0.25 / 0.65; details are in the file, on the terminal they are not.
-    assert!(csv.contains("\nsmallest_stock,mm,0.25,0.65,0.4,0.3846153846153846,made by hand\n"), "{csv}");
+    // 0.65 - 0.25 and 0.65 / 0.25; details are in the file, on the terminal they are not.
+    assert!(csv.contains("\nsmallest_stock,mm,0.25,0.65,0.4,2.6,made by hand\n"), "{csv}");
     assert!(csv.contains("\nwitness_mark,%,,,,,made by hand\n"), "{csv}");
     assert!(csv.contains("\noperations.rough.strokes,strokes,4200.0,4200.0,0.0,1.0,made by hand\n"), "{csv}");
     assert!(!csv.contains("u_mm"), "places are not compared");
@@ -443,15 +443,15 @@ fn hobbed_gears_stand_side_by_side_with_the_load_of_every_hob_tooth() {
     let lines: Vec<&str> = csv.lines().collect();
     assert_eq!(
         lines[0],
-        "quantity,unit,a,b,c,difference_b_minus_a,difference_c_minus_a,ratio_a_to_b,ratio_a_to_c,definition"
+        "quantity,unit,a,b,c,difference_b_minus_a,difference_c_minus_a,ratio_b_to_a,ratio_c_to_a,definition"
     );
     assert!(lines[1].starts_with("name,,plain,reciprocating,repeating,,,"));
     for start in [
         "highest_mark,um,5.0,5.0,5.0,0.0,0.0,1.0,1.0,",
         "runout,%,,,,,,",
-        "operations.finish.idle_time,s,0.0,0.0,23.1,0.0,23.1,,0.0,",
-        // 8 / 4, 8 / 5: how much less the hardest working tooth does.
-        "hob_load.operations.finish.largest_volume,mm3,8.0,4.0,5.0,-4.0,-3.0,2.0,1.6,",
+        "operations.finish.idle_time,s,0.0,0.0,23.1,0.0,23.1,,,",
+        // 4 / 8, 5 / 8: what the hardest working tooth still does.
+        "hob_load.operations.finish.largest_volume,mm3,8.0,4.0,5.0,-4.0,-3.0,0.5,0.625,",
         "hob_load.operations.finish.hardest_working_tooth,,2,1,3,,,",
         "marks.tooth_03_left.step_1.kinematic.length,mm,0.9",
     ] {
