@@ -95,6 +95,9 @@ fn profile(found: &mut Found) -> Option<()> {
 /// What only a round gear has.
 fn of_round_gears(found: &mut Found) -> Option<()> {
     let curve = found.view("gear").variant("pitch_curve")?;
+    // The mate of a circle is one.
+    let driver = found.view("gear.pitch_curve.mate").variant("driver").filter(|_| curve == "mate");
+    let is_round = driver.unwrap_or(curve) == "circle";
     for (key, what, way_out) in [
         (
             "iso_1328_class",
@@ -105,7 +108,7 @@ fn of_round_gears(found: &mut Found) -> Option<()> {
         ("ball_diameter_mm", "dimensions over balls", "remove it; tables/teeth.csv has the thickness of every tooth"),
     ] {
         let message = || format!("`measure.{key}`: {what} are for round gears, and the pitch curve is {curve}");
-        let wrong = curve != "circle" && found.values.is_written("measure", key);
+        let wrong = !is_round && found.values.is_written("measure", key);
         found.blame(wrong, &join("measure", key), message, way_out);
     }
     Some(())

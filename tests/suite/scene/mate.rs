@@ -36,11 +36,13 @@ fn closes(mate: &Scene, driver: &Scene) {
 
 #[test]
 fn round_gears_mate_at_half_the_sum_or_difference_of_their_diameters() {
-    let driver = driver("shaping/circular_m3_z24", &[]);
+    let driver = driver("shaping/circular_m3_z24", &["measure.iso_1328_class=5", "measure.ball_diameter_mm=5"]);
     for (teeth, kind, sign) in [(31, GearKind::External, 1.0), (90, GearKind::Internal, -1.0)] {
         let (scene, distance_mm) = mate(&driver, teeth, kind);
         assert!((distance_mm - 1.5 * (f64::from(teeth) + sign * 24.0)).abs() < 1e-9, "{distance_mm}");
         assert_eq!((scene.gear.teeth, scene.gear.kind, scene.gear.module_mm), (teeth, kind, 3.0));
+        // Balls fit the driver's spaces.
+        assert_eq!((scene.measure.iso_1328_class, scene.measure.ball_diameter_mm), (Some(5), None));
         closes(&scene, &driver.scene);
     }
 }
