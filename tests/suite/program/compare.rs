@@ -484,7 +484,7 @@ fn two_processes_are_compared_in_what_both_have() {
     let shown = gearcut_in(folder.path(), &all).done().says(&["F alpha", "4.000", "5.000", "1.000"]).out;
     assert!(!shown.contains("mark") && !shown.contains("scallop"), "{shown}");
     let csv = std::fs::read_to_string(folder.path().join("both/comparison.csv")).expect("written");
-    assert!(csv.contains("\nF_alpha,um,4.0,5.0,1.0,0.8,"), "{csv}");
+    assert!(csv.contains("\nF_alpha,um,4.0,5.0,1.0,1.25,"), "{csv}");
     assert_eq!(csv.lines().count(), 3, "{csv}");
 }
 
