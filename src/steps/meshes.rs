@@ -29,7 +29,7 @@ const PIXEL_SHARE: f64 = 0.1;
 pub const TOOTH_PITCHES: f64 = 3.5;
 
 /// Colours of the stock that the last operation found. Flanks are written as they are cut, before the stock of all is
-/// known: on a straight rack a cutter that stands back by d leaves d sin(alpha) on both flanks, and the colours go from
+/// known: on a straight rack a cutter drawn back by d has d sin(alpha) of stock on both flanks, and the colours go from
 /// nothing to twice that.
 fn stock_scale(job: &dyn GearJob) -> ColourScale {
     let [.., (_, before_mm), (_, last_mm)] = &job.operations()[..] else {

@@ -40,7 +40,7 @@ fn masters_feel_a_gear_that_is_off_its_axis() {
     }
 }
 
-/// Shifted gears against masters, which are not shifted: even, whatever the mate's shift is, as cut and as drawn. With
+/// Shifted gears against masters, which are not shifted: even, for any shift of the mate, as cut and as drawn. With
 /// the mate's height a master went 0.48 mm up and down on fillets, and 9 um on flanks that it left too early.
 #[test]
 fn masters_meet_shifted_gears_on_their_flanks() {

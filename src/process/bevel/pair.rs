@@ -130,7 +130,7 @@ impl Running {
         Ok(Self { teeth, carrying })
     }
 
-    /// Range of the motion error over a pitch, rad; 0 where it is no more than the search leaves.
+    /// Range of the motion error over a pitch, rad; 0 where the search for places is no finer.
     pub fn motion_error_rad(&self) -> f64 {
         let errors = || self.carrying.iter().map(|(.., error_rad)| *error_rad);
         let range_rad = errors().fold(f64::NEG_INFINITY, f64::max) - errors().fold(f64::INFINITY, f64::min);

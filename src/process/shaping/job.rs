@@ -399,7 +399,7 @@ impl ShapingJob {
     }
 }
 
-/// How much further from the pitch curve the cutter's centre stands for the gear's profile shift and the allowance of
+/// How much further from the pitch curve the cutter's centre lies for the gear's profile shift and the allowance of
 /// its tooth thickness, mm.
 ///
 /// On a round gear teeth are then s = 2 x m tan(alpha) + A thicker on the reference circle, exactly:

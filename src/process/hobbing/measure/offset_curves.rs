@@ -7,9 +7,7 @@
 //! The curves run along the pitch curve at constant distances, at 3 and 6 mm to both sides on the paper's gear of
 //! module 8; here at the same shares of the normal module, or lower where the tooth is lower ([`offsets_mm`]): a ray
 //! along a curve beside the tooth meets what hob teeth leave elsewhere. Where the tip corner has undercut a flank, the
-//! target is the corner's own path
-//! (`RackGeneration::crossing`): 20 of the
-//! paper's 350 points lie there.
+//! target is the corner's own path (`RackGeneration::crossing`): 20 of the paper's 350 points lie there.
 //!
 //! **As cut.** A ray along the curve's tangent, out of the tooth, through the target's point is cut by all passes,
 //! moved to where the surface was found, and cut again if that was far, as the crossings of shaped flanks are found.

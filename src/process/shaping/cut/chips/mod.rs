@@ -10,9 +10,9 @@
 //! whole face; where the feed goes on, the middle section stands for the face, the others being the same a fraction of
 //! a stroke earlier or later.
 //!
-//! Rays on a flank see only the chips that shape it, and those exactly: [`flank`] says with how thick a
-//! chip each place of a flank was cut last. Where edges are rounded, what is left depends on the order of passes, and
-//! is found here as well.
+//! Rays on a flank see only the chips that shape it, and those exactly: [`flank`] says with how thick a chip each place
+//! of a flank was cut last. Where edges are rounded, what is left depends on the order of passes, and is found here as
+//! well.
 
 mod along_rows;
 mod column_group;
