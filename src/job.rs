@@ -68,6 +68,17 @@ pub trait GearJob: Sync {
     /// The tool generates no flank there.
     fn evaluated_profile_mm(&self, tooth: u32, side: Side) -> Result<[f64; 2]>;
 
+    /// What profiles are inspected over, at arcs from the form point, all mm: the roll, which is where the profile's
+    /// contacts lie on the line of action, from the pitch point, positive towards the tip. Over it an involute of
+    /// another base circle runs straight. On a round gear it is the roll length of ISO 1328-1 less `r sin(alpha_t)`.
+    /// Flanks without a line of action are inspected over their arcs.
+    ///
+    /// # Errors
+    /// The tool generates no flank there.
+    fn rolls_mm(&self, _tooth: u32, _side: Side, arcs_mm: &[f64]) -> Result<Vec<f64>> {
+        Ok(arcs_mm.to_vec())
+    }
+
     /// Part of the face that is evaluated, mm from its middle: all of it, unless the ends are left out.
     fn evaluated_face_mm(&self) -> [f64; 2] {
         [-0.5, 0.5].map(|share| share * self.scene().gear.face_width_mm)

@@ -60,7 +60,7 @@ impl Figures {
 fn profile(flank: &FlankGrid, heights: &[f64]) -> Option<TraceDeviation> {
     let middle = flank.faces_mm.len() / 2;
     let heights = (0..flank.arcs_mm.len()).map(|column| heights[flank.index(column, middle)]).collect();
-    whole(flank.arcs_mm.clone(), heights)
+    whole(flank.rolls_mm.clone(), heights)
 }
 
 /// The line along the tooth in the middle of the profile.

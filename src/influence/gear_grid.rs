@@ -31,6 +31,8 @@ pub struct FlankGrid {
     pub side: Side,
     /// Arcs from the form point, mm, increasing.
     pub arcs_mm: Vec<f64>,
+    /// Rolls of these arcs, mm.
+    pub rolls_mm: Vec<f64>,
     /// Places along the tooth from the middle of the face, mm, increasing.
     pub faces_mm: Vec<f64>,
     /// Points and normals of the target, arc by arc.
@@ -45,7 +47,8 @@ impl FlankGrid {
     pub fn new(gear: &dyn GearJob, tooth: u32, side: Side, arcs_mm: Vec<f64>, faces_mm: Vec<f64>) -> Result<Self> {
         let rows = gear.target_points(tooth, side, &arcs_mm, &faces_mm)?;
         let rays = (0..arcs_mm.len()).flat_map(|column| rows.iter().map(move |row| row[column])).collect();
-        Ok(Self { tooth, side, arcs_mm, faces_mm, rays })
+        let rolls_mm = gear.rolls_mm(tooth, side, &arcs_mm)?;
+        Ok(Self { tooth, side, arcs_mm, rolls_mm, faces_mm, rays })
     }
 
     /// How many places it has.

@@ -14,7 +14,7 @@ use gearcut_core::gear::blank::Blank;
 /// Finished heights along one line of a flank, as a measuring machine traces it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Trace {
-    /// Places of the dexels, mm, increasing: arc from the form point, or place along the tooth.
+    /// Places of the dexels, mm, increasing: roll, or place along the tooth.
     pub places_mm: Vec<f64>,
     /// Normal deviations, mm; NaN where no pass came.
     pub heights_mm: Vec<f64>,
@@ -37,11 +37,11 @@ pub struct TraceDeviation {
 }
 
 impl Trace {
-    /// The profile of one row.
-    pub fn along_profile(field: &Field, layer: &Layer, row: usize) -> Self {
+    /// The profile of one row, whose columns have these rolls.
+    pub fn along_profile(rolls_mm: Vec<f64>, field: &Field, layer: &Layer, row: usize) -> Self {
         let rows = field.rows();
         Self {
-            places_mm: field.columns.iter().map(|column| column.arc_mm).collect(),
+            places_mm: rolls_mm,
             heights_mm: (0..field.columns.len()).map(|column| height_mm(layer, column * rows + row)).collect(),
         }
     }

@@ -97,7 +97,9 @@ fn of_gear(gear: &dyn GearJob, flank: FlankWish, backend: &dyn Backend) -> Resul
     let steps = ((to_mm - from_mm) / PROFILE_STEP_MM).ceil().max(2.0);
     let arcs_mm: Vec<f64> = (0..=steps as usize).map(|i| from_mm + (to_mm - from_mm) * i as f64 / steps).collect();
     let layers = gear.cut_flank(backend, tooth, side, &arcs_mm, &[0.0])?;
-    let profile = Trace { places_mm: arcs_mm, heights_mm: heights_mm(last(&layers)) }.deviation([from_mm, to_mm]);
+    let rolls_mm = gear.rolls_mm(tooth, side, &arcs_mm)?;
+    let ends_mm = [rolls_mm[0], rolls_mm[rolls_mm.len() - 1]];
+    let profile = Trace { places_mm: rolls_mm, heights_mm: heights_mm(last(&layers)) }.deviation(ends_mm);
     values.extend([
         profile.map(|of| of.total_mm * UM_PER_MM),
         profile.map(|of| of.slope_mm * UM_PER_MM),

@@ -42,7 +42,8 @@ rows! {
         "total profile deviation: range of the normal deviations along the evaluated profile, middle of the face"
         => titled("profile deviation F_alpha"), symbol("F_α"), source(ISO_1328), or(&[NO_TRACE, BELOW_RANGE, NOT_CUT]);
     F_H_ALPHA: "f_H_alpha", "um",
-        "profile slope deviation: rise of the profile's mean line over the evaluated profile, positive towards the tip"
+        "profile slope deviation: rise of the profile's mean line over the roll of the evaluated profile, positive \
+        towards the tip; bevel gears: over its arc"
         => titled("profile slope f_H_alpha"), symbol("f_Hα"), source(ISO_1328), or(&[NO_TRACE, BELOW_RANGE, NOT_CUT]);
     F_F_ALPHA: "f_f_alpha", "um", "profile form deviation: range of the normal deviations about the profile's mean line"
         => titled("profile form f_f_alpha"), symbol("f_fα"), source(ISO_1328), or(&[NO_TRACE, BELOW_RANGE, NOT_CUT]);

@@ -148,10 +148,9 @@ impl FlankPatch {
         self.lengths_mm[PANELS]
     }
 
-    /// Place on the line of action at which the profile of the middle section is touched where it has a length, both in
-    /// mm; counted from the pitch point, positive towards the tip. Over it an involute of another base circle runs
-    /// straight. On a round gear it is the roll length of ISO 1328-1 less `r sin(alpha_t)`.
-    pub fn on_line_of_action_mm(&self, length_mm: f64) -> f64 {
+    /// Roll ([`crate::job::GearJob::rolls_mm`]) at which the profile of the middle section is touched where it has a
+    /// length, both in mm.
+    pub fn roll_mm(&self, length_mm: f64) -> f64 {
         let [form_mm, tip_mm] = self.on_line_of_action_mm;
         form_mm + self.share_at(length_mm) * (tip_mm - form_mm)
     }

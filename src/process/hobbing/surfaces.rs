@@ -78,6 +78,11 @@ impl GearJob for HobCutter<'_> {
         Ok(flank_report::evaluated_mm(target.length_mm(), self.measured_ends_mm(target)))
     }
 
+    fn rolls_mm(&self, tooth: u32, side: Side, arcs_mm: &[f64]) -> Result<Vec<f64>> {
+        let target = self.target(tooth, side)?;
+        Ok(arcs_mm.iter().map(|&arc_mm| target.roll_mm(arc_mm)).collect())
+    }
+
     fn teeth_that_differ_most(&self) -> Vec<u32> {
         teeth_of_extreme_radius(&self.job.curve, self.job.scene.gear.teeth)
     }

@@ -90,7 +90,7 @@ fn operation_words(operation: &findings::Section, count: usize) -> String {
 /// What a gear inspector would find on a shaped gear.
 pub fn inspection<'a>(job: &ShapingJob, report: &'a GearReport, verdict: &'a GearVerdict) -> Inspection<'a> {
     let words = InspectionWords {
-        profile_place: "u from the form point (below) to the tip",
+        profile_place: "roll from the pitch point, up to the tip",
         lead_place: "at the pitch curve",
         lead_name: "Lead",
         target: "the surface that the last operation would leave with infinitely many strokes and no error",

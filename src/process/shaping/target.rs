@@ -269,6 +269,16 @@ impl TargetFlank {
         self.contact(self.phi_in_panel(panel, x))
     }
 
+    /// Rolls ([`crate::job::GearJob::rolls_mm`]) at arc lengths from the form point (clamped to the flank), all mm: how
+    /// far contacts lie from the curves' common point along their normal, less that of the contact on the pitch curve,
+    /// if the flank reaches it: a shifted gear rolls at another pressure angle.
+    pub fn rolls_mm(&self, blank: &Blank, arcs_mm: &[f64]) -> Vec<f64> {
+        let curve = self.generation.linkage.curve();
+        let along_mm = |of: FlankContact| (of.point_mm - curve.frame(of.phi_rad).point_mm).dot(of.normal);
+        let on_curve_mm = self.at_height(blank, 0.0).map_or(0.0, |(_, contact)| along_mm(contact));
+        arcs_mm.iter().map(|&arc_mm| along_mm(self.at_arc(arc_mm)) - on_curve_mm).collect()
+    }
+
     /// Contact where the flank crosses a height over the pitch curve, if it does: arc length from the form point and
     /// contact.
     pub fn at_height(&self, blank: &Blank, height_mm: f64) -> Option<(f64, FlankContact)> {

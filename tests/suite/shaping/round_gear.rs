@@ -3,7 +3,7 @@
 
 use crate::fixtures::command::{gearcut, read_json};
 use gearcut::gear::GearKind;
-use gearcut::job::CylindricalGear;
+use gearcut::job::{CylindricalGear, GearJob};
 use gearcut::measure::round_gear::RoundGear;
 use gearcut::process;
 use gearcut::process::shaping::ShapingJob;
@@ -49,6 +49,29 @@ fn a_profile_shift_makes_the_tooth_that_its_definition_says() {
             let d = gear.module_mm * f64::from(gear.teeth);
             let tip_mm = d + 2.0 * sign * gear.module_mm * (gear.addendum_coefficient + shift);
             assert!((round.tip_diameter_mm - tip_mm).abs() < 1e-12);
+        }
+    }
+}
+
+/// Profiles are inspected over the roll: the length sqrt(r^2 - r_b^2) of the line of action less that of the pitch point,
+/// r_p sin(alpha). In a ring it falls towards the tip.
+#[test]
+fn rolls_are_lengths_on_the_line_of_action() {
+    for (scene, shift) in [("circular_m3_z24.toml", 0.0), ("circular_m3_z24.toml", 0.3), ("internal_circle.toml", 0.0)]
+    {
+        let job = job(scene, shift, 0.0, 0.0);
+        let pitch_mm = 0.5 * job.scene.gear.module_mm * f64::from(job.scene.gear.teeth);
+        for side in [Side::Left, Side::Right] {
+            let length_mm = job.profile_length_mm(5, side).expect("a flank");
+            let arcs_mm: Vec<f64> = (0..=10).map(|i| length_mm * f64::from(i) / 10.0).collect();
+            let rolls_mm = job.rolls_mm(5, side, &arcs_mm).expect("a flank");
+            let rays = job.target_points(5, side, &arcs_mm, &[0.0]).expect("a flank").remove(0);
+            for (roll_mm, ray) in rolls_mm.iter().zip(rays) {
+                let touch_mm = (ray.origin_mm.length_squared() - (pitch_mm * ALPHA_RAD.cos()).powi(2)).sqrt();
+                let expected_mm = job.blank().kind().tip_sign() * (touch_mm - pitch_mm * ALPHA_RAD.sin());
+                assert!((roll_mm - expected_mm).abs() < 1e-9, "{scene}, x {shift}: {roll_mm} for {expected_mm} mm");
+            }
+            assert!(rolls_mm[0] < 0.0 && rolls_mm[10] > 0.0 && rolls_mm.is_sorted());
         }
     }
 }

@@ -26,7 +26,7 @@ const MARGIN: f64 = 0.05;
 const PLACE_MM: f64 = 1e-9;
 
 /// One hobbed flank, measured: profiles stand over the place on the line of action
-/// ([`crate::process::hobbing::flank_patch::FlankPatch::on_line_of_action_mm`]), the line along the tooth runs in the
+/// ([`crate::process::hobbing::flank_patch::FlankPatch::roll_mm`]), the line along the tooth runs in the
 /// middle of the profile, and dexels of the evaluated part count as untouched. (On the tip's own edge the blank ends
 /// where the target does.)
 pub type HobbedReport = InspectedFlank<HobbedSurface>;
@@ -81,7 +81,7 @@ pub fn measure(tooth: u32, side: Side, flank: &HobbedFlank) -> HobbedReport {
         heights_mm: (0..places_mm.len()).map(|i| at(last, index(i)).unwrap_or(f64::NAN)).collect(),
     };
     let (middle_column, middle_row) = (arcs_mm.len() / 2, rows_z_mm.len() / 2);
-    let rolls_mm: Vec<f64> = arcs_mm.iter().map(|&arc| flank.target.on_line_of_action_mm(arc)).collect();
+    let rolls_mm: Vec<f64> = arcs_mm.iter().map(|&arc| flank.target.roll_mm(arc)).collect();
     let profile_trace = trace(&rolls_mm, &|column| flank.rays.field.index(column, middle_row));
     let helix_trace = trace(rows_z_mm, &|row| flank.rays.field.index(middle_column, row));
     // The places of the inner dexels themselves, so that rounding takes none of them away.

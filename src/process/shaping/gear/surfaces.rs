@@ -52,6 +52,10 @@ impl GearJob for ShapingJob {
         Ok(flank_report::evaluated_profile_mm(self, self.target_flank(tooth, side)))
     }
 
+    fn rolls_mm(&self, tooth: u32, side: Side, arcs_mm: &[f64]) -> Result<Vec<f64>> {
+        Ok(self.target_flank(tooth, side).rolls_mm(&self.blank, arcs_mm))
+    }
+
     fn teeth_that_differ_most(&self) -> Vec<u32> {
         teeth_of_extreme_radius(&self.curve, self.scene.gear.teeth)
     }

@@ -202,7 +202,9 @@ pub fn measure(job: &ShapingJob, flank: &TargetFlank, cut: &CutField, rows_z_mm:
 
     // The witness mark: where the end of the operation meets its beginning, or an earlier turn.
     let witness = step(&facets, operation.half_turn(), stroke).filter(|step| inside(step.arc_mm));
-    let profile_trace = Trace::along_profile(&profile_field, &profile, 0);
+    let arcs_mm: Vec<f64> = field.columns.iter().map(|column| column.arc_mm).collect();
+    let profile_trace = Trace::along_profile(flank.rolls_mm(&job.blank, &arcs_mm), &profile_field, &profile, 0);
+    let evaluated_rolls_mm = flank.rolls_mm(&job.blank, &evaluated_mm);
     let pitch_stroke = pitch_arc_mm.and_then(|_| stroke(profile.passes[lines.column]));
     let lead_field = Field { columns: vec![field.columns[lines.column]], rows_z_mm: field.rows_z_mm.clone() };
     let lead_trace = Trace::along_tooth(&lead_field, &columns.along(), 0).over_rows(rows_z_mm);
@@ -258,10 +260,12 @@ pub fn measure(job: &ShapingJob, flank: &TargetFlank, cut: &CutField, rows_z_mm:
         side: flank.side,
         length_mm,
         evaluated_mm,
-        profile: profile_trace.deviation(evaluated_mm).filter(|_| is_told && !own.is_lost),
+        profile: profile_trace
+            .deviation([evaluated_rolls_mm[0], evaluated_rolls_mm[1]])
+            .filter(|_| is_told && !own.is_lost),
         lead: lead_trace.deviation([v_first + v_margin, v_last - v_margin]).filter(|_| !own.is_lost),
         lines: TracedLines {
-            arcs_mm: profile_trace.places_mm.clone(),
+            arcs_mm,
             profile_v_mm: rows_z_mm[rows_z_mm.len() / 2],
             lead_arc_mm: field.columns[lines.column].arc_mm,
         },
