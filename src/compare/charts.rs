@@ -51,7 +51,7 @@ pub(super) fn curves(results: &[Compared]) -> Result<Vec<(String, LineChart)>> {
             let Some(table) = table_at(&one.findings, &path) else { continue };
             let table = table::with_rows(table, &one.folder)?;
             title.clone_from(&table.title);
-            x = (words(&table.columns[0]), signs(&table.columns[0]));
+            x = (table.columns[0].title.to_string(), signs(&table.columns[0]));
             for (k, column) in table.columns.iter().enumerate() {
                 if column.chart != Some(ColumnChart::Curve) {
                     continue;
@@ -59,7 +59,7 @@ pub(super) fn curves(results: &[Compared]) -> Result<Vec<(String, LineChart)>> {
                 let value = |row: usize, k: usize| table.cells[k].datum(row).number().unwrap_or(f64::NAN);
                 let points = (0..table.len()).map(|row| (value(row, 0), value(row, k))).collect();
                 let series = LineSeries { name: one.name.clone(), points };
-                let name = words(column);
+                let name = column.title.to_string();
                 match panels.iter_mut().find(|panel| panel.value_name == name) {
                     Some(panel) => panel.series.push(series),
                     None => panels.push(Panel {
@@ -84,10 +84,6 @@ fn least_division(column: &TableColumn) -> f64 {
         Some("mm") => 1e-3,
         _ => 0.0,
     }
-}
-
-fn words(column: &TableColumn) -> String {
-    column.key.replace('_', " ")
 }
 
 fn signs(column: &TableColumn) -> String {
@@ -132,10 +128,11 @@ fn chart(
         BarSeries { name: name.to_owned(), values: categories.iter().map(value).collect() }
     });
     BarChart {
+        has_mean: true,
         limits: Vec::new(),
-        title: format!("{}: {}{what}", longest.title, words(column)),
+        title: format!("{}: {}{what}", longest.title, column.title),
         category_name: longest.columns[0].definition.to_string(),
-        value_name: words(column),
+        value_name: column.title.to_string(),
         least_division: least_division(column),
         unit: column.unit.as_deref().unwrap_or_default().to_owned(),
         series: series.collect(),

@@ -138,6 +138,9 @@ fn of_column((column, cells): (&TableColumn, &TableCells)) -> Value {
         "definition": column.definition,
         "type": cells.type_name(),
     });
+    if column.title != title_of(&column.key) {
+        value["title"] = json!(column.title);
+    }
     if let Some(why) = &column.why {
         value["why"] = json!(why);
     }

@@ -122,8 +122,10 @@ fn table(key: &str, value: &Value) -> Read<Table> {
 fn column(value: &Value) -> Read<TableColumn> {
     let all = object(value, "a column")?;
     let text = |key: &str| all.get(key).and_then(Value::as_str).map(str::to_owned);
+    let key = text("key").ok_or("a column has a key")?;
     Ok(TableColumn {
-        key: text("key").ok_or("a column has a key")?.into(),
+        title: text("title").unwrap_or_else(|| title_of(&key)).into(),
+        key: key.into(),
         unit: text("unit").map(Into::into),
         definition: text("definition").ok_or("a column has a definition")?.into(),
         why: text("why").map(Into::into),

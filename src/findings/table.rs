@@ -11,7 +11,7 @@
 
 use super::column::{TableCell, TableCells};
 use super::datum::Datum;
-use super::row::{BY_ROW, ColumnChart, QuantityRow};
+use super::row::{BY_ROW, ColumnChart, QuantityRow, title_of};
 use std::borrow::Cow;
 
 /// Ending of the files of tables that a run writes.
@@ -41,6 +41,8 @@ pub struct Table {
 pub struct TableColumn {
     /// Key.
     pub key: Cow<'static, str>,
+    /// What it is called where people read it: its key in words unless its row has a title.
+    pub title: Cow<'static, str>,
     /// Unit; none for words, and for numbers whose units another column names row by row.
     pub unit: Option<Cow<'static, str>>,
     /// What its values are.
@@ -196,6 +198,7 @@ impl QuantityRow {
     pub fn as_column(&self) -> TableColumn {
         TableColumn {
             key: self.key.into(),
+            title: self.title().into(),
             unit: (!["", BY_ROW].contains(&self.unit)).then_some(Cow::Borrowed(self.unit)),
             definition: self.definition.into(),
             why: match self.reasons {
@@ -218,7 +221,8 @@ impl TableColumn {
     /// The same under this key, which its row cannot know, such as one that ends with the side of a tooth.
     #[must_use]
     pub fn keyed(self, key: impl Into<Cow<'static, str>>) -> Self {
-        Self { key: key.into(), ..self }
+        let key = key.into();
+        Self { title: title_of(&key).into(), key, ..self }
     }
 
     /// The same, not drawn by comparisons.

@@ -6,6 +6,7 @@
 
 pub mod chip_places;
 pub mod crossing;
+pub mod cut_grid;
 pub mod damage;
 pub mod deviation;
 pub mod flank_tolerance;

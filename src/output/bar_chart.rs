@@ -1,7 +1,7 @@
 //! Grouped bars: several series over the same categories, such as the unevenness of every tooth under two linkages.
 //!
 //! In: categories, series with a value or none per category, units. Out: bars with their axis, a legend, and each
-//! series' mean as a dashed line: on a page or as an SVG file.
+//! series' mean as a dashed line, where the categories are equals: on a page or as an SVG file.
 //!
 //! The value axis always contains zero: a bar's length is its message.
 
@@ -30,6 +30,8 @@ pub struct BarChart {
     pub unit: String,
     /// Smallest distance of two ticks of the value axis, where less would make noise look like a fault; 0 for none.
     pub least_division: f64,
+    /// Whether each series' mean is drawn and named: the categories are equals, such as teeth.
+    pub has_mean: bool,
     /// Up to seven series.
     pub series: Vec<BarSeries>,
     /// Values not to be passed.
@@ -81,11 +83,20 @@ impl BarChart {
 
     fn entry(&self, index: usize, extent: f64) -> LegendEntry {
         let series = &self.series[index];
-        let mean = series.mean().map_or_else(
-            || ": no values".to_owned(),
-            |mean| format!(", mean {} {}", value_text(without_rounding(mean, extent)), self.unit),
-        );
+        let mean = match series.mean() {
+            None => ": no values".to_owned(),
+            Some(mean) if self.has_mean => {
+                format!(", mean {} {}", value_text(without_rounding(mean, extent)), self.unit)
+            }
+            Some(_) => String::new(),
+        };
         LegendEntry { sample: Sample::Block(index), words: format!("{}{mean}", series.name) }
+    }
+
+    /// Means to be drawn, by the place of their series.
+    fn means(&self) -> impl Iterator<Item = (usize, f64)> {
+        let series = self.series.iter().filter(|_| self.has_mean).enumerate();
+        series.filter_map(|(k, series)| Some((k, series.mean()?)))
     }
 
     /// The chart laid out.
@@ -99,7 +110,7 @@ impl BarChart {
             @for limit in self.limits.iter().filter(|limit| limit.is_within(frame.range)) {
                 (frame.across("limit", limit.value))
             }
-            @for (k, mean) in self.series.iter().enumerate().filter_map(|(k, series)| Some((k, series.mean()?))) {
+            @for (k, mean) in self.means() {
                 // Ground below the dashes, so that they show on bars of their own colour.
                 (frame.across("mean-ground", mean))
                 (frame.across(&format!("mean s{k}"), mean))
@@ -165,6 +176,7 @@ mod tests {
     #[test]
     fn bars_stand_on_zero_and_tell_their_value() {
         let chart = BarChart {
+            has_mean: true,
             least_division: 0.0,
             limits: vec![Limit { name: "class 5".into(), value: 2.5 }, Limit { name: "class 11".into(), value: 52.0 }],
             title: "<b>pitch</b>".into(),

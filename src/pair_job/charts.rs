@@ -180,6 +180,7 @@ pub fn waves(found: &Findings) -> Option<BarChart> {
         values: table.values(&AMPLITUDE).collect(),
     });
     Some(BarChart {
+        has_mean: false,
         title: "Waves of the transmission error".to_owned(),
         category_name: "wave".to_owned(),
         categories,

@@ -1,7 +1,7 @@
-//! Keys that mean something to another process only.
+//! What means something to another process only: its keys, and rings.
 //!
-//! They are refused when they are written and left out when they are not: a key that does nothing would be read as one
-//! that does.
+//! Its keys are refused when they are written and left out when they are not: a key that does nothing would be read as
+//! one that does.
 
 use super::problems::Problems;
 use super::process::SceneProcess;
@@ -16,6 +16,9 @@ pub(super) fn refuse_foreign(
     table: &KeyTable,
     problems: &mut Problems<'_>,
 ) {
+    if own.knows("gear.kind") {
+        refuse_ring(values, process, table, problems);
+    }
     let foreign = |path: &str| !own.knows(&general(path));
     let mut sections: Vec<&String> = values.sections.keys().filter(|path| foreign(path)).collect();
     // A foreign section is reported once, not with everything inside it.
@@ -36,9 +39,11 @@ pub(super) fn refuse_foreign(
             owners.iter().map(|owner| name(owner)).collect::<Vec<_>>().join(joint)
         };
         // Another tool is no way out where it does not come into the ring.
-        let is_ring = values.view("gear").text("kind") == Some("internal");
-        let tools: Vec<String> =
-            owners.iter().filter(|owner| !is_ring || owner.cuts_rings).map(|owner| owner.tool_header()).collect();
+        let tools: Vec<String> = owners
+            .iter()
+            .filter(|owner| !is_ring(values) || owner.cuts_rings)
+            .map(|owner| owner.tool_header())
+            .collect();
         let senseless = process.senseless.iter().find(|senseless| senseless.holds(&path_in_table));
         problems.add(
             &values.place_of(&path),
@@ -73,4 +78,22 @@ fn general(path: &str) -> String {
         }
     }
     out
+}
+
+fn is_ring(values: &Values) -> bool {
+    values.view("gear").text("kind") == Some("internal")
+}
+
+/// Reports a ring that the tool does not come into.
+fn refuse_ring(values: &Values, process: &SceneProcess, table: &KeyTable, problems: &mut Problems<'_>) {
+    if process.cuts_rings || !is_ring(values) {
+        return;
+    }
+    let others = table.processes().iter().filter(|other| other.cuts_rings);
+    let tools: Vec<String> = others.map(|other| other.tool_header()).collect();
+    problems.add(
+        &values.place_of("gear.kind"),
+        format!("`gear.kind`: {} cuts external gears; it does not fit into a ring", process.tool_words),
+        format!("write kind = \"external\", or cut the ring with {}", tools.join(" or ")),
+    );
 }

@@ -19,6 +19,7 @@ mod process;
 mod range;
 mod texture;
 
+pub use gear::HELIX;
 pub use range::Range;
 
 /// One key of the scene file.

@@ -45,6 +45,7 @@ pub fn columns(found: &Findings, keep: &[String]) -> Result<Vec<TableColumn>, Re
         };
         Ok(TableColumn {
             key: path.clone().into(),
+            title: path.clone().into(),
             unit: of.unit().map(|unit| unit.to_owned().into()),
             definition: of.definition().to_owned().into(),
             why: None,

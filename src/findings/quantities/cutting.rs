@@ -21,23 +21,23 @@ rows! {
     AXIS_MARGIN: "axis_margin", "1", "share of the tightest axis limit that is left, all axes and operations"
         => titled("left of the tightest limit"), or(&[NO_LIMITS]);
     CYCLE_TIME: "cycle_time", "s",
-        "time of the operation, in the headline of all: double strokes of a shaper; feed, approach, overrun and idle \
-         travel of a hob; roll and idle time of all slots of a face-mill head"
+        "time of the operation, in the headline of all: strokes with their returns, or feed or roll with approach, \
+         overrun and idle time"
         => titled("cutting time"), symbol("t");
     THICKEST_CHIP: "largest_chip_thickness", "um",
         "largest uncut chip thickness of any pass, from the edge to the surface before it"
         => titled("thickest chip"), symbol("h"), or(&[IDLE, STOPPED]);
     LARGEST_FORCE: "largest_cutting_force", "N",
-        "largest cutting force: of a shaper along the stroke, of a hob's tooth referred to its tip, of a blade of a \
-         face-mill head"
+        "largest cutting force on the tool's tooth or blade, along its way through the work; on a hob referred to the \
+         tooth's tip"
         => titled("largest cutting force"), symbol("F_c"), or(&[IDLE, STOPPED, NO_MATERIAL]);
     FORCE_PER_AREA: "force_per_area", "N/mm^2", "K_c of the material: cutting force per area of chip" => symbol("K_c");
     FORCE_PER_LENGTH: "force_per_length", "N/mm",
         "K_ce of the material: cutting force per length of edge that a chip of no thickness would need"
         => symbol("K_ce");
     REMOVED_VOLUME: "removed_volume", "mm^3",
-        "volume that the operation removed, in the headline all of them: by the sections of a shaper's chips times the \
-         face width, elsewhere by the rays through the blank"
+        "volume that the operation removed, in the headline all of them: by the sections of chips times the face width \
+         where they are the same all along the tooth, elsewhere by the rays through the blank"
         => titled("removed"), symbol("V"), or(&[STOPPED]);
     REMOVAL_RATE: "removal_rate", "cm^3/min", "removed volume over the cutting time" => symbol("Q"), or(&[STOPPED]);
     CANDIDATES: "candidates", "passes", "passes visited per dexel of a flank and operation; two or three touch it"

@@ -50,6 +50,7 @@ fn chart(budget: &Budget) -> BarChart {
             .collect(),
     };
     BarChart {
+        has_mean: false,
         title: "Predicted: what a natural step of each error alone makes of an ideal gear".to_owned(),
         category_name: "rank".to_owned(),
         categories: (1..=lines.len()).map(|rank| rank.to_string()).collect(),

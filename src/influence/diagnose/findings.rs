@@ -106,9 +106,9 @@ fn standing_out(model: &ErrorModel, found: &Diagnosis) -> Table {
 }
 
 impl Diagnosis {
-    /// Whether intervals hold: nothing but noise is left.
+    /// Whether intervals hold: nothing but noise is left, and the fit has settled.
     pub fn intervals_hold(&self) -> bool {
-        self.unexplained_um == 0.0
+        self.unexplained_um == 0.0 && self.settled
     }
 
     /// What stands out, with its sizes on left and right flanks, um.
@@ -223,7 +223,7 @@ pub fn sheet(model: &ErrorModel, found: &Diagnosis, tree: &Findings, sheet: &mut
     if found.named.is_empty() {
         return;
     }
-    sheet.heading(if found.intervals_hold() { "Fitted, with 95 % intervals" } else { "Fitted, deviations are left" });
+    sheet.heading(if found.intervals_hold() { "Fitted, with 95 % intervals" } else { "Fitted, no interval holds" });
     let rows = |named: &NamedSource| {
         let source = &model.sources[named.source];
         let cells = |(parameter, fitted): (&crate::scene::error_parameters::ErrorParameter, &Option<FittedSize>)| {

@@ -100,6 +100,7 @@ fn sources(model: &ErrorModel, found: &Diagnosis) -> PageTable {
 
 fn chart(model: &ErrorModel, found: &Diagnosis) -> BarChart {
     BarChart {
+        has_mean: false,
         title: "Fitted: what each error alone explains of the squared deviations".to_owned(),
         category_name: "error".to_owned(),
         categories: found.named.iter().map(|named| model.sources[named.source].title()).collect(),

@@ -3,7 +3,8 @@
 use crate::findings::rows;
 
 /// No interval.
-pub const NO_INTERVAL: &str = "no interval holds while deviations are left that neither noise nor an error explains";
+pub const NO_INTERVAL: &str = "no interval holds while deviations are left that neither noise nor an error \
+    explains, or before the fit has settled";
 /// No size.
 pub const NO_SIZE: &str = "other errors explain all of it";
 /// No turn.

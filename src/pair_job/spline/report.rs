@@ -118,6 +118,7 @@ fn chart(fit: &SplineFit) -> BarChart {
         values: fit.teeth.iter().map(|at| Some(UM_PER_MM * of(at))).collect(),
     };
     BarChart {
+        has_mean: true,
         title: "Gaps of every tooth in its space, the hub midway between its stops".to_owned(),
         category_name: "tooth of the shaft".to_owned(),
         categories: fit.teeth.iter().map(|at| at.tooth.to_string()).collect(),

@@ -4,10 +4,10 @@
 //! In: a job. Out: lines for `check`, terminal and page; refusals where nothing can be measured.
 
 use super::job::BevelJob;
-use super::measure::inner;
 use super::notices::{Depth, ExchangedBlades, PitchAngle, RootAngle, ShortRoll, Travel, WideFace};
 use super::operation::PreparedBevel;
 use crate::findings::Notice;
+use crate::measure::cut_grid::within;
 use gearcut_core::bevel::blank::Contradiction;
 use gearcut_core::bevel::face_mill::BladeKind;
 use gearcut_core::error::Refusal;
@@ -29,7 +29,8 @@ impl BevelJob {
     /// Refuses a grid of inspection with more points than a flank has dexels to stand on.
     pub(super) fn check_grid(&self) -> Result<(), Refusal> {
         for side in [Side::Left, Side::Right] {
-            let lines = self.places_mm(side).map(|places| inner(places.len()).len());
+            let (places_mm, ends_mm) = (self.places_mm(side), self.evaluated_mm(side));
+            let lines = [0, 1].map(|k| within(&places_mm[k], ends_mm[k]).len());
             for (k, key, spacing) in [
                 (0, "inspection.profile_points", "fields.flank.profile_spacing_um"),
                 (1, "inspection.tooth_points", "fields.flank.lead_spacing_um"),

@@ -8,9 +8,9 @@
 //! material is left.
 
 use super::job::{BevelJob, index};
-use super::surfaces::MARGIN;
-use crate::measure::deviation::Trace;
-use crate::measure::inspection::{FlankSurface, InspectedFlank, StockRange, SurfaceHeights, TracedLines};
+use crate::job::GearJob;
+use crate::measure::cut_grid::{CutGrid, within};
+use crate::measure::inspection::{FlankSurface, InspectedFlank, StockRange, SurfaceHeights};
 use crate::measure::stock::Extreme;
 use gearcut_core::bevel::ease_off::{Explained, explain};
 use gearcut_core::bevel::face_mill::FaceMill;
@@ -98,85 +98,50 @@ pub struct MarkForm {
 /// A row of the grid that the roll does not generate.
 pub fn measure(job: &BevelJob, tooth: u32, side: Side, rays: &FreeRays, layers: &[Layer]) -> Result<BevelReport> {
     let (arcs_mm, rows_mm) = (&rays.arcs_mm, &rays.rows_mm);
-    let [columns, rows] = [arcs_mm.len(), rows_mm.len()].map(inner);
+    let target = job.target_of(side);
+    let grid = CutGrid {
+        tooth,
+        side,
+        length_mm: target.length_mm(),
+        arcs_mm,
+        rolls_mm: arcs_mm.clone(),
+        rows_mm,
+        layers,
+        evaluated_mm: job.evaluated_mm(side),
+    };
     let last = layers.len() - 1;
-    let at = |layer: usize, i: usize| {
-        let layer = &layers[layer];
-        (layer.passes[i] != NO_PASS).then(|| f64::from(layer.heights_mm[i]))
-    };
-    let evaluated = || {
-        let rows = rows.clone();
-        columns.clone().flat_map(move |column| rows.clone().map(move |row| [column, row]))
-    };
-    let over = |height: &dyn Fn(usize) -> Option<f64>| {
-        let value = |[column, row]: [usize; 2]| {
-            let value_mm = height(rays.field.index(column, row))?;
-            Some(Extreme { value_mm, arc_mm: arcs_mm[column], z_mm: rows_mm[row] })
-        };
-        evaluated().map(value).collect::<Option<Vec<_>>>().and_then(|values| SurfaceHeights::of(&values))
-    };
-    let trace = |places_mm: &[f64], index: &dyn Fn(usize) -> usize| Trace {
-        places_mm: places_mm.to_vec(),
-        heights_mm: (0..places_mm.len()).map(|i| at(last, index(i)).unwrap_or(f64::NAN)).collect(),
-    };
-    let (middle_column, middle_row) = (arcs_mm.len() / 2, rows_mm.len() / 2);
-    let profile_trace = trace(arcs_mm, &|column| rays.field.index(column, middle_row));
-    let lead_trace = trace(rows_mm, &|row| rays.field.index(middle_column, row));
-    let ends = |places_mm: &[f64], inner: &Range<usize>| [places_mm[inner.start], places_mm[inner.end - 1]];
     let mut left_by_blade = vec![0; job.head.blades() as usize];
     // Along the tooth a pass leaves many dexels in a row.
     for left in layers[last].passes.chunk_by(|a, b| a == b).filter(|left| left[0] != NO_PASS) {
         left_by_blade[job.slots.blade_of(left[0]) as usize] += left.len() as u64;
     }
+    let [columns, rows] = grid.evaluated();
     let [grid_columns, grid_rows] =
         [(&columns, job.spec.grid[0]), (&rows, job.spec.grid[1])].map(|(inner, count)| grid_places(inner, count));
-    let grid = grid_rows.iter().enumerate().flat_map(|(j, &row)| {
+    let points = grid_rows.iter().enumerate().flat_map(|(j, &row)| {
+        let grid = &grid;
         grid_columns.iter().enumerate().map(move |(i, &column)| GridPoint {
             place: [i as u32 + 1, j as u32 + 1],
             target: rays.field.ray(column, row),
-            deviation_mm: at(last, rays.field.index(column, row)),
+            deviation_mm: grid.height_mm(last, column, row),
         })
     });
-    let target = job.target_of(side);
     let on_pitch_cone = |&row: &usize| -> Result<Option<f64>, Refusal> {
         let arc_mm = target.arc_at(target.row(rows_mm[row])?.pitch_share());
         let column = arcs_mm.partition_point(|&arc| arc < arc_mm).min(arcs_mm.len() - 1);
-        Ok(at(last, rays.field.index(column, row)))
+        Ok(grid.height_mm(last, column, row))
     };
-    Ok(InspectedFlank {
-        tooth,
-        side,
-        length_mm: target.length_mm(),
-        evaluated_mm: ends(arcs_mm, &columns),
-        profile: profile_trace.deviation(ends(arcs_mm, &columns)),
-        lines: TracedLines {
-            arcs_mm: arcs_mm.clone(),
-            profile_v_mm: rows_mm[middle_row],
-            lead_arc_mm: arcs_mm[middle_column],
-        },
-        profile_trace,
-        lead: lead_trace.deviation(ends(rows_mm, &rows)),
-        lead_trace,
-        untouched: evaluated().filter(|&[column, row]| at(last, rays.field.index(column, row)).is_none()).count()
-            as u64,
-        own: BevelSurface {
-            finished: over(&|i| at(last, i)),
-            stock: (0..last).map(|layer| over(&|i| Some(at(layer, i)? - at(last, i)?))).collect(),
-            grid: grid.collect(),
-            grid_places: [
-                grid_columns.iter().map(|&column| target.share_at(arcs_mm[column])).collect(),
-                grid_rows.iter().map(|&row| rows_mm[row]).collect(),
-            ],
-            left_by_blade,
-            on_pitch_cone_mm: grid_rows.iter().map(on_pitch_cone).collect::<Result<_, _>>()?,
-        },
-    })
-}
-
-/// Indices without the margins, never empty.
-pub(super) fn inner(count: usize) -> Range<usize> {
-    let margin = ((MARGIN * count as f64).ceil() as usize).min((count - 1) / 2);
-    margin..count - margin
+    Ok(grid.inspected(BevelSurface {
+        finished: grid.finished(),
+        stock: grid.stock(),
+        grid: points.collect(),
+        grid_places: [
+            grid_columns.iter().map(|&column| target.share_at(arcs_mm[column])).collect(),
+            grid_rows.iter().map(|&row| rows_mm[row]).collect(),
+        ],
+        left_by_blade,
+        on_pitch_cone_mm: grid_rows.iter().map(on_pitch_cone).collect::<Result<_, _>>()?,
+    }))
 }
 
 /// Indices nearest to even places over a range, both ends among them.
@@ -193,8 +158,10 @@ pub fn slot(job: &BevelJob, backend: &dyn Backend, flanks: [&BevelReport; 2]) ->
     let [before, after] = flanks;
     let space = job.space_of(before.tooth, before.side);
     let [_, rows_mm] = job.places_mm(before.side);
-    let rows_mm: Vec<f64> =
-        grid_places(&inner(rows_mm.len()), job.spec.grid[1]).into_iter().map(|row| rows_mm[row]).collect();
+    let rows_mm: Vec<f64> = grid_places(&within(&rows_mm, job.evaluated_face_mm()), job.spec.grid[1])
+        .into_iter()
+        .map(|row| rows_mm[row])
+        .collect();
     let blank = &job.blank;
     let turn = index(space, blank.teeth);
     // On the pitch cone: polar angle and normal of a flank, gear frame.

@@ -6,6 +6,7 @@
 
 use super::job::{BevelJob, index};
 use crate::job::{CylindricalGear, GearJob, ToothFrame, rows_z_mm};
+use crate::measure::cut_grid::{evaluated_face_mm, evaluated_mm};
 use crate::scene::Scene;
 use gearcut_core::bevel::face_mill::BladeKind;
 use gearcut_core::cut::{Backend, CutLayers, CutStats, SweptBy, SweptField};
@@ -21,8 +22,6 @@ use rayon::prelude::*;
 const RAY_DEPTH_MODULES: f64 = 0.25;
 /// Halvings of the way to the blank's surface: from a millimetre down to a nanometre.
 const SURFACE_HALVINGS: u32 = 20;
-/// Share of the profile and of the face left out at either end where flanks are evaluated.
-pub const MARGIN: f64 = 0.05;
 
 impl BevelJob {
     /// Places of the rays of a flank with the scene's spacing: along its profile and along the tooth, mm.
@@ -32,6 +31,11 @@ impl BevelJob {
         let columns = (length_mm / fields.profile_spacing_mm).round().max(1.0) as usize;
         let arcs_mm = (0..=columns).map(|i| length_mm * i as f64 / columns as f64).collect();
         [arcs_mm, rows_z_mm(self.blank.face_width_mm, fields.lead_spacing_mm)]
+    }
+
+    /// Ends of the evaluated part of a flank: arcs, and places along the tooth, mm.
+    pub fn evaluated_mm(&self, side: Side) -> [[f64; 2]; 2] {
+        [evaluated_mm(self.target_of(side).length_mm(), [None; 2]), self.evaluated_face_mm()]
     }
 
     /// Rays of a flank with the scene's spacing.
@@ -151,12 +155,11 @@ impl GearJob for BevelJob {
     }
 
     fn evaluated_profile_mm(&self, _tooth: u32, side: Side) -> Result<[f64; 2]> {
-        let length_mm = self.target_of(side).length_mm();
-        Ok([MARGIN * length_mm, (1.0 - MARGIN) * length_mm])
+        Ok(self.evaluated_mm(side)[0])
     }
 
     fn evaluated_face_mm(&self) -> [f64; 2] {
-        [MARGIN - 0.5, 0.5 - MARGIN].map(|share| share * self.blank.face_width_mm)
+        evaluated_face_mm(self.blank.face_width_mm)
     }
 
     /// All teeth have the same flanks; marks differ by their phase alone.

@@ -5,6 +5,7 @@
 
 use super::HobbingJob;
 use crate::job::{RAY_DEPTH_MODULES, RAY_HEIGHT_MODULES, rows_z_mm};
+use crate::measure::cut_grid::{evaluated_face_mm, evaluated_mm};
 use crate::process::hobbing::flank_patch::FlankPatch;
 use crate::process::hobbing::kept::ForeseenChip;
 use gearcut_core::cut::{Backend, CutLayers, CutStats, SweptBy, SweptField};
@@ -34,8 +35,8 @@ pub struct HobbedFlank<'a> {
     pub target: &'a FlankPatch,
     /// Rays; columns stand at arcs of the middle section.
     pub rays: PlacedRays,
-    /// Arcs between which the scene has it measured, where it names them ([`HobCutter::measured_ends_mm`]), mm.
-    pub measured_ends_mm: [Option<f64>; 2],
+    /// Ends of its evaluated part: arcs, and places along the tooth, mm.
+    pub evaluated_mm: [[f64; 2]; 2],
     /// What each operation left, in order.
     pub layers: Vec<Layer>,
     /// What the backend met.
@@ -168,8 +169,10 @@ impl<'a> HobCutter<'a> {
     pub fn flank(&self, tooth: u32, side: Side, field: SpatialField, left: CutLayers) -> Result<HobbedFlank<'_>> {
         let target = self.target(tooth, side)?;
         let [arcs_mm, rows_z_mm] = self.places_mm(target);
+        let profile_mm = evaluated_mm(target.length_mm(), self.measured_ends_mm(target));
+        let evaluated_mm = [profile_mm, evaluated_face_mm(self.job.scene.gear.face_width_mm)];
         let CutLayers { layers, stats, .. } = left;
         let rays = PlacedRays { field, arcs_mm, rows_z_mm };
-        Ok(HobbedFlank { target, rays, measured_ends_mm: self.measured_ends_mm(target), layers, stats })
+        Ok(HobbedFlank { target, rays, evaluated_mm, layers, stats })
     }
 }

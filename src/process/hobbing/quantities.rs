@@ -91,7 +91,7 @@ rows! {
     VOLUME_SHARE: "volume_share", "1", "share of the operation's volume that the tooth takes" => or(&[NOTHING]);
     TOOTH_THICKNESS: "thickness", "mm",
         "largest uncut chip thickness of the hob tooth, across the swept surface of its edge"
-        => or(&[NOT_FINITE]), bars();
+        => titled("largest chip thickness"), or(&[NOT_FINITE]), bars();
     TOOTH_PASSES: "passes", "passes", "passes of the tooth that took anything";
     HOB_TURN: "hob_turn", "1", "turn of the hob" => or(&[NOT_FINITE]);
 }

@@ -150,7 +150,7 @@ rows! {
          where D lies inside the finished tooth"
         => or(&[NO_CROSSING]);
     UNEVENNESS: "unevenness_mean_denominator", "%", "|AB - CD| over the mean of AB and CD"
-        => or(&[NO_CROSSING]), bars();
+        => titled("unevenness"), or(&[NO_CROSSING]), bars();
     UNEVENNESS_RACK: "unevenness_rack_denominator", "%", "|AB - CD| over delta_d tan(alpha)"
         => or(&[NO_CROSSING, NO_OFFSET, OTHER_STROKES]);
     ENVELOPE_AB: "envelope_AB", "mm", "AB in the limit of many strokes" => or(&[NO_CROSSING, OTHER_STROKES]);

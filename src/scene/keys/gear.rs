@@ -1,6 +1,6 @@
 //! Keys of the gear and its blank.
 
-use super::{Default, Key, KeySection, Kind, Range, Role};
+use super::{Addition, Default, Key, KeySection, Kind, Range, Role};
 
 /// `[gear]`.
 pub(super) static SECTIONS: &[KeySection] = &[KeySection {
@@ -39,23 +39,6 @@ pub(super) static SECTIONS: &[KeySection] = &[KeySection {
             default: Default::Number(20.0),
             example: "20.0",
             teach: "Pressure angle of gear and cutter on the pitch curve.",
-        },
-        Key {
-            name: "helix_angle_deg",
-            kind: Kind::Number(Range::closed(0.0, 45.0)),
-            unit: "deg",
-            default: Default::Number(0.0),
-            example: "10.5",
-            teach: "Helix angle on the pitch curve; 0 is a spur gear. Module and pressure angle are those of the \
-                    normal section. Not every process cuts helical gears; one that does not refuses them.",
-        },
-        Key {
-            name: "hand",
-            kind: Kind::Word(&["right", "left"]),
-            unit: "",
-            default: Default::Word("right"),
-            example: "\"right\"",
-            teach: "Hand of the helix.",
         },
         Key {
             name: "face_width_mm",
@@ -123,3 +106,28 @@ pub(super) static SECTIONS: &[KeySection] = &[KeySection {
     groups: &[],
     teach: "The gear to cut and its blank.",
 }];
+
+/// Keys of a process that cuts helical gears: it adds them to `[gear]`.
+pub static HELIX: Addition = Addition {
+    path: "gear",
+    keys: &[
+        Key {
+            name: "helix_angle_deg",
+            kind: Kind::Number(Range::closed(0.0, 45.0)),
+            unit: "deg",
+            default: Default::Number(0.0),
+            example: "10.5",
+            teach: "Helix angle on the pitch curve; 0 is a spur gear. Module and pressure angle are those of the \
+                    normal section.",
+        },
+        Key {
+            name: "hand",
+            kind: Kind::Word(&["right", "left"]),
+            unit: "",
+            default: Default::Word("right"),
+            example: "\"right\"",
+            teach: "Hand of the helix.",
+        },
+    ],
+    groups: &[],
+};

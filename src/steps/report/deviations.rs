@@ -337,6 +337,7 @@ fn pitch_charts(inspection: &Inspection) -> Vec<Block> {
     let bars = |title: &str, value_name: &str, series: Vec<BarSeries>, limit_um: Option<f64>| {
         let limit = |name: &str, value: f64| Limit { name: name.to_owned(), value };
         Block::Bars(BarChart {
+            has_mean: true,
             limits: limit_um.map_or_else(Vec::new, |um| vec![limit("limit", um), limit("limit", -um)]),
             least_division: LEAST_DIVISION_UM,
             title: title.to_owned(),

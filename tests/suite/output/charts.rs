@@ -27,6 +27,7 @@ fn bars() -> BarChart {
     let mut second = values(0.05, 0.2);
     second[4] = None;
     BarChart {
+        has_mean: true,
         least_division: 0.0,
         limits: Vec::new(),
         title: "Unevenness of the finishing allowance".into(),

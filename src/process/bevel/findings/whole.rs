@@ -177,6 +177,7 @@ pub fn charts(job: &BevelJob, ledger: &SlotLedger) -> ChipCharts {
         bars.push((
             format!("{name}_chips_by_blade"),
             BarChart {
+                has_mean: true,
                 least_division: 0.0,
                 limits: Vec::new(),
                 title: format!("{name}: volume of a slot by blade"),

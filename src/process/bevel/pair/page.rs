@@ -94,11 +94,10 @@ fn rows(table: &Table) -> PageTable {
     }
 }
 
-/// The key in words, with the unit in brackets.
+/// What it is called, with the unit in brackets.
 fn head(column: &TableColumn) -> String {
-    let words = column.key.replace('_', " ");
     match column.unit.as_deref() {
-        Some(of) => format!("{words} [{}]", unit::signs(of)),
-        None => words,
+        Some(of) => format!("{} [{}]", column.title, unit::signs(of)),
+        None => column.title.to_string(),
     }
 }

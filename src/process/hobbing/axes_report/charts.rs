@@ -106,6 +106,7 @@ pub(super) fn work_of_teeth(job: &HobbingJob, operation: &PreparedHobbing) -> Re
     let (categories, values) =
         numbered.map(|tooth| (tooth.number.to_string(), Some(100.0 * work.share(tooth.passage)))).unzip();
     Ok(BarChart {
+        has_mean: true,
         least_division: 0.0,
         limits: Vec::new(),
         title: format!(

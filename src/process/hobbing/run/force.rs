@@ -44,6 +44,7 @@ pub fn measure(cutter: &HobCutter, blank: &HobbedBlank) -> Vec<OperationForce> {
 /// Bars of the largest and the mean force by hob tooth, with the names of their files, operation by operation.
 pub fn bars(job: &HobbingJob, forces: &[OperationForce]) -> Vec<(String, BarChart)> {
     let chart = |name: &str, force: &OperationForce| BarChart {
+        has_mean: true,
         least_division: 0.0,
         limits: Vec::new(),
         title: format!("{}, {name}: cutting force by hob tooth", job.scene.name),

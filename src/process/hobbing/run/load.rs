@@ -37,6 +37,7 @@ pub fn charts(job: &HobbingJob, loads: &[OperationLoad]) -> Vec<(String, BarChar
     charts
         .map(|(name, load, (stem, what, unit, value))| {
             let chart = BarChart {
+                has_mean: true,
                 least_division: 0.0,
                 limits: Vec::new(),
                 title: format!("{}, {name}: {what} by hob tooth", job.scene.name),

@@ -4,7 +4,7 @@ mod machine;
 mod operation;
 mod tool;
 
-use crate::scene::keys::{Addition, KeySection};
+use crate::scene::keys::{Addition, HELIX, KeySection};
 
 pub(super) use machine::AXES;
 
@@ -12,4 +12,4 @@ pub(super) use machine::AXES;
 pub(super) static SECTIONS: &[&[KeySection]] = &[tool::SECTIONS, machine::SECTIONS, operation::SECTIONS];
 
 /// Keys in shared sections.
-pub(super) static ADDED: &[&Addition] = &[&operation::ADDED];
+pub(super) static ADDED: &[&Addition] = &[&HELIX, &operation::ADDED];

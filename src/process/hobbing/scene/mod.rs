@@ -69,20 +69,11 @@ pub static SCENE: SceneProcess = SceneProcess {
 
 /// Holds values against each other.
 fn check(found: &mut Found<'_, '_, '_>) {
-    external(found);
     let _: Option<()> = standard_size(found);
     let _: Option<()> = tip_reliefs(found);
     let _: Option<()> = pitch_errors(found);
     machine_errors::check(found, &keys::AXES);
     machine_errors::check_noise_in_time(found, &keys::AXES, "a hob");
-}
-
-/// Refuses what no hob reaches.
-fn external(found: &mut Found<'_, '_, '_>) {
-    let internal = found.view("gear").text("kind") == Some("internal");
-    let message = || "`gear.kind`: a hob cuts external gears; it does not fit into a ring".to_owned();
-    let way_out = "write kind = \"external\", or shape the ring with [tool.shaper_cutter]";
-    found.blame(internal, "gear.kind", message, way_out);
 }
 
 /// Refuses a hob of unknown size whose module has no usual one.

@@ -89,6 +89,7 @@ fn operation_blocks(operation: &findings::Section, finishing: &str) -> Vec<Block
             }],
         }),
         Block::Bars(BarChart {
+            has_mean: true,
             least_division: 0.0,
             limits: Vec::new(),
             title: format!("Unevenness of the allowance after {name}"),

@@ -59,6 +59,7 @@ pub fn write(
 
 fn unevenness_chart(job: &ShapingJob, teeth: &[ToothAllowance], operation: &str) -> BarChart {
     BarChart {
+        has_mean: true,
         least_division: 0.0,
         limits: Vec::new(),
         title: format!("{}: unevenness of the allowance after {operation}", job.scene.name),

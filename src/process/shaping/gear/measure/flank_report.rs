@@ -5,6 +5,7 @@
 //! Heights come from the dexels; begin and end from the closed form.
 
 use super::thin_tips;
+use crate::measure::cut_grid::{evaluated_face_mm, evaluated_mm};
 use crate::measure::deviation::Trace;
 use crate::measure::inspection::{FlankSurface, InspectedFlank, StockRange, TracedLines};
 use crate::measure::scallop::{Cusp, cusps, facets, step};
@@ -15,8 +16,6 @@ use crate::steps::planar::CutField;
 use gearcut_core::dexel::figures::{ColumnHeights, LinesAt, RESOLUTION_MM};
 use gearcut_core::dexel::{Field, NO_PASS};
 
-/// Share of the flank left out at either end when the scene does not say where profiles are evaluated, and of the face.
-const DEFAULT_MARGIN: f64 = 0.05;
 /// What may stay of the blank at the tip corner, in modules: rounding decides of the last ray, and errors that shift a
 /// gear within its tolerances shift its corner as far. Tips are broken by more.
 const TIP_CORNER_MODULES: f64 = 0.02;
@@ -117,9 +116,7 @@ impl FlankSurface for ShapedFlank {
 /// of the flank at either end.
 pub fn evaluated_profile_mm(job: &ShapingJob, flank: &TargetFlank) -> [f64; 2] {
     let arc_at = |height_mm: f64| flank.at_height(&job.blank, height_mm).map(|(arc, _)| arc);
-    let [from_mm, to_mm] = job.scene.measure.ends_mm(arc_at);
-    let length_mm = flank.length_mm();
-    [from_mm.unwrap_or(DEFAULT_MARGIN * length_mm), to_mm.unwrap_or((1.0 - DEFAULT_MARGIN) * length_mm)]
+    evaluated_mm(flank.length_mm(), job.scene.measure.ends_mm(arc_at))
 }
 
 /// Arc of a flank at the height where an operation's own involute begins, mm; 0 where it begins below the flank.
@@ -208,8 +205,6 @@ pub fn measure(job: &ShapingJob, flank: &TargetFlank, cut: &CutField, rows_z_mm:
     let pitch_stroke = pitch_arc_mm.and_then(|_| stroke(profile.passes[lines.column]));
     let lead_field = Field { columns: vec![field.columns[lines.column]], rows_z_mm: field.rows_z_mm.clone() };
     let lead_trace = Trace::along_tooth(&lead_field, &columns.along(), 0).over_rows(rows_z_mm);
-    let (v_first, v_last) = (rows_z_mm[0], rows_z_mm[rows_z_mm.len() - 1]);
-    let v_margin = DEFAULT_MARGIN * (v_last - v_first);
     let below_range = told.map(|column| copies * u64::from(heights[column].at_bottom)).sum();
     let is_lost = all().any(|column| counts(column) && heights[column].at_bottom > 0);
     let is_told = all().all(|column| tells[column] || !is_evaluated(column));
@@ -263,7 +258,7 @@ pub fn measure(job: &ShapingJob, flank: &TargetFlank, cut: &CutField, rows_z_mm:
         profile: profile_trace
             .deviation([evaluated_rolls_mm[0], evaluated_rolls_mm[1]])
             .filter(|_| is_told && !own.is_lost),
-        lead: lead_trace.deviation([v_first + v_margin, v_last - v_margin]).filter(|_| !own.is_lost),
+        lead: lead_trace.deviation(evaluated_face_mm(job.scene.gear.face_width_mm)).filter(|_| !own.is_lost),
         lines: TracedLines {
             arcs_mm,
             profile_v_mm: rows_z_mm[rows_z_mm.len() / 2],
