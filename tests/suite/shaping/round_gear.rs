@@ -53,8 +53,8 @@ fn a_profile_shift_makes_the_tooth_that_its_definition_says() {
     }
 }
 
-/// Profiles are inspected over the roll: the length sqrt(r^2 - r_b^2) of the line of action less that of the pitch point,
-/// r_p sin(alpha). In a ring it falls towards the tip.
+/// Profiles are inspected over the roll: the length sqrt(r^2 - r_b^2) of the line of action less that of the pitch
+/// point, r_p sin(alpha). In a ring it falls towards the tip.
 #[test]
 fn rolls_are_lengths_on_the_line_of_action() {
     for (scene, shift) in [("circular_m3_z24.toml", 0.0), ("circular_m3_z24.toml", 0.3), ("internal_circle.toml", 0.0)]
