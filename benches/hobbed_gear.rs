@@ -112,8 +112,8 @@ fn one_flank(cutter: &HobCutter, tooth: u32, side: Side) {
         per_dexel(indispensable(field, &plan, &layer) as f64),
         per_dexel(plan.tile_passes() as f64)
     );
-    let measured_ends_mm = cutter.measured_ends_mm(target);
-    let flank = HobbedFlank { target, rays, measured_ends_mm, layers: vec![layer], stats };
+    let evaluated_mm = cutter.evaluated_mm(target);
+    let flank = HobbedFlank { target, rays, evaluated_mm, layers: vec![layer], stats };
     let (measure_time, _) = timed(|| flank_report::measure(tooth, side, &flank));
     println!("  rays {rays_time}, plan {plan_time}, cut {cut_time}, measure {measure_time}");
 }

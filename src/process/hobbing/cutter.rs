@@ -80,6 +80,12 @@ impl<'a> HobCutter<'a> {
         self.job.scene.measure.ends_mm(|height_mm| target.arc_at_height_mm(&self.job.blank, height_mm))
     }
 
+    /// Ends of the evaluated part of a flank: arcs, and places along the tooth, mm.
+    pub fn evaluated_mm(&self, target: &FlankPatch) -> [[f64; 2]; 2] {
+        let profile_mm = evaluated_mm(target.length_mm(), self.measured_ends_mm(target));
+        [profile_mm, evaluated_face_mm(self.job.scene.gear.face_width_mm)]
+    }
+
     /// Places of the rays of a flank with the scene's spacing: along its profile and along the tooth, mm.
     pub fn places_mm(&self, target: &FlankPatch) -> [Vec<f64>; 2] {
         let fields = self.job.scene.fields;
@@ -169,8 +175,7 @@ impl<'a> HobCutter<'a> {
     pub fn flank(&self, tooth: u32, side: Side, field: SpatialField, left: CutLayers) -> Result<HobbedFlank<'_>> {
         let target = self.target(tooth, side)?;
         let [arcs_mm, rows_z_mm] = self.places_mm(target);
-        let profile_mm = evaluated_mm(target.length_mm(), self.measured_ends_mm(target));
-        let evaluated_mm = [profile_mm, evaluated_face_mm(self.job.scene.gear.face_width_mm)];
+        let evaluated_mm = self.evaluated_mm(target);
         let CutLayers { layers, stats, .. } = left;
         let rays = PlacedRays { field, arcs_mm, rows_z_mm };
         Ok(HobbedFlank { target, rays, evaluated_mm, layers, stats })

@@ -10,7 +10,6 @@ use crate::job::{
     CylindricalGear, GearJob, RAY_DEPTH_MODULES, ROOT_SPACING_MM, TIP_SPACING_MM, ToolSection, ToothFrame,
     ToothSection, rows_z_mm, teeth_of_extreme_radius,
 };
-use crate::measure::cut_grid::evaluated_mm;
 use crate::measure::round_gear::{RoundGear, ToothEnds, is_round};
 use crate::process::hobbing::cutter::HobCutter;
 use crate::process::hobbing::linkage::marks::Marks;
@@ -75,7 +74,7 @@ impl GearJob for HobCutter<'_> {
 
     fn evaluated_profile_mm(&self, tooth: u32, side: Side) -> Result<[f64; 2]> {
         let target = self.target(tooth, side)?;
-        Ok(evaluated_mm(target.length_mm(), self.measured_ends_mm(target)))
+        Ok(self.evaluated_mm(target)[0])
     }
 
     fn rolls_mm(&self, tooth: u32, side: Side, arcs_mm: &[f64]) -> Result<Vec<f64>> {
