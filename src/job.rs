@@ -46,9 +46,9 @@ pub trait GearJob: Sync {
         Vec::new()
     }
 
-    /// Whether marks of an operation follow each other along the tooth. Where the axes rest during strokes a single
-    /// mark runs along it without end.
-    fn marks_follow_along_tooth(&self, operation: usize) -> bool;
+    /// Whether marks of an operation follow each other along the tooth and along the profile. Where the axes rest
+    /// during strokes a single mark runs along the tooth without end.
+    fn marks_follow(&self, operation: usize) -> [bool; 2];
 
     /// How far marks of the last operation are apart along the profile and along the tooth, mm, where they repeat
     /// evenly: maps average over that much. `None`: over their cells alone.

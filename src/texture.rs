@@ -33,10 +33,10 @@ pub use laid_over::Overlaid;
 pub use roughness::{roughness, roughness_path};
 pub use sampling::{SampledWindow, sampled};
 pub use traces::{Direction, Traced, of_surface};
-pub use window::{Window, windows};
+pub use window::{Window, default_teeth, windows};
 
 use crate::findings::Notice;
-use crate::findings::notices::{FewMarks, FewPoints, Holes, NotEvaluated};
+use crate::findings::notices::{FewMarks, FewPoints, Holes, NoMarks, NotEvaluated};
 use crate::interrupt::Interrupt;
 use crate::job::{GearJob, RAY_DEPTH_MODULES};
 use crate::measure::topography::{Arguments, Evaluation, Surface, TextureError};
@@ -101,6 +101,8 @@ pub enum WindowNote {
     Holes(usize),
     /// Nothing could be evaluated: why.
     NotEvaluated(String),
+    /// There are no marks.
+    NoMarks,
     /// So few marks follow each other.
     FewMarks(usize, &'static str),
     /// A mark has so few points in a direction; the key that makes more of them.
@@ -122,6 +124,7 @@ impl WindowNote {
         match self {
             Self::Holes(holes) => Holes { of, holes }.notice(),
             Self::NotEvaluated(why) => NotEvaluated { of, why }.notice(),
+            Self::NoMarks => NoMarks { of }.notice(),
             Self::FewMarks(count, direction) => {
                 let marks = if *count == 1 { "1 mark".to_owned() } else { format!("{count} marks") };
                 FewMarks { of, marks, direction, enough: ENOUGH_MARKS }.notice()
@@ -167,6 +170,9 @@ impl LineMarks {
     /// What the marks of a window say of its numbers.
     fn notes(&self) -> Vec<WindowNote> {
         let mut notes = Vec::new();
+        if self.count == [0; 2] {
+            notes.push(WindowNote::NoMarks);
+        }
         for (&marks, direction) in self.count.iter().zip(["along the tooth", "along the profile"]) {
             if (1..ENOUGH_MARKS).contains(&marks) {
                 notes.push(WindowNote::FewMarks(marks, direction));

@@ -89,6 +89,10 @@ notices! {
     /// There are no numbers of this window.
     NotEvaluated: Note "texture.not_evaluated", "texture.md", (of, why),
         "{of}the window could not be evaluated: {why}"; "Change the window or its filters as the reason says."
+    /// The numbers are rounding.
+    NoMarks: Note "texture.no_marks", "texture.md", (of),
+        "{of}the motion of the tool leaves no marks on this flank: its numbers are those of rounding";
+        "Remove the window, or give the machine the errors whose traces it is to show."
     /// Numbers of few marks depend on where the window begins.
     FewMarks: Note "texture.few_marks", "texture.md", (of, marks, direction, enough),
         "{of}the window holds only {marks} {direction}; {enough} at least make its numbers representative";

@@ -11,6 +11,7 @@ use super::needs_surfaces;
 use super::parts::{Part, Parts};
 use crate::job::GearJob;
 use crate::scene::model::WindowSides;
+use crate::texture::default_teeth;
 
 /// What a process takes where processes differ.
 #[derive(Debug, Clone, Copy)]
@@ -33,10 +34,10 @@ pub struct Costs<'a> {
     pub between_s: f64,
 }
 
-/// How many texture windows there are: those of the scene, or both flanks of the teeth that every gear gets.
+/// How many texture windows there are: those of the scene, or both flanks of the teeth that have them by default.
 fn windows(job: &dyn GearJob) -> f64 {
     match job.scene().textures.as_slice() {
-        [] => 2.0 * (job.teeth_that_differ_most().len() + 1) as f64,
+        [] => 2.0 * default_teeth(job).len() as f64,
         asked => asked.iter().map(|window| if window.sides == WindowSides::Both { 2.0 } else { 1.0 }).sum(),
     }
 }

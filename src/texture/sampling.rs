@@ -34,8 +34,8 @@ const ATTEMPTS: usize = 4;
 /// Marks of a window's operation on its middle lines.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct LineMarks {
-    /// Marks that follow each other along the tooth and along the profile; 0 along the tooth where they run along it
-    /// without end.
+    /// Marks that follow each other along the tooth and along the profile; 0 where they run on without end, or there
+    /// are none.
     pub(super) count: [usize; 2],
     /// Points of a whole mark; none where there is no whole one.
     pub(super) points: [Option<f64>; 2],
@@ -113,10 +113,10 @@ type Facets = (usize, Option<f64>);
 /// Facets along the middle line of a window, the line along the tooth (0) or along the profile (1).
 fn facets_along(job: &dyn GearJob, window: &Window, direction: usize) -> Result<Facets> {
     let (mut arcs_mm, mut rows_z_mm): (Vec<f64>, Vec<f64>) = (window.arcs_mm().collect(), window.rows_z_mm());
+    if !job.marks_follow(window.operation)[direction] {
+        return Ok((0, None));
+    }
     if direction == 0 {
-        if !job.marks_follow_along_tooth(window.operation) {
-            return Ok((0, None));
-        }
         arcs_mm = vec![arcs_mm[arcs_mm.len() / 2]];
     } else {
         rows_z_mm = vec![rows_z_mm[rows_z_mm.len() / 2]];

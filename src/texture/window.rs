@@ -138,12 +138,19 @@ pub fn windows(job: &dyn GearJob) -> Result<Vec<Window>> {
     Ok(windows)
 }
 
-fn default_windows(job: &dyn GearJob) -> Vec<TextureWindow> {
-    let teeth = job.scene().gear.teeth;
+/// Teeth that have windows where the scene names none: none where no marks stay on flanks.
+pub fn default_teeth(job: &dyn GearJob) -> Vec<u32> {
+    if job.marks_follow(job.operations().len() - 1) == [false; 2] {
+        return Vec::new();
+    }
     let mut chosen = job.teeth_that_differ_most();
-    chosen.push(PAPER_TOOTH.min(teeth));
+    chosen.push(PAPER_TOOTH.min(job.scene().gear.teeth));
     chosen.sort_unstable();
     chosen.dedup();
+    chosen
+}
+
+fn default_windows(job: &dyn GearJob) -> Vec<TextureWindow> {
     let window = |tooth| TextureWindow {
         tooth,
         sides: WindowSides::Both,
@@ -158,7 +165,7 @@ fn default_windows(job: &dyn GearJob) -> Vec<TextureWindow> {
         filters: TextureFilters::default(),
         measured: None,
     };
-    chosen.into_iter().map(window).collect()
+    default_teeth(job).into_iter().map(window).collect()
 }
 
 fn resolve(job: &dyn GearJob, index: usize, spec: &TextureWindow, side: Side) -> Result<Window> {

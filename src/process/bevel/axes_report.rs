@@ -1,15 +1,16 @@
 //! How the six-axis machine has to move: what bevel cutting adds to the axes' tables, charts and peaks.
 //!
-//! In: a prepared [`BevelJob`]. Out: [`BevelAxesReport`] for the shared steps ([`crate::steps::axes`]): roll, times and
-//! marks for the terminal, per operation `<operation>.csv` over one slot's roll, charts of positions and speeds, how
-//! well polynomials follow the axes ([`BevelAxesReport::fits`]), and the program.
+//! In: a prepared [`BevelJob`]. Out: [`BevelAxesReport`] for the shared steps ([`crate::steps::axes`]): roll or plunge,
+//! times and marks for the terminal, per operation `<operation>.csv` over one slot's motion, charts of positions and
+//! speeds, how well polynomials follow the axes ([`BevelAxesReport::fits`]), and the program.
 
 use super::gcode;
 use super::job::BevelJob;
 use super::measure;
-use super::motion::{AXES, RollMotion, limits};
+use super::motion::{AXES, SlotMotion, limits};
 use super::operation::PreparedBevel;
 use super::quantities::CRADLE_ANGLE;
+use super::scene::model::SlotFeed;
 use crate::findings::quantities::cutting::TIME;
 use crate::findings::{Notice, Table};
 use crate::machine::{Motion as _, Order, Peak, peaks};
@@ -32,16 +33,21 @@ const ORDERS: [usize; 3] = [4, 6, 8];
 /// Samples of a fit.
 const FIT_SAMPLES: usize = 2001;
 
-/// How bevel cutting speaks of peaks.
-const PEAK_WORDS: PeakWords = PeakWords {
-    at: "at",
-    place: "time_s",
-    place_unit: ("s", 3),
-    place_note: "; its time counts from the beginning of a slot's roll",
-    way_out: "lower roll_speed_deg_per_s",
-    named,
-    zero_below: STEADY,
-};
+/// How bevel cutting speaks of peaks, of a roll and of a plunge.
+const PEAK_WORDS: [PeakWords; 2] =
+    [peak_words("lower roll_speed_deg_per_s"), peak_words("lower infeed_mm_per_revolution")];
+
+const fn peak_words(way_out: &'static str) -> PeakWords {
+    PeakWords {
+        at: "at",
+        place: "time_s",
+        place_unit: ("s", 3),
+        place_note: "; its time counts from the beginning of a slot",
+        way_out,
+        named,
+        zero_below: STEADY,
+    }
+}
 
 /// What one operation asks of the machine.
 #[derive(Debug)]
@@ -68,7 +74,7 @@ impl<'a> BevelAxesReport<'a> {
     /// Of all operations of a job, in order.
     pub fn of_job(job: &'a BevelJob) -> Vec<Self> {
         let one = |operation: &'a PreparedBevel| {
-            let mut peaks = peaks(&RollMotion { job, operation }, &limits(job));
+            let mut peaks = peaks(&SlotMotion { job, operation }, &limits(job));
             // Speeds of all axes first.
             peaks.sort_by_key(|peak| peak.order);
             Self { job, operation, peaks, program: gcode::judged(job, operation), charts: OnceLock::new() }
@@ -76,8 +82,8 @@ impl<'a> BevelAxesReport<'a> {
         job.operations.iter().map(one).collect()
     }
 
-    fn motion(&self) -> RollMotion<'a> {
-        RollMotion { job: self.job, operation: self.operation }
+    fn motion(&self) -> SlotMotion<'a> {
+        SlotMotion { job: self.job, operation: self.operation }
     }
 
     /// The program under test against the scene's own motion, if one is cut.
@@ -91,17 +97,20 @@ impl<'a> BevelAxesReport<'a> {
     }
 
     /// Polynomials that follow the moving axes over one slot's roll, with their largest errors: the five-linkage paper
-    /// fits order 4 over a whole turn of the work, which is millimetres off where the flank is cut.
+    /// fits order 4 over a whole turn of the work, which is millimetres off where the flank is cut. None of a plunge.
     ///
     /// # Errors
     /// None that a roll of any length gives.
     pub fn fits(&self) -> Result<Vec<AxisFit>> {
         let motion = self.motion();
         let mut found = Vec::new();
+        if self.operation.settings.plunges() {
+            return Ok(found);
+        }
         for (index, axis) in AXES.iter().enumerate().filter(|(_, axis)| matches!(axis.letter, 'X' | 'Y' | 'A')) {
             for order in ORDERS {
                 let value = |time_s: f64| axis.kind.shown(motion.positions(time_s)[index]);
-                let fit = WindowFit::new(value, [0.0, self.operation.roll_s()], order, FIT_SAMPLES)?;
+                let fit = WindowFit::new(value, [0.0, self.operation.course.slot_s()], order, FIT_SAMPLES)?;
                 found.push(AxisFit { letter: axis.letter, order, fit });
             }
         }
@@ -110,9 +119,9 @@ impl<'a> BevelAxesReport<'a> {
 
     fn drawn(&self) -> [NamedChart<LineChart>; 2] {
         let motion = self.motion();
-        let roll_s = self.operation.roll_s();
+        let slot_s = self.operation.course.slot_s();
         let points: Vec<_> = (0..=ROWS)
-            .map(|i| roll_s * f64::from(i) / f64::from(ROWS))
+            .map(|i| slot_s * f64::from(i) / f64::from(ROWS))
             .map(|time_s| (time_s, motion.at(time_s)))
             .collect();
         let linkage = self.linkage_words();
@@ -125,7 +134,7 @@ impl<'a> BevelAxesReport<'a> {
                 chart(
                     words,
                     &format!("axis {name} over one slot"),
-                    ["time from the beginning of the roll", "s"],
+                    ["time from the beginning of the slot", "s"],
                     panels,
                 ),
             )
@@ -140,12 +149,15 @@ impl AxesOfOperation for BevelAxesReport<'_> {
 
     fn linkage_words(&self) -> String {
         let roll = self.operation.settings.roll;
+        if self.operation.settings.plunges() {
+            return "six axes, plunged along Z".to_owned();
+        }
         let modified = roll.second_order_per_rad != 0.0 || roll.third_order_per_rad2 != 0.0;
         format!("six axes, five linked, {} roll", if modified { "modified" } else { "even" })
     }
 
     fn peak_words(&self) -> &PeakWords {
-        &PEAK_WORDS
+        &PEAK_WORDS[usize::from(self.operation.settings.plunges())]
     }
 
     fn peaks(&self) -> &[Peak] {
@@ -172,19 +184,25 @@ impl AxesOfOperation for BevelAxesReport<'_> {
         let speed = spec.head_speed_rad_per_s / TURN_RAD * 60.0;
         let cutting_m_per_min = TURN_RAD * job.head.radius_mm * speed / 1e3;
         sheet.line("head", format!("{} 1/min, {} m/min", significant(speed, 5), significant(cutting_m_per_min, 4)));
-        let [from, to] = operation.roll_rad.map(f64::to_degrees);
-        sheet.line(
-            "roll",
-            format!("cradle from {from:.3} to {to:.3} deg at {} deg/s", plain(spec.roll_speed_rad_per_s.to_degrees())),
-        );
-        let [need_from, need_to] = job.needed_rad.map(f64::to_degrees);
-        sheet.line(
-            "flanks need",
-            format!(
-                "{need_from:.3} to {need_to:.3} deg; {:.0} % of the roll is idle",
-                100.0 * idle_share(job, operation)
-            ),
-        );
+        match spec.feed {
+            SlotFeed::Roll { rad_per_s, .. } => {
+                let [from, to] = operation.course.range.map(f64::to_degrees);
+                let speed = plain(rad_per_s.to_degrees());
+                sheet.line("roll", format!("cradle from {from:.3} to {to:.3} deg at {speed} deg/s"));
+                let [need_from, need_to] = job.needed_rad.map(f64::to_degrees);
+                let idle = 100.0 * idle_share(job, operation).unwrap_or_default();
+                sheet.line(
+                    "flanks need",
+                    format!("{need_from:.3} to {need_to:.3} deg; {idle:.0} % of the roll is idle"),
+                );
+            }
+            SlotFeed::Plunge { mm_per_turn, dwell_revolutions } => {
+                let (way_mm, infeed) = (-operation.course.range[0], significant(mm_per_turn, 4));
+                sheet.line("plunge", format!("{way_mm:.3} mm along Z, {infeed} mm for each turn of the head"));
+                let dwell_s = operation.course.dwell_s;
+                sheet.line("dwell", format!("{} turns at full depth, {dwell_s:.3} s", plain(dwell_revolutions)));
+            }
+        }
         let teeth = f64::from(job.blank.teeth);
         sheet.line(
             "time",
@@ -196,7 +214,7 @@ impl AxesOfOperation for BevelAxesReport<'_> {
             ),
         );
         for side in [Side::Left, Side::Right] {
-            if let Ok(marks) = measure::marks(job, side) {
+            if let Ok(Some(marks)) = measure::marks(job, side) {
                 let words = format!(
                     "{} um high, {} mm apart, of the {} blades",
                     significant(UM_PER_MM * marks.height_mm, 3),
@@ -216,9 +234,9 @@ impl AxesOfOperation for BevelAxesReport<'_> {
 
     fn table(&self) -> Table {
         let motion = self.motion();
-        let roll_s = self.operation.roll_s();
+        let slot_s = self.operation.course.slot_s();
         let rows = (0..=ROWS).map(|i| {
-            let time_s = roll_s * f64::from(i) / f64::from(ROWS);
+            let time_s = slot_s * f64::from(i) / f64::from(ROWS);
             (time_s, motion.cradle_rad(time_s).to_degrees(), motion.at(time_s))
         });
         let table = Table::over("axes", "Axes", rows).column(&TIME, |row| row.0).column(&CRADLE_ANGLE, |row| row.1);
@@ -236,12 +254,12 @@ impl AxesOfOperation for BevelAxesReport<'_> {
     }
 }
 
-/// Share of an operation's roll in which no point of the target flanks is generated.
-pub fn idle_share(job: &BevelJob, operation: &PreparedBevel) -> f64 {
-    let [from, to] = operation.roll_rad;
+/// Share of an operation's roll in which no point of the target flanks is generated; none where nothing rolls.
+pub fn idle_share(job: &BevelJob, operation: &PreparedBevel) -> Option<f64> {
+    let [from, to] = operation.course.range;
     let (low, high) = (from.min(to), from.max(to));
     let used = (high.min(job.needed_rad[1]) - low.max(job.needed_rad[0])).max(0.0);
-    1.0 - used / (high - low)
+    (!operation.settings.plunges()).then_some(1.0 - used / (high - low))
 }
 
 fn named(peak: &Peak) -> Named {

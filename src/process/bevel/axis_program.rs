@@ -1,6 +1,6 @@
 //! A program of the six-axis machine, and how it is read.
 
-use super::rolled_axes::AXES;
+use super::course::AXES;
 use crate::gcode::{TimedKnot, TimedProgram, read_timed};
 
 /// Axes at one moment.

@@ -25,7 +25,7 @@
 use super::job::{BevelJob, index};
 use crate::interrupt::Interrupt;
 use crate::output::progress::Progress;
-use gearcut_core::bevel::clearance::RollingHead;
+use gearcut_core::bevel::clearance::HeadInSlot;
 use gearcut_core::cut::{Backend, CutLayers, CutStats, SweptBy, SweptField};
 use gearcut_core::dexel::{Layer, NO_PASS, Ray, SpatialField};
 use gearcut_core::error::{Refusal, Result};
@@ -262,10 +262,10 @@ impl BevelJob {
     /// point, or are hit. Cells are alike, so that one stands for all.
     pub fn neighbours_may_reach(&self, grid: &CellGrid) -> bool {
         let teeth = self.blank.teeth;
-        let heads: Vec<RollingHead> = self
+        let heads: Vec<HeadInSlot> = self
             .operations
             .iter()
-            .map(|operation| RollingHead::new(&operation.as_set, operation.roll_rad, &self.head))
+            .map(|operation| HeadInSlot::new(&operation.as_set, operation.course.range, &self.head))
             .collect();
         let works = [1, teeth - 1].map(|slot| index(slot, teeth).after(&self.gear_from_work).inverse());
         let cleared = |i: usize| {

@@ -42,9 +42,11 @@ pub fn print(sheet: &mut Sheet, job: &BevelJob) -> Result<Vec<Notice>> {
 
 /// The gear in a line.
 pub(super) fn gear_words(job: &BevelJob) -> String {
-    let kind = if job.finishing().settings.blank_offset_mm == 0.0 { "Spiral bevel" } else { "Hypoid" };
+    let settings = &job.finishing().settings;
+    let kind = if settings.blank_offset_mm == 0.0 { "Spiral bevel" } else { "Hypoid" };
+    let not_generated = if settings.plunges() { " that is not generated (Formate)" } else { "" };
     format!(
-        "{kind} gear, {} teeth, outer module {} mm, pitch angle {:.4} deg, face width {} mm",
+        "{kind} gear{not_generated}, {} teeth, outer module {} mm, pitch angle {:.4} deg, face width {} mm",
         job.blank.teeth,
         significant(job.blank.outer_module_mm(), 6),
         job.blank.pitch_angle_rad.to_degrees(),
@@ -103,7 +105,8 @@ fn print_head(sheet: &mut Sheet, job: &BevelJob) {
         "in the work",
         format!("within {:.2} deg to either side of the slot's middle", head.half_window_rad.to_degrees()),
     );
-    sheet.line("ratio of roll", format!("{:.6}", settings.roll.ratio));
+    let ratio = if settings.plunges() { "0: nothing rolls".to_owned() } else { format!("{:.6}", settings.roll.ratio) };
+    sheet.line("ratio of roll", ratio);
     let missed_mm = job.depth_missed_mm();
     let words = if missed_mm > 0.0 { "short of" } else { "beyond" };
     sheet.line("tips stand", format!("{:.4} mm {words} the blank's roots, middle of the face", missed_mm.abs()));

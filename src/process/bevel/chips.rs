@@ -16,7 +16,8 @@
 //!
 //! **Revolution 0.** The head stands at full depth when a roll begins: no plunge is modelled. What the first revolution
 //! of the head takes is what the plunge would have taken, in one go; such passes have volumes, and their thickness and
-//! force say nothing. They are kept apart ([`SlotPass::is_plunge`]).
+//! force say nothing. They are kept apart ([`SlotPass::is_plunge`]). A head that plunges in place of rolling begins
+//! clear of the blank: its first revolution takes nothing.
 //!
 //! The native kernel takes the ledger whatever backend cuts: passes follow one another, and each is too little work for
 //! a device. All slots are alike but for the phase of the blades; one stands for all.
@@ -49,10 +50,10 @@ pub struct SlotPass {
     pub pass: u32,
     /// Blade.
     pub blade: u32,
-    /// Revolution of the head from the beginning of the slot's roll.
+    /// Revolution of the head from the beginning of the slot.
     pub revolution: u32,
-    /// Cradle angle at which the blade stands in the middle of the slot, rad.
-    pub cradle_rad: f64,
+    /// Moment at which the blade stands in the middle of the slot: cradle angle, rad, or place before full depth, mm.
+    pub moment: f64,
     /// Volume, mm3.
     pub volume_mm3: f64,
     /// Largest thickness, mm, and where along the tooth, mm.
@@ -70,7 +71,7 @@ pub struct SlotPass {
 }
 
 impl SlotPass {
-    /// Whether it takes what the plunge would have taken.
+    /// Whether it takes what the plunge before a roll would have taken.
     pub fn is_plunge(&self) -> bool {
         self.revolution == 0
     }
@@ -151,7 +152,7 @@ fn of_pass(job: &BevelJob, slot: u32, chip: &RowChip) -> SlotPass {
         pass: chip.pass,
         blade: set.blade_of(chip.pass).1,
         revolution: (turned_rad / TURN_RAD).max(0.0) as u32,
-        cradle_rad: operation.roll_rad[0] + time_s * operation.cradle_rad_per_s(),
+        moment: operation.course.at(time_s)[0],
         volume_mm3: 0.0,
         thickness_mm: 0.0,
         along_mm: 0.0,

@@ -90,9 +90,10 @@ fn entries(drawn: &Drawn) -> Vec<(&'static str, String)> {
     let of = drawn.settings;
     let mm = |symbol: &str, name: &str, value: f64| format!("{symbol}  {name}: {value:.4} mm");
     let deg = |symbol: &str, name: &str, rad: f64| format!("{symbol}  {name}: {:.4}°", rad.to_degrees());
+    let cradle_angle = if of.plunges() { "cradle angle, at rest" } else { "cradle angle, middle of the roll" };
     vec![
         (CRADLE, mm("S_r", "radial setting", of.radial_setting_mm)),
-        (CRADLE, deg("q", "cradle angle, middle of the roll", of.cradle_angle_rad)),
+        (CRADLE, deg("q", cradle_angle, of.cradle_angle_rad)),
         (HEAD, mm("r_c", "mean cutter radius", drawn.radius_mm)),
         (HEAD, mm("X_D", "sliding base, along z", of.sliding_base_mm)),
         (HEAD, mm("X_B", "cross shift, along x", of.cross_shift_mm)),

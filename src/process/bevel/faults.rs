@@ -22,7 +22,7 @@ const DEPTH_MM: f64 = 0.02;
 /// Exchanging the blades has to bring the pressure angles nearer to the gear's by more than this, both sides together,
 /// to be worth a word, rad: half a degree a side, above what a tilted root plane does.
 const EXCHANGED_RAD: f64 = 1.0 * PI / 180.0;
-/// Cradle angles at which the axes are compared with their travel: they bend little between them.
+/// Moments of a slot at which the axes are compared with their travel: they bend little between them.
 const TRAVEL_STEPS: u32 = 64;
 
 impl BevelJob {
@@ -79,8 +79,9 @@ impl BevelJob {
         found.extend(self.exchanged_blades());
         for operation in &self.operations {
             found.extend(self.beyond_travel(operation));
-            let [from, to] = operation.roll_rad;
-            if from.min(to) > self.needed_rad[0] || from.max(to) < self.needed_rad[1] {
+            let [from, to] = operation.course.range;
+            let is_short = from.min(to) > self.needed_rad[0] || from.max(to) < self.needed_rad[1];
+            if is_short && !settings.plunges() {
                 let [low, high] = self.needed_rad;
                 let [from_deg, to_deg, low_deg, high_deg] =
                     [from, to, low, high].map(|rad| format!("{:.3}", rad.to_degrees()));
@@ -125,11 +126,11 @@ impl BevelJob {
 
     /// Axes that leave the machine's travel while a slot is rolled.
     fn beyond_travel(&self, operation: &PreparedBevel) -> Vec<Notice> {
-        let [from, to] = operation.roll_rad;
+        let [from, to] = operation.course.range;
         let positions: Vec<[f64; 4]> = (0..=TRAVEL_STEPS)
             .map(|i| from + (to - from) * f64::from(i) / f64::from(TRAVEL_STEPS))
-            .map(|cradle_rad| {
-                let axes = self.machine.axes_of_cradle(&operation.settings, cradle_rad);
+            .map(|moment| {
+                let axes = self.machine.axes_of_cradle(&operation.settings, moment);
                 let [x, y, z] = axes.slides_mm.to_array();
                 [x, y, z, axes.swing_rad]
             })
@@ -158,8 +159,6 @@ impl BevelJob {
         let settings = &self.finishing().settings;
         let mean_mm = self.blank.mean_cone_distance_mm();
         let root = self.blank.axial_mm([mean_mm, -self.blank.dedendum_mm(mean_mm)]);
-        // Back from the work to the machine: z of the root's point, which the tips should reach.
-        let (sin, cos) = settings.root_angle_rad.sin_cos();
-        sin * (root.x + settings.center_to_back_mm) - cos * root.y - settings.sliding_base_mm
+        settings.short_of_mm(root)
     }
 }

@@ -11,13 +11,15 @@ use super::job::BevelJob;
 use super::measure;
 use super::motion::AXES;
 use super::net::Position;
+use super::operation::PreparedBevel;
 use super::quantities::{
-    AXIS, BLANK_OFFSET, CENTER_TO_BACK, CRADLE, CUTTER_RADIUS, ERRORS, EXPLAINED, FITS, FLANK_BLADES, FORM, IDLE_SHARE,
-    INFERRED_RADIUS, INFERRED_RATIO, INFERRED_SPIRAL, LARGEST_ERROR, MARK_HEIGHT, MARK_SPACING, MARKS, MISSED_DEPTH,
-    MODIFIED_C, MODIFIED_D, NO_GRID, NO_SLOT, NOTHING_TO_EXPLAIN, ORDER, POSITION, PRESSURE, RADIAL, RADIUS_SOURCE,
-    ROLL_FROM, ROLL_RATIO, ROLL_TO, ROOT_ANGLE, SETTING, SETTING_ERROR, SETTINGS, SLIDING_BASE, SLOT_DEPTH, SLOT_TIME,
-    SLOT_WIDTH, SPIRAL, THICKNESS, UNEXPLAINED, WHOLE_DEPTH,
+    AXIS, BLANK_OFFSET, CENTER_TO_BACK, CRADLE, CUTTER_RADIUS, DWELL, ERRORS, EXPLAINED, FITS, FLANK_BLADES, FORM,
+    IDLE_SHARE, INFEED, INFERRED_RADIUS, INFERRED_RATIO, INFERRED_SPIRAL, LARGEST_ERROR, MARK_HEIGHT, MARK_SPACING,
+    MARKS, MISSED_DEPTH, MODIFIED_C, MODIFIED_D, NO_GRID, NO_MARKS, NO_SLOT, NOTHING_TO_EXPLAIN, ORDER, PLUNGE_WAY,
+    POSITION, PRESSURE, RADIAL, RADIUS_SOURCE, ROLL_FROM, ROLL_RATIO, ROLL_TO, ROOT_ANGLE, SETTING, SETTING_ERROR,
+    SETTINGS, SLIDING_BASE, SLOT_DEPTH, SLOT_TIME, SLOT_WIDTH, SPIRAL, THICKNESS, UNEXPLAINED, WHOLE_DEPTH,
 };
+use super::scene::model::SlotFeed;
 use crate::findings::quantities::cutting::{CYCLE_TIME, IDLE, LINKAGE, NO_MATERIAL, OFFSET, PASSES, STOPPED};
 use crate::findings::{Entry, Findings, Notice, QuantityRow, Section, Table};
 use crate::machine_errors::ErrorLayer;
@@ -97,7 +99,7 @@ fn headline(job: &BevelJob, gear: &BevelGear, measured: &BevelMeasured) -> Vec<E
     let passes = || measured.whole.map(|(_, ledger)| ledger.passes.iter().filter(|pass| !pass.is_plunge()));
     let largest = |value: &dyn Fn(&SlotPass) -> f64| -> Placed {
         let found = passes().ok_or(STOPPED)?.max_by(|a, b| value(a).total_cmp(&value(b))).ok_or(IDLE)?;
-        Ok((value(found), whole::place(found)))
+        Ok((value(found), whole::place(job, found)))
     };
     let force_n = match job.spec.material {
         None => Err(NO_MATERIAL),
@@ -118,8 +120,8 @@ fn headline(job: &BevelJob, gear: &BevelGear, measured: &BevelMeasured) -> Vec<E
         SLOT_DEPTH.of_or(middle.and_then(|row| row.depth_mm), NO_SLOT),
         WHOLE_DEPTH.of_or(middle.map(|row| row.whole_depth_mm), NO_SLOT),
         SLOT_WIDTH.of_or(middle.and_then(|row| row.width_mm), NO_SLOT),
-        IDLE_SHARE.of(idle_share(job, job.finishing())),
     ]);
+    entries.extend(idle_share(job, job.finishing()).map(|share| IDLE_SHARE.of(share)));
     entries
 }
 
@@ -151,29 +153,40 @@ fn operations(job: &BevelJob, motion: &[BevelAxesReport]) -> Result<Section> {
     for (index, report) in motion.iter().enumerate() {
         let operation = report.operation();
         let ids = job.slots.ids(index);
-        let [from_rad, to_rad] = operation.roll_rad;
-        let fits = Table::over(FITS.key, FITS.title, report.fits()?)
+        let fits = report.fits()?;
+        let is_fitted = !fits.is_empty();
+        let fits = Table::over(FITS.key, FITS.title, fits)
             .column(&AXIS, |fit| fit.letter.to_string())
             .column(&ORDER, |fit| fit.order as u32)
             .column(&LARGEST_ERROR, |fit| fit.fit.largest_error);
-        section = section.part(
-            Section::new(&operation.spec.name, format!("Operation {}", operation.spec.name))
-                .entries([
-                    LINKAGE.of(report.linkage_words()),
-                    OFFSET.of(operation.spec.offset_mm),
-                    PASSES.of(ids.end - ids.start),
-                    ROLL_FROM.of(from_rad.to_degrees()),
-                    ROLL_TO.of(to_rad.to_degrees()),
-                    SLOT_TIME.of(operation.cycle_s()),
-                    CYCLE_TIME.of(f64::from(job.blank.teeth) * operation.cycle_s()),
-                    IDLE_SHARE.of(idle_share(job, operation)),
-                ])
-                .table(fits)
-                .part(axes::findings(report))
-                .parts(report.program().map(ProgramUnderTest::section)),
-        );
+        let part = Section::new(&operation.spec.name, format!("Operation {}", operation.spec.name))
+            .entries([
+                LINKAGE.of(report.linkage_words()),
+                OFFSET.of(operation.spec.offset_mm),
+                PASSES.of(ids.end - ids.start),
+            ])
+            .entries(way(operation))
+            .entries([
+                SLOT_TIME.of(operation.cycle_s()),
+                CYCLE_TIME.of(f64::from(job.blank.teeth) * operation.cycle_s()),
+            ])
+            .entries(idle_share(job, operation).map(|share| IDLE_SHARE.of(share)));
+        let part = if is_fitted { part.table(fits) } else { part };
+        section =
+            section.part(part.part(axes::findings(report)).parts(report.program().map(ProgramUnderTest::section)));
     }
     Ok(section)
+}
+
+/// How the head goes through a slot.
+fn way(operation: &PreparedBevel) -> Vec<Entry> {
+    let [from, to] = operation.course.range;
+    match operation.spec.feed {
+        SlotFeed::Roll { .. } => vec![ROLL_FROM.of(from.to_degrees()), ROLL_TO.of(to.to_degrees())],
+        SlotFeed::Plunge { mm_per_turn, .. } => {
+            vec![PLUNGE_WAY.of(to - from), INFEED.of(mm_per_turn), DWELL.of(operation.course.dwell_s)]
+        }
+    }
 }
 
 fn marks(job: &BevelJob) -> Result<Section> {
@@ -183,8 +196,8 @@ fn marks(job: &BevelJob) -> Result<Section> {
         let entries = [
             FLANK_BLADES.of(job.kind_of(side).name()),
             FORM.of(job.kind_of(side).flank()),
-            MARK_HEIGHT.of(marks.height_mm * UM_PER_MM),
-            MARK_SPACING.of(marks.spacing_mm),
+            MARK_HEIGHT.of_or(marks.map(|marks| marks.height_mm * UM_PER_MM), NO_MARKS),
+            MARK_SPACING.of_or(marks.map(|marks| marks.spacing_mm), NO_MARKS),
         ];
         section = section.part(Section::new(side.name(), format!("{} flanks", side.name())).entries(entries));
     }

@@ -1,4 +1,4 @@
-//! G-code for the six-axis machine: written from the roll of an operation over all slots, and read back.
+//! G-code for the six-axis machine: written from the motion of an operation over all slots, and read back.
 //!
 //! In: a prepared operation and the **contour error**, the largest displacement of the blades' tips in the work that
 //! straight lines may cause. Out: a text, and from any such text the axes at every moment
@@ -11,7 +11,7 @@
 //! | B | swing of the work | deg |
 //!
 //! Every block is a straight line in all axes in inverse time (`G93`). Between slots the head withdraws along Z, the
-//! cradle angle goes back and the work is indexed in one block, and the head comes in again; together they take the
+//! axes go back and the work is indexed in one block, and the head comes in again; together they take the
 //! operation's idle time. The head itself turns at the speed that the program's head says.
 
 mod judge;
@@ -21,7 +21,7 @@ pub use super::axis_program::{BevelKnot, BevelProgram};
 pub use judge::judged;
 
 use super::job::BevelJob;
-use super::motion::{AXES, RollMotion, limits};
+use super::motion::{AXES, SlotMotion, limits};
 use super::operation::PreparedBevel;
 use crate::findings::Notice;
 use crate::gcode::{AxisColumn, Script, StraightLine};
@@ -36,24 +36,26 @@ pub fn text(job: &BevelJob, operation: &PreparedBevel, warnings: &[Notice]) -> O
 }
 
 fn linear(job: &BevelJob, operation: &PreparedBevel, warnings: &[Notice]) -> Result<String, String> {
-    let motion = RollMotion { job, operation };
+    let motion = SlotMotion { job, operation };
     let asked_mm = job.scene.output.gcode_contour_error_mm;
     let program = BevelProgram::fit(&motion, asked_mm);
     let (reached_mm, time_s) = program.contour_error_mm(&motion);
     if reached_mm > asked_mm {
         return Err(format!(
             "the shortest blocks leave a contour error of {} um at {time_s:.3} s, {} um are asked; ask for no less, or \
-             lower roll_speed_deg_per_s",
+             lower {}",
             significant(reached_mm * UM_PER_MM, 3),
-            plain(asked_mm * UM_PER_MM)
+            plain(asked_mm * UM_PER_MM),
+            operation.spec.feed.key()
         ));
     }
     if let Some(first) = crate::machine::peaks(&motion, &limits(job)).iter().find(|peak| peak.exceeds_its_limit()) {
         return Err(format!(
-            "the {} reaches {} {unit}, the machine allows {} {unit}; lower roll_speed_deg_per_s",
+            "the {} reaches {} {unit}, the machine allows {} {unit}; lower {}",
             first.name(),
             significant(first.shown(), 4),
             significant(first.shown_limit().unwrap_or_default(), 4),
+            operation.spec.feed.key(),
             unit = first.unit()
         ));
     }

@@ -35,7 +35,7 @@ impl BevelJob {
     /// How deep blades go below the flanks of a tooth while slots are cut that stand so many spaces beside its own.
     ///
     /// # Errors
-    /// A place that the roll does not generate.
+    /// A place that the head does not cut.
     pub fn deepest_cut(&self, side: Side, spaces: &[u32]) -> Result<DeepestCut> {
         let (teeth, own) = (self.blank.teeth, self.space_of(1, side));
         let even = |count: usize, i: usize| i as f64 / (count - 1) as f64;
@@ -71,7 +71,7 @@ impl BevelJob {
     /// A head that hits the next tooth.
     ///
     /// # Errors
-    /// A place that the roll does not generate.
+    /// A place that the head does not cut.
     pub fn next_tooth_warning(&self) -> Result<Option<Notice>> {
         let DeepestCut { depth_mm, side, at_mm } = self.deepest_of_sides(&[1, self.blank.teeth - 1])?;
         // A ray that goes through a thin tooth meets the slot beyond it, which its own blades cut: no hit where bounds
@@ -87,7 +87,7 @@ impl BevelJob {
     /// stand out and a machine with errors are meant to leave the target, and are no undercut.
     ///
     /// # Errors
-    /// A place that the roll does not generate.
+    /// A place that the head does not cut.
     pub fn undercut_warning(&self) -> Result<Option<Notice>> {
         if self.spec.settings.errors.iter().any(|(_, error)| *error != 0.0) {
             return Ok(None);

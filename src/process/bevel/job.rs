@@ -8,10 +8,11 @@
 //! j - 1 and j, counter-clockwise. The paper's work frame has its x axis along -z; where it stands about it follows
 //! from the generated flanks. Which blades cut left flanks follows from them, too.
 
-use super::actual::{ActualRoll, SlotMoment};
+use super::actual::{ActualSlot, SlotMoment};
 use super::axis_program::read;
+use super::course::SlotCourse;
 use super::operation::PreparedBevel;
-use super::scene::model::Bevel;
+use super::scene::model::{Bevel, BevelOperation, SlotFeed};
 use super::slots::Slots;
 use crate::gcode::read_file;
 use crate::machine_errors::refuse_fast_noise;
@@ -32,6 +33,8 @@ use glam::{DMat3, DVec3};
 use std::f64::consts::PI;
 use std::sync::OnceLock;
 
+/// Turns of the head before it can meet the blank at which a plunge begins: the first turn's blades end within.
+const CLEAR_TURNS: f64 = 1.5;
 /// Cradle angle that is rolled beyond what the flanks need, at either end, where the scene does not name the roll: some
 /// twenty marks of each kind of blade at usual speeds.
 pub const ROLL_MARGIN_RAD: f64 = 3.0 * PI / 180.0;
@@ -45,8 +48,8 @@ const ROLL_PLACES: usize = 9;
 const WINDOW_STEP_RAD: f64 = 0.005;
 /// What the window is wider than the widest contact found, rad: the steps, and the roll between those looked at.
 const WINDOW_MARGIN_RAD: f64 = 0.03;
-/// Cradle angles at which the head is compared with the blank.
-const WINDOW_ROLLS: u32 = 25;
+/// Moments of a slot at which the head is compared with the blank.
+const WINDOW_POSES: u32 = 25;
 
 /// Rays of both targets in space 0, row after row, with the height of the blank's surface on each, mm.
 pub(super) type KeptRays = [Vec<(Ray, f32)>; 2];
@@ -70,7 +73,7 @@ pub struct BevelJob {
     pub operations: Vec<PreparedBevel>,
     /// Target flanks of space 0 in the work frame, cut by outside and inside blades.
     pub target: [BevelFlank; 2],
-    /// Cradle angles between which the target's flanks are generated, rad.
+    /// Cradle angles between which the target's flanks are cut, rad.
     pub needed_rad: [f64; 2],
     /// Angle about the head's axis, tool frame, at which blades stand in the middle of the slot, rad.
     pub middle_rad: f64,
@@ -115,10 +118,7 @@ impl BevelJob {
                     spec: operation.clone(),
                     settings: held_back(operation.offset_mm),
                     as_set: with_errors(spec, &held_back(operation.offset_mm)),
-                    roll_rad: [
-                        operation.roll_rad[0].unwrap_or(needed_rad[0] - ROLL_MARGIN_RAD),
-                        operation.roll_rad[1].unwrap_or(needed_rad[1] + ROLL_MARGIN_RAD),
-                    ],
+                    course: course(operation, &held_back(operation.offset_mm), &blank, needed_rad),
                     start_s,
                     program: operation.program.as_deref().map(|path| read_file(path, read)).transpose()?,
                 };
@@ -138,19 +138,18 @@ impl BevelJob {
             let names = ["x", "y", "z", "work", "swing"];
             refuse_fast_noise(spec.errors.axes.iter().zip(names), operation.spec.head_speed_rad_per_s / TURN_RAD)?;
         }
-        let actual = operations.iter().map(|operation| {
-            let program = operation.program.as_ref();
-            ActualRoll::new(&spec.errors, spec.head.mounting, machine, (operation.commanded(), program), middle_z_mm)
-        });
-        let actual: Vec<ActualRoll> = actual.collect();
+        let actual = operations
+            .iter()
+            .map(|operation| ActualSlot::new(&spec.errors, spec.head.mounting, machine, operation, middle_z_mm));
+        let actual: Vec<ActualSlot> = actual.collect();
         let slots = Slots::new(
             &operations,
             &head,
             (spec.head.start_angle_rad, blank.teeth),
-            &|operation, slot, cradle_rad, tool_rad| {
+            &|operation, slot, time_s, tool_rad| {
                 let index = index(slot, blank.teeth);
                 let indexed_rad = TURN_RAD * f64::from(slot) / f64::from(blank.teeth);
-                let moment = SlotMoment { slot, indexed_rad, cradle_rad, tool_rad };
+                let moment = SlotMoment { slot, indexed_rad, time_s, tool_rad };
                 actual[operation].gear_from_head(&moment, &gear_from_work, &index, &towards_work)
             },
         )?;
@@ -242,7 +241,37 @@ fn with_errors(spec: &Bevel, settings: &CradleSettings) -> CradleSettings {
     spec.settings.errors.iter().fold(*settings, |settings, (setting, error)| setting.off_by(*error, &settings))
 }
 
-/// Cradle angles between which both flanks are generated, and the angle about the head's axis in their middle.
+/// A slot's motion.
+fn course(
+    operation: &BevelOperation,
+    settings: &CradleSettings,
+    blank: &BevelBlank,
+    needed_rad: [f64; 2],
+) -> SlotCourse {
+    match operation.feed {
+        SlotFeed::Roll { rad_per_s, ends_rad } => {
+            let from = ends_rad[0].unwrap_or(needed_rad[0] - ROLL_MARGIN_RAD);
+            let to = ends_rad[1].unwrap_or(needed_rad[1] + ROLL_MARGIN_RAD);
+            SlotCourse { range: [from, to], per_s: rad_per_s * (to - from).signum(), dwell_s: 0.0 }
+        }
+        SlotFeed::Plunge { mm_per_turn, dwell_revolutions } => {
+            let turns_per_s = operation.head_speed_rad_per_s / TURN_RAD;
+            let way_mm = deepest_mm(settings, blank) + CLEAR_TURNS * mm_per_turn;
+            let per_s = mm_per_turn * turns_per_s;
+            SlotCourse { range: [-way_mm, 0.0], per_s, dwell_s: dwell_revolutions / turns_per_s }
+        }
+    }
+}
+
+/// How deep the plane of the tips stands in the blank at most, mm.
+fn deepest_mm(settings: &CradleSettings, blank: &BevelBlank) -> f64 {
+    let heel_mm = blank.outer_cone_distance_mm;
+    let tips =
+        [heel_mm - blank.face_width_mm, heel_mm].map(|distance_mm| [distance_mm, blank.addendum_mm(distance_mm)]);
+    tips.into_iter().map(|tip| -settings.short_of_mm(blank.axial_mm(tip))).fold(0.0, f64::max)
+}
+
+/// Cradle angles between which both flanks are cut, and the angle about the head's axis in their middle.
 fn needed_roll(target: &[BevelFlank; 2]) -> Result<([f64; 2], f64), Refusal> {
     let mut needed = [f64::INFINITY, f64::NEG_INFINITY];
     let mut middle_rad = 0.0;
@@ -267,10 +296,10 @@ fn half_window_rad(
     blank: &BevelBlank,
     middle_rad: f64,
 ) -> Result<f64, Refusal> {
-    let [from, to] = operation.roll_rad;
-    let poses: Vec<Rigid3> = (0..WINDOW_ROLLS)
-        .map(|i| from + (to - from) * f64::from(i) / f64::from(WINDOW_ROLLS - 1))
-        .map(|cradle_rad| operation.as_set.work_from_tool(cradle_rad))
+    let [from, to] = operation.course.range;
+    let poses: Vec<Rigid3> = (0..WINDOW_POSES)
+        .map(|i| from + (to - from) * f64::from(i) / f64::from(WINDOW_POSES - 1))
+        .map(|moment| operation.as_set.work_from_tool(moment))
         .collect();
     let surfaces = BladeKind::BOTH.map(|kind| head.surface(kind));
     let inside = |off_rad: f64| {

@@ -234,16 +234,20 @@ pub fn explained(job: &BevelJob, flank: &BevelReport) -> Result<Option<Vec<Expla
 
 /// Marks of the blades of one kind on a side of the teeth, in the middle of the flank: blades of the kind follow each
 /// other every dq of the cradle. A point between two of them is passed dq / 2 beside its moment, where the cone stands
-/// over it; and the moments of generation q over the flank put their lines dq / |grad q| apart.
+/// over it; and the moments of generation q over the flank put their lines dq / |grad q| apart. A head that plunges
+/// leaves none: at full depth all blades of a kind sweep the same cone.
 ///
 /// # Errors
 /// The flank has no middle.
-pub fn marks(job: &BevelJob, side: Side) -> Result<MarkForm, Refusal> {
+pub fn marks(job: &BevelJob, side: Side) -> Result<Option<MarkForm>, Refusal> {
     let (target, operation) = (job.target_of(side), job.finishing());
+    if operation.settings.plunges() {
+        return Ok(None);
+    }
     let kind = job.kind_of(side);
     let of_kind = (0..job.head.blades()).filter(|&blade| FaceMill::kind_of(blade) == kind).count();
     let period_s = TAU / operation.spec.head_speed_rad_per_s / of_kind as f64;
-    let step_rad = operation.spec.roll_speed_rad_per_s * period_s;
+    let step_rad = operation.course.per_s.abs() * period_s;
     let middle = target.row(0.0)?.point(0.5)?;
     let height = |sign: f64| target.envelope.beyond_mm(middle.point_mm, middle.cradle_rad + sign * 0.5 * step_rad);
     let share_step = PLACE_STEP_MM / target.length_mm();
@@ -254,5 +258,6 @@ pub fn marks(job: &BevelJob, side: Side) -> Result<MarkForm, Refusal> {
     let (aa, ab, bb) = (a.dot(a), a.dot(b), b.dot(b));
     let determinant = aa * bb - ab * ab;
     let gradient = ((q_a * bb - q_b * ab) * a + (q_b * aa - q_a * ab) * b) / determinant;
-    Ok(MarkForm { spacing_mm: step_rad / gradient.length(), height_mm: 0.5 * (height(1.0) + height(-1.0)) })
+    let height_mm = 0.5 * (height(1.0) + height(-1.0));
+    Ok(Some(MarkForm { spacing_mm: step_rad / gradient.length(), height_mm }))
 }

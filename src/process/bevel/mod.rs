@@ -1,4 +1,4 @@
-//! Spiral bevel gears cut with a face-mill head on a machine that generates them.
+//! Spiral bevel gears cut with a face-mill head on a machine that generates them, or plunges the head into each slot.
 //!
 //! The physics is that of [`gearcut_core::bevel`]: blank, head, machines, the flank that they generate. Here are
 //! scenes, the passes of the head's blades over all slots, flank fields, measures, files and the page.
@@ -10,6 +10,7 @@ pub mod blank;
 pub mod body;
 mod check;
 pub mod chips;
+pub mod course;
 pub mod drawing;
 mod faults;
 pub mod findings;
@@ -25,7 +26,6 @@ pub mod operation;
 pub mod pair;
 pub mod quantities;
 mod report;
-mod rolled_axes;
 mod run;
 pub mod scene;
 pub mod slots;

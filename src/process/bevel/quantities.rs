@@ -7,6 +7,8 @@ use crate::findings::{QuantityGroup, rows};
 
 /// No slot.
 pub const NO_SLOT: &str = "the slot behind tooth 1 was not cut as a whole";
+/// No marks.
+pub const NO_MARKS: &str = "the head plunges: all blades of a kind sweep the same cone";
 /// No place of a flank.
 pub const NO_GRID: &str = "a point of the grid was not cut";
 /// No setting that explains.
@@ -57,14 +59,14 @@ rows! {
     SETTINGS: "settings", "Settings of the machine", "settings";
 
     RADIAL: "radial_setting", "mm", "distance of the head's axis from the cradle's" => symbol("S_r");
-    CRADLE: "cradle_angle", "deg", "cradle angle in the middle of the roll" => symbol("q");
+    CRADLE: "cradle_angle", "deg", "cradle angle in the middle of the roll, or where the cradle rests" => symbol("q");
     BLANK_OFFSET: "blank_offset", "mm", "offset of the work's axis from the cradle's" => symbol("E_m");
     SLIDING_BASE: "sliding_base", "mm", "shift along the cradle's axis, offsets of operations included"
         => symbol("X_b");
     CENTER_TO_BACK: "center_to_back", "mm", "advance of the work along its axis, machine centre to back"
         => symbol("X_p");
     ROOT_ANGLE: "root_angle", "deg", "machine root angle" => symbol("gamma_m");
-    ROLL_RATIO: "roll_ratio", "1", "work angle per cradle angle" => symbol("R_a");
+    ROLL_RATIO: "roll_ratio", "1", "work angle per cradle angle; 0 where nothing rolls" => symbol("R_a");
     CUTTER_RADIUS: "cutter_radius", "mm", "mean cutter radius in use" => symbol("r_c");
     RADIUS_SOURCE: "cutter_radius_source", "", "origin of the cutter radius";
     INFERRED_RADIUS: "inferred_radius", "mm", "radius of the circle that the settings lead through the mean point";
@@ -82,7 +84,10 @@ rows! {
 
     ROLL_FROM: "roll_from", "deg", "cradle angle at which a slot begins";
     ROLL_TO: "roll_to", "deg", "cradle angle at which a slot ends";
-    SLOT_TIME: "slot_time", "s", "roll and idle time of one slot" => titled("time for a slot"), shown();
+    PLUNGE_WAY: "plunge_way", "mm", "way of a plunging head along its axis, from clear of the blank to full depth";
+    INFEED: "infeed", "mm", "way of a plunging head for each of its turns" => titled("infeed for a turn");
+    DWELL: "dwell", "s", "time of a plunging head at full depth";
+    SLOT_TIME: "slot_time", "s", "roll or plunge and idle time of one slot" => titled("time for a slot"), shown();
 }
 
 rows! {
@@ -102,9 +107,11 @@ rows! {
     FORM: "form", "", "form of the flanks along the tooth";
     MARK_HEIGHT: "height", "um",
         "height of the cone over its envelope half a period of the blades beside the moment of generation, middle of \
-         the flank";
+         the flank"
+        => or(&[NO_MARKS]);
     MARK_SPACING: "spacing", "mm",
-        "cradle angle from blade to blade of the kind over the gradient of the moment of generation";
+        "cradle angle from blade to blade of the kind over the gradient of the moment of generation"
+        => or(&[NO_MARKS]);
 }
 
 rows! {
@@ -201,12 +208,14 @@ rows! {
         => or(&[IDLE]);
     LARGEST_POWER: "largest_power", "W", "largest cutting force of a blade times the speed of its tip"
         => symbol("P"), or(&[IDLE]);
-    MEAN_POWER: "mean_power", "W", "work of all blades over the time of the roll"
-        => titled("mean power while a slot is rolled"), shown();
+    MEAN_POWER: "mean_power", "W", "work of all blades over the time of a slot's motion"
+        => titled("mean power while a slot is cut"), shown();
     BLADE_WORK: "work", "J", "work of the blade in the slot" => symbol("W"), or(&[NO_MATERIAL]);
     PASS: "pass", "1", "number of the pass";
-    REVOLUTION: "revolution", "1", "revolution of the head in the roll; 0 is in place of the plunge";
+    REVOLUTION: "revolution", "1", "revolution of the head in the slot; 0 is in place of the plunge before a roll";
     PASS_ANGLE: "cradle_angle", "deg", "cradle angle while the blade is in the middle of the slot";
+    PASS_DEPTH: "depth", "mm",
+        "place of the plunging head before full depth while the blade is in the middle of the slot";
     THICKEST_ALONG: "along", "mm",
         "place of the thickest chip along the tooth, from the middle of the face to the heel";
 }

@@ -53,16 +53,11 @@ pub fn page(
     run: &RunWords,
     folder: &OutputFolder,
 ) -> Result<Page> {
-    let mut sections = vec![deviations(job, gear, found), slot(gear, found), blades(found)];
+    let mut sections = vec![deviations(job, gear, found), slot(gear, found), blades(job, found)];
     sections.extend(machine_errors::section(found));
-    sections.extend(chips(found, charts));
+    sections.extend(chips(job, found, charts));
     sections.extend(texture::section(found, folder)?);
-    sections.push(axes::section(
-        motion,
-        found,
-        "How the six-axis machine moves while one slot is rolled.",
-        "Axis speeds",
-    ));
+    sections.push(axes::section(motion, found, "How the six-axis machine moves while one slot is cut.", "Axis speeds"));
     sections.push(setup(job, found));
     sections.push(files::section(folder)?);
     sections.push(record(gear.flanks.len(), &gear.work, run));
@@ -75,7 +70,7 @@ pub fn page(
 }
 
 /// Nothing where the run was stopped before.
-fn chips(found: &Findings, (bars, lines): ChipCharts) -> Option<PageSection> {
+fn chips(job: &BevelJob, found: &Findings, (bars, lines): ChipCharts) -> Option<PageSection> {
     let blank = found.group(&BODY)?;
     let number = |row: &QuantityRow| blank.value(row).map_or_else(|| "–".to_owned(), |value| significant(value, 5));
     let mut blocks: Vec<Block> = lines.into_iter().map(|(_, chart)| Block::Lines(chart)).collect();
@@ -91,7 +86,7 @@ fn chips(found: &Findings, (bars, lines): ChipCharts) -> Option<PageSection> {
             mm³ of its blank left. {}",
             number(&LEFT_VOLUME),
             number(&BLANK_VOLUME),
-            page_words()
+            page_words(job)
         ),
         blocks,
     )
@@ -208,7 +203,7 @@ fn slot(gear: &BevelGear, found: &Findings) -> PageSection {
     .judged(Tone::Aside, headline_words(found, &[&SLOT_DEPTH, &SLOT_WIDTH]))
 }
 
-fn blades(found: &Findings) -> PageSection {
+fn blades(job: &BevelJob, found: &Findings) -> PageSection {
     let rows = found.group(&MARKS).into_iter().flat_map(|marks| &marks.sections).map(|side| {
         let number = |row: &QuantityRow| side.value(row).map_or_else(|| "–".to_owned(), |value| significant(value, 3));
         vec![
@@ -240,13 +235,12 @@ fn blades(found: &Findings) -> PageSection {
                 .collect(),
         })
     }));
-    PageSection::new(
-        "blades",
-        "Blades and their marks",
-        "Blades of one kind follow each other while the cradle rolls; between two of them a ridge stays.",
-        blocks,
-    )
-    .judged(Tone::Aside, "marks by blade")
+    let words = if job.finishing().settings.plunges() {
+        "At full depth all blades of a kind sweep the same cone: between two of them no ridge stays."
+    } else {
+        "Blades of one kind follow each other while the cradle rolls; between two of them a ridge stays."
+    };
+    PageSection::new("blades", "Blades and their marks", words, blocks).judged(Tone::Aside, "marks by blade")
 }
 
 fn setup(job: &BevelJob, found: &Findings) -> PageSection {

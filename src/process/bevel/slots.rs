@@ -1,12 +1,12 @@
 //! Passes of the head's blades over all slots of all operations.
 //!
-//! In: operations with their rolls, the head, the pose of the head in the gear. Out: one set of passes for every slot,
-//! with ids that grow in the order of cutting: operation by operation, slot 0, 1, 2 and so on.
+//! In: operations with their motion through a slot, the head, the pose of the head in the gear. Out: one set of passes
+//! for every slot, with ids that grow in the order of cutting: operation by operation, slot 0, 1, 2 and so on.
 //!
 //! The head turns on while the machine withdraws, rolls back and indexes, so that each slot begins with the blades at
-//! another angle: tau0(j) = start + omega j T, T the time from slot to slot. During a slot's roll the cradle angle is
-//! q = q_from + (tau - tau0) dq/dt / omega. Every blade passes that points to the work within that time, those of the
-//! turns that the roll begins or ends in the middle of among them.
+//! another angle: tau0(j) = start + omega j T, T the time from slot to slot. The time in a slot is (tau - tau0) /
+//! omega. Every blade passes that points to the work within that time, those of the turns that the slot begins or ends
+//! in the middle of among them.
 
 use super::axis_program::BevelKnot;
 use super::operation::PreparedBevel;
@@ -26,8 +26,8 @@ pub struct Slots {
     slots: usize,
 }
 
-/// Pose of the head in the gear for an operation (by its place), a slot, a cradle angle and the angle that the head has
-/// turned, rad; the head's x axis looks at the slot.
+/// Pose of the head in the gear for an operation (by its place), a slot, a time from its beginning, s, and the angle
+/// that the head has turned, rad; the head's x axis looks at the slot.
 pub type HeadPose<'a> = &'a (dyn Fn(usize, u32, f64, f64) -> Rigid3 + Sync);
 
 impl Slots {
@@ -52,25 +52,26 @@ impl Slots {
                 let speed = operation.spec.head_speed_rad_per_s;
                 let turned = start_rad + speed * operation.cycle_s() * f64::from(slot);
                 let from = turned.rem_euclid(TURN_RAD);
-                let to = from + speed * operation.roll_s();
-                let cradle_rad =
-                    |tool_rad: f64| operation.roll_rad[0] + (tool_rad - from) * operation.cradle_rad_per_s() / speed;
+                let to = from + speed * operation.course.slot_s();
                 let beyond = head.half_window_rad;
                 let start_s = operation.cycle_s() * f64::from(slot);
                 let at = |knot: &BevelKnot| from + speed * (knot.time_s - start_s);
-                let corners: Vec<f64> = operation.program.iter().flat_map(|program| &program.knots).map(at).collect();
+                let of_program = operation.program.iter().flat_map(|program| &program.knots).map(at);
+                let of_course = operation.course.pieces_s().into_iter().skip(1).map(|piece| from + speed * piece[0]);
+                let corners: Vec<f64> = of_program.chain(of_course).collect();
                 let motion = MotionTable::new([from - beyond, to + beyond], &corners, |tool_rad| {
-                    gear_from_head(number, slot, cradle_rad(tool_rad), tool_rad).inverse()
+                    gear_from_head(number, slot, (tool_rad - from) / speed, tool_rad).inverse()
                 });
                 Ok(TurningPasses::new(0, &tool, 1.0, motion)?.with_parts_of_turns())
             })
             .collect::<Result<_, Refusal>>()?;
         let passes: u64 = sets.iter().map(|set| u64::from(set.count())).sum();
         if passes >= u64::from(u32::MAX) {
+            let key = operations[0].spec.feed.key();
             return Err(Refusal::new(
-                "operation.roll_speed_deg_per_s",
+                &format!("operation.{key}"),
                 format!("{passes} passes are more than can be numbered"),
-                "roll faster or use fewer blades",
+                format!("use a larger {key} or fewer blades"),
             ));
         }
         let mut first_pass = 0;

@@ -146,8 +146,9 @@ impl GearJob for BevelJob {
         self.slots.count()
     }
 
-    fn marks_follow_along_tooth(&self, _operation: usize) -> bool {
-        true // the marks of blades lean across the flank
+    /// Marks of blades lean across the flank; a head that plunges leaves none.
+    fn marks_follow(&self, operation: usize) -> [bool; 2] {
+        [!self.operations[operation].settings.plunges(); 2]
     }
 
     fn profile_length_mm(&self, _tooth: u32, side: Side) -> Result<f64> {

@@ -51,8 +51,8 @@ impl GearJob for HobCutter<'_> {
         self.operations.last().map_or(0, gearcut_core::passes::TurningPasses::end_pass)
     }
 
-    fn marks_follow_along_tooth(&self, _operation: usize) -> bool {
-        true // every hob tooth cuts a facet that ends along the tooth, too
+    fn marks_follow(&self, _operation: usize) -> [bool; 2] {
+        [true; 2] // every hob tooth cuts a facet that ends along the tooth, too
     }
 
     /// Next to each other stand what two gashes leave at the pitch line and what one hob tooth leaves in two turns of

@@ -84,12 +84,12 @@ fn the_uncut_ring_has_the_volume_of_its_section() {
 fn is_swept(job: &BevelJob, point_mm: DVec3) -> bool {
     const STEPS: u32 = 300;
     let operation = job.finishing();
-    let [from, to] = operation.roll_rad;
+    let [from, to] = operation.course.range;
     let in_work = job.gear_from_work.inverse().point(point_mm);
     let [outside, inside] = BladeKind::BOTH.map(|kind| job.head.surface(kind));
     (0..=STEPS).any(|i| {
-        let cradle_rad = from + (to - from) * f64::from(i) / f64::from(STEPS);
-        let at = operation.as_set.work_from_tool(cradle_rad).inverse().point(in_work);
+        let moment = from + (to - from) * f64::from(i) / f64::from(STEPS);
+        let at = operation.as_set.work_from_tool(moment).inverse().point(in_work);
         let (radius_mm, height_mm) = (at.truncate().length(), -at.z);
         (0.0..=job.head.blade_height_mm).contains(&height_mm)
             && radius_mm < outside.point_radius_mm + height_mm * outside.blade_angle_rad.tan()
@@ -101,7 +101,7 @@ fn is_swept(job: &BevelJob, point_mm: DVec3) -> bool {
 #[test]
 fn a_slot_has_the_volume_of_the_points_that_the_head_sweeps() {
     const POINTS: u32 = 12_000;
-    for scene in ["five_linkage_corrected", "crown_pinion"] {
+    for scene in ["five_linkage_corrected", "crown_pinion", "formate"] {
         let job = coarse(scene, &["tool.face_mill.corner_radius_mm=0", "tool.face_mill.runouts_um=[]"]);
         let grid = CellGrid::of_scene(&job).expect("rays");
         let (layers, _) = job.cut_cell(&Cpu::default(), &grid, 0, false).expect("cuts");
@@ -200,11 +200,11 @@ fn blades_beyond_the_window_take_nothing() {
         let job = coarse(scene, &["operation.finish.roll_speed_deg_per_s=10", "fields.blank.spacing_mm=0.4"]);
         let cut = |half_window_rad: f64, row: usize| {
             let head = FaceMill { half_window_rad, ..job.head.clone() };
-            let pose = |operation: usize, slot: u32, cradle_rad: f64, _: f64| {
+            let pose = |operation: usize, slot: u32, time_s: f64, _: f64| {
                 let operation = &job.operations[operation];
                 let to_work = DMat3::from_rotation_z(job.middle_rad);
                 let to_work = Rigid3 { rotation: to_work, translation_mm: DVec3::ZERO };
-                let pose = operation.as_set.work_from_tool(cradle_rad).after(&to_work);
+                let pose = operation.as_set.work_from_tool(operation.course.at(time_s)[0]).after(&to_work);
                 index(slot, job.blank.teeth).after(&job.gear_from_work).after(&pose)
             };
             let slots = Slots::new(&job.operations, &head, (0.0, job.blank.teeth), &pose).expect("passes");

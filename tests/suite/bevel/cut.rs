@@ -2,7 +2,7 @@
 //! all passes; the device against the native backend.
 
 use super::jobs::job;
-use crate::fixtures::layers::{frames_apart_mm, same_but_for_frames};
+use crate::fixtures::layers::{frames_apart_mm, same_but_for_frames, same_heights_but_for_frames};
 use gearcut::bevel::ease_off::Setting;
 use gearcut::cut::Backend;
 use gearcut::cut::cpu::Cpu;
@@ -61,7 +61,7 @@ fn heights_mm(layer: &Layer) -> impl Iterator<Item = f64> + '_ {
 fn marks_have_their_height_and_go_down_to_the_target() {
     let job = job("five_linkage_printed", &[FAST]).expect("a gear");
     for side in SIDES {
-        let MarkForm { spacing_mm, height_mm } = measure::marks(&job, side).expect("marks");
+        let MarkForm { spacing_mm, height_mm } = measure::marks(&job, side).expect("a flank").expect("marks");
         // Two marks wide and high, in steps of a fiftieth of a mark.
         let rays = patch(&job, 5, side, [120, 120], [0.02 * spacing_mm; 2]);
         let layer = finished(&job, 5, side, &rays);
@@ -88,7 +88,7 @@ fn marks_have_their_height_and_go_down_to_the_target() {
 fn marks_are_no_higher_where_the_roll_begins_and_ends() {
     let job = job("five_linkage_printed", &[FAST]).expect("a gear");
     for side in SIDES {
-        let height_mm = measure::marks(&job, side).expect("marks").height_mm;
+        let height_mm = measure::marks(&job, side).expect("a flank").expect("marks").height_mm;
         let [length_mm, half_mm] = [job.target_of(side).length_mm(), 0.5 * job.blank.face_width_mm];
         for tooth in [1, 14, 27, 40, 55] {
             let arcs_mm = (0..12).map(|i| length_mm * f64::from(i) / 11.0).collect();
@@ -109,7 +109,7 @@ fn a_modified_roll_is_cut_as_its_target_says() {
     let [even, job] =
         [&[FAST][..], &[&modified[..], &[FAST]].concat()].map(|set| job("five_linkage_printed", set).expect("a gear"));
     for side in SIDES {
-        let MarkForm { spacing_mm, .. } = measure::marks(&job, side).expect("marks");
+        let MarkForm { spacing_mm, .. } = measure::marks(&job, side).expect("a flank").expect("marks");
         let (mut lowest_mm, mut farthest_mm) = (f64::INFINITY, 0.0_f64);
         for (along_mm, share) in [(-15.0, 0.2), (0.0, 0.5), (15.0, 0.8)] {
             let arc_mm = share * job.target_of(side).length_mm();
@@ -147,7 +147,7 @@ fn marks_are_as_far_apart_as_their_closed_form() {
         let ((a, n_a), (b, n_b)) = (marks([800, 1], [0.0025, 1.0]), marks([1, 800], [1.0, 0.01]));
         let (aa, ab, bb) = (a.dot(a), a.dot(b), b.dot(b));
         let per_mm = ((n_a * bb - n_b * ab) * a + (n_b * aa - n_a * ab) * b) / (aa * bb - ab * ab);
-        let share = 1.0 / per_mm.length() / measure::marks(&job, side).expect("marks").spacing_mm;
+        let share = 1.0 / per_mm.length() / measure::marks(&job, side).expect("a flank").expect("marks").spacing_mm;
         println!("{side:?}: {n_a} and {n_b} marks, {share} of the closed form");
         // The distance changes by some per cent over the lines.
         assert!((share - 1.0).abs() < 0.05, "{side:?}: {share}");
@@ -212,10 +212,14 @@ fn slots_are_as_deep_as_the_tips_stand() {
 
 #[test]
 fn candidates_and_all_passes_leave_the_same_flank() {
-    let job = job("five_linkage_corrected", &[FAST]).expect("a gear");
-    for (tooth, side) in [(1, Side::Left), (31, Side::Right)] {
-        let rays = patch(&job, tooth, side, [40, 80], [0.12, 0.4]);
-        for operation in 0..2 {
+    let formate = job("formate", &[]).expect("a gear");
+    let rolled = job("five_linkage_corrected", &[FAST]).expect("a gear");
+    for (job, tooth, side) in
+        [(&rolled, 1, Side::Left), (&rolled, 31, Side::Right), (&formate, 1, Side::Left), (&formate, 31, Side::Right)]
+    {
+        // On the face of both.
+        let rays = patch(job, tooth, side, [40, 80], [0.12, 0.3]);
+        for operation in 0..job.operations.len() {
             let set = job.slots.of(operation, job.space_of(tooth, side));
             let plans =
                 [SweepPlan::new, SweepPlan::brute_force, SweepPlan::in_tiles].map(|plan| plan(&rays.field, set));
@@ -228,7 +232,10 @@ fn candidates_and_all_passes_leave_the_same_flank() {
                 layer
             });
             assert!(layer == all, "tooth {tooth} {side:?}, operation {operation}");
-            same_but_for_frames(&format!("tooth {tooth} {side:?}"), &in_tiles, &all, apart_mm);
+            // Blades that plunge leave one surface during the dwell.
+            let is_rolled = !job.operations[operation].settings.plunges();
+            let same = if is_rolled { same_but_for_frames } else { same_heights_but_for_frames };
+            same(&format!("tooth {tooth} {side:?}"), &in_tiles, &all, apart_mm);
             assert!(layer != rays.field.blank_layer());
         }
     }
@@ -255,6 +262,14 @@ fn the_device_cuts_the_same_flanks() {
     /// What the shaders add at most, nm, as with other face-mill heads: 1.11 measured.
     const SWEPT_NM: f64 = 2.0;
     let gpu = software_gpu(strict());
+    let formate = job("formate", &[]).expect("a gear");
+    for (tooth, side) in [(1, Side::Left), (40, Side::Right)] {
+        let rays = patch(&formate, tooth, side, [32, 64], [0.1, 0.3]);
+        let plan = SweepPlan::new(&rays.field, formate.slots.of(0, formate.space_of(tooth, side)));
+        let (parity, _, _, _) = cut_both_in_space(&gpu, &format!("Formate, tooth {tooth}"), &rays.field, &plan);
+        println!("{parity}");
+        assert_eq!(parity.verdict_within(SWEPT_NM), Ok(()));
+    }
     let job = job("five_linkage_corrected", &[FAST]).expect("a gear");
     for (tooth, side) in [(1, Side::Left), (40, Side::Right)] {
         let rays = patch(&job, tooth, side, [32, 64], [0.15, 0.5]);

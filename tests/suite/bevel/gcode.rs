@@ -5,7 +5,7 @@ use gearcut::bevel::five_axis::SixAxes;
 use gearcut::process::bevel::axis_program::read;
 use gearcut::process::bevel::gcode;
 use gearcut::process::bevel::job::index;
-use gearcut::process::bevel::motion::RollMotion;
+use gearcut::process::bevel::motion::SlotMotion;
 use glam::DVec3;
 
 #[test]
@@ -14,8 +14,8 @@ fn a_program_read_back_moves_the_head_as_the_cradle_does() {
     let operation = job.finishing();
     let text = gcode::text(&job, operation, &[]).expect("wanted").expect("a program");
     let program = read(&text).expect("it reads");
-    let motion = RollMotion { job: &job, operation };
-    let end_s = 61.0 * operation.cycle_s() + operation.roll_s();
+    let motion = SlotMotion { job: &job, operation };
+    let end_s = 61.0 * operation.cycle_s() + operation.course.slot_s();
     let last = program.knots[program.knots.len() - 1];
     assert!((last.time_s - end_s).abs() < 1e-3, "{} of {end_s} s", last.time_s);
     // The middle of the blades' circle that is in the work, in the frame of the machine's slides.
@@ -25,7 +25,7 @@ fn a_program_read_back_moves_the_head_as_the_cradle_does() {
     };
     for slot in [0, 1, 40] {
         for i in 0..=50 {
-            let time_s = operation.roll_s() * f64::from(i) / 50.0;
+            let time_s = operation.course.slot_s() * f64::from(i) / 50.0;
             let cradle_rad = motion.cradle_rad(time_s);
             let settled = operation.settings.work_from_tool(cradle_rad);
             let in_tool = job.head.radius_mm * DVec3::new(job.middle_rad.cos(), job.middle_rad.sin(), 0.0);
@@ -38,7 +38,7 @@ fn a_program_read_back_moves_the_head_as_the_cradle_does() {
         }
     }
     // Between slots the head is clear of the blank.
-    let between = program.at(operation.roll_s() + 0.5 * operation.spec.idle_s);
+    let between = program.at(operation.course.slot_s() + 0.5 * operation.spec.idle_s);
     assert!(motion.positions(0.0)[2] - between[2] > job.blank.outer_addendum_mm + job.blank.outer_dedendum_mm);
 }
 

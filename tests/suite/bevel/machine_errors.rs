@@ -90,8 +90,7 @@ fn errors_are_their_closed_forms() {
             place.turned(15.0 * ARCSEC_RAD * (work_rad + indexed).sin())
         },
     );
-    let work_rad_per_s =
-        |place: &Place| finishing.as_set.work_angle(place.cradle_rad)[1] * finishing.cradle_rad_per_s();
+    let work_rad_per_s = |place: &Place| finishing.as_set.work_angle(place.cradle_rad)[1] * finishing.course.per_s;
     case("lag of the work spindle", &["machine.errors.work.velocity_gain_per_s=600"], 3.0, &|place| {
         place.turned(-work_rad_per_s(place) / 600.0)
     });
@@ -108,13 +107,13 @@ fn errors_are_their_closed_forms() {
         &["machine.errors.seed=6", "machine.errors.z.noise_um=3", "machine.errors.z.noise_bandwidth_hz=1e-3"],
         1.0,
         &|place| {
-            let passed_s = (place.cradle_rad - finishing.roll_rad[0]) / finishing.cradle_rad_per_s();
+            let passed_s = (place.cradle_rad - finishing.course.range[0]) / finishing.course.per_s;
             let time_s = f64::from(place.slot) * finishing.cycle_s() + passed_s;
             noise.at(time_s, 0) * place.along_head.dot(place.normal)
         },
     );
     case("drift of the slide along the head", &["machine.errors.z.drift_um_per_h=60"], 1.0, &|place| {
-        let passed_s = (place.cradle_rad - finishing.roll_rad[0]) / finishing.cradle_rad_per_s();
+        let passed_s = (place.cradle_rad - finishing.course.range[0]) / finishing.course.per_s;
         let time_s = f64::from(place.slot) * finishing.cycle_s() + passed_s;
         60e-3 / 3600.0 * time_s * place.along_head.dot(place.normal)
     });

@@ -6,6 +6,7 @@ mod command;
 mod contact;
 mod cut;
 mod drawing;
+mod formate;
 mod gcode;
 mod jobs;
 mod machine_errors;

@@ -35,7 +35,7 @@ fn matrices_and_axes() {
             sliding_base_mm: 0.0,
             center_to_back_mm: of("X_p"),
             root_angle_rad: of("gamma_m"),
-            roll: Roll::default(),
+            roll: Roll { ratio: 1.0, ..Roll::default() },
         };
         let pose = settings.work_from_tool_at(of("q"), of("phi_G"));
         for row in 0..3 {

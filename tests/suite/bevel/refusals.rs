@@ -11,7 +11,7 @@ const PRINTED: &str = "five_linkage_printed";
 #[test]
 fn what_cannot_be_cut_is_refused_with_numbers() {
     for (setting, words) in [
-        ("machine.cradle.radial_setting_mm=20", &["cone distance", "generate no flank"][..]),
+        ("machine.cradle.radial_setting_mm=20", &["cone distance", "make no flank"][..]),
         ("gear.bevel.face_angle_deg=75.0", &["face angle", "75.0000 deg", "77.5833 to 90"]),
         ("gear.face_width_mm=140", &["face width", "140 mm reaches the apex", "132.3"]),
         ("tool.face_mill.tip_width_mm=0.9", &["0.9 mm wide", "a slot of 2 mm", "use 1 to 2 mm"]),

@@ -7,7 +7,7 @@ use gearcut::gear::PitchCurveShape;
 use gearcut::process;
 use gearcut::process::bevel::BevelJob;
 use gearcut::process::bevel::gcode::{self as bevel_gcode, BevelKnot, BevelProgram};
-use gearcut::process::bevel::motion::RollMotion;
+use gearcut::process::bevel::motion::SlotMotion;
 use gearcut::process::hobbing::HobbingJob;
 use gearcut::process::hobbing::commanded::HobbingKnot;
 use gearcut::process::hobbing::gcode::{Gearbox, HobbingProgram, texts};
@@ -205,11 +205,11 @@ fn programs_of_bevel_gears_move_the_axes_on_every_control() {
             axes: [at[&'X'], at[&'Y'], at[&'Z'], at[&'A'].to_radians(), at[&'B'].to_radians()],
         };
         let program = BevelProgram { knots: done.path.iter().map(knot).collect() };
-        let (reached_mm, at_s) = program.contour_error_mm(&RollMotion { job: &job, operation });
+        let (reached_mm, at_s) = program.contour_error_mm(&SlotMotion { job: &job, operation });
         // The slides move with less than 50 mm/s.
         let asked_mm = 1e-3 + 50.0 * 60.0 * doubt_minutes(post) + 1e-5;
         assert!(reached_mm <= asked_mm, "{post:?}: {reached_mm} mm at {at_s} s, asked {asked_mm}");
-        let end_s = 61.0 * operation.cycle_s() + operation.roll_s();
+        let end_s = 61.0 * operation.cycle_s() + operation.course.slot_s();
         let last_s = program.knots[program.knots.len() - 1].time_s;
         assert!((last_s - end_s).abs() < 60.0 * doubt_minutes(post) + 1e-3, "{post:?}: {last_s} of {end_s} s");
         keeps_clear(post, &done, 'Z', |z| z < done.path[0].1[&'Z'] - 5.0);

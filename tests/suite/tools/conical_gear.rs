@@ -130,8 +130,8 @@ impl GearJob for ConicalJob {
         self.passes.end_pass()
     }
 
-    fn marks_follow_along_tooth(&self, _operation: usize) -> bool {
-        false
+    fn marks_follow(&self, _operation: usize) -> [bool; 2] {
+        [false, true]
     }
 
     fn profile_length_mm(&self, _tooth: u32, _side: Side) -> Result<f64> {

@@ -1,14 +1,14 @@
-//! Whether a head that rolls through one slot stays clear of a place in the work, wherever its blades stand.
+//! Whether a head on its way through one slot stays clear of a place in the work, wherever its blades stand.
 //!
-//! In: settings, roll, head, and a straight piece in the work. Out: clear, or perhaps not.
+//! In: settings, moments of the slot, head, and a straight piece in the work. Out: clear, or perhaps not.
 //!
 //! **Law.** All blades stay in a ring: from the plane of the tips to the blades' height, inside the cone of the outside
 //! blades and outside that of the inside ones, both wider by the largest runout. A ball is clear of the ring where its
 //! centre stands beyond one of the four by more than its radius. While the cradle turns from q - h to q + h the centre
 //! moves in the head's frame by v h at most, v the sum of two circles: the cradle's arm, and the work's radius times
-//! the rate of roll. A piece and a roll that are not clear by this are halved, the larger one first, down to
-//! `FINEST_MM`. Every step is a bound: what is said to be clear is clear. What stands nearer than that to the ring is
-//! said to be in it.
+//! the rate of roll; while the head plunges it moves by the way itself. A piece and a range of moments that are not
+//! clear by this are halved, the larger one first, down to `FINEST_MM`. Every step is a bound: what is said to be clear
+//! is clear. What stands nearer than that to the ring is said to be in it.
 
 use super::cradle::CradleSettings;
 use super::face_mill::{BladeKind, FaceMill};
@@ -19,9 +19,10 @@ const FINEST_MM: f64 = 0.02;
 
 /// A head on its way through a slot.
 #[derive(Debug, Clone, PartialEq)]
-pub struct RollingHead {
+pub struct HeadInSlot {
     settings: CradleSettings,
-    roll_rad: [f64; 2],
+    /// First and last moment of the slot.
+    range: [f64; 2],
     /// Radius in the plane of the tips, mm, sine and cosine of the angle of the outer and of the inner cone.
     cones: [[f64; 3]; 2],
     blade_height_mm: f64,
@@ -29,9 +30,9 @@ pub struct RollingHead {
     rate: f64,
 }
 
-impl RollingHead {
-    /// Of a head and its roll.
-    pub fn new(settings: &CradleSettings, roll_rad: [f64; 2], head: &FaceMill) -> Self {
+impl HeadInSlot {
+    /// Of a head and the ends of its way through a slot ([`CradleSettings::at`]).
+    pub fn new(settings: &CradleSettings, [from, to]: [f64; 2], head: &FaceMill) -> Self {
         let runout_mm = head.runouts_mm.iter().fold(0.0_f64, |most, runout| most.max(runout.abs()));
         let [outside, inside] = head.blade_angles_rad;
         // Backs lean half as much as the other side of their blade.
@@ -40,50 +41,53 @@ impl RollingHead {
             [head.surface(kind).point_radius_mm + kind.sign() * runout_mm, sin, cos]
         };
         let roll = settings.roll;
-        let farthest = roll_rad.map(|q| (q - settings.cradle_angle_rad).abs()).into_iter().fold(0.0, f64::max);
+        let farthest = [from, to].map(|q| (q - settings.cradle_angle_rad).abs()).into_iter().fold(0.0, f64::max);
         let bend = 2.0 * roll.second_order_per_rad.abs() + 3.0 * roll.third_order_per_rad2.abs() * farthest;
         Self {
             settings: *settings,
-            roll_rad: [roll_rad[0].min(roll_rad[1]), roll_rad[0].max(roll_rad[1])],
+            range: [from.min(to), from.max(to)],
             cones: [cone(BladeKind::Outside, outside, inside), cone(BladeKind::Inside, inside, outside)],
             blade_height_mm: head.blade_height_mm,
             rate: roll.ratio.abs() * (1.0 + bend * farthest),
         }
     }
 
-    /// Whether a straight piece in the work (work frame, mm) stays clear of all blades during the whole roll.
+    /// Whether a straight piece in the work (work frame, mm) stays clear of all blades during the whole slot.
     pub fn clears(&self, ends_mm: [DVec3; 2]) -> bool {
-        self.clears_during(ends_mm, self.roll_rad)
+        self.clears_during(ends_mm, self.range)
     }
 
-    fn clears_during(&self, [from_mm, to_mm]: [DVec3; 2], [from_rad, to_rad]: [f64; 2]) -> bool {
-        let (middle_mm, middle_rad) = (0.5 * (from_mm + to_mm), 0.5 * (from_rad + to_rad));
+    fn clears_during(&self, [from_mm, to_mm]: [DVec3; 2], [from, to]: [f64; 2]) -> bool {
+        let (middle_mm, middle) = (0.5 * (from_mm + to_mm), 0.5 * (from + to));
         let radius_mm = 0.5 * from_mm.distance(to_mm);
-        let moved_mm = 0.5 * (to_rad - from_rad) * self.fastest_mm(middle_mm);
-        if self.beyond_mm(middle_mm, middle_rad) > radius_mm + moved_mm {
+        let moved_mm = 0.5 * (to - from) * self.fastest_mm(middle_mm);
+        if self.beyond_mm(middle_mm, middle) > radius_mm + moved_mm {
             return true;
         }
         if radius_mm.max(moved_mm) < FINEST_MM {
             return false;
         }
         let halves = if radius_mm > moved_mm {
-            [([from_mm, middle_mm], [from_rad, to_rad]), ([middle_mm, to_mm], [from_rad, to_rad])]
+            [([from_mm, middle_mm], [from, to]), ([middle_mm, to_mm], [from, to])]
         } else {
-            [([from_mm, to_mm], [from_rad, middle_rad]), ([from_mm, to_mm], [middle_rad, to_rad])]
+            [([from_mm, to_mm], [from, middle]), ([from_mm, to_mm], [middle, to])]
         };
-        halves.into_iter().all(|(ends_mm, roll_rad)| self.clears_during(ends_mm, roll_rad))
+        halves.into_iter().all(|(ends_mm, range)| self.clears_during(ends_mm, range))
     }
 
-    /// How fast a point of the work moves in the head's frame at most, mm per radian of the cradle.
+    /// How fast a point of the work moves in the head's frame at most, mm per unit of the moment.
     fn fastest_mm(&self, at_mm: DVec3) -> f64 {
+        if self.settings.plunges() {
+            return 1.0;
+        }
         let CradleSettings { blank_offset_mm, cross_shift_mm, center_to_back_mm, .. } = self.settings;
         let arm_mm = at_mm.length() + blank_offset_mm.abs() + cross_shift_mm.abs() + center_to_back_mm.abs();
         arm_mm + self.rate * at_mm.yz().length()
     }
 
-    /// How far a point of the work stands outside the ring of the blades at a cradle angle, mm; 0 or less inside.
-    fn beyond_mm(&self, at_mm: DVec3, cradle_rad: f64) -> f64 {
-        let at = self.settings.work_from_tool(cradle_rad).inverse().point(at_mm);
+    /// How far a point of the work stands outside the ring of the blades at a moment, mm; 0 or less inside.
+    fn beyond_mm(&self, at_mm: DVec3, moment: f64) -> f64 {
+        let at = self.settings.work_from_tool(moment).inverse().point(at_mm);
         let out_mm = at.xy().length();
         let [[outer_mm, outer_sin, outer_cos], [inner_mm, inner_sin, inner_cos]] = self.cones;
         let outside = (out_mm - outer_mm) * outer_cos + at.z * outer_sin;
@@ -128,7 +132,7 @@ mod tests {
     #[test]
     fn pieces_that_the_ring_comes_to_are_never_clear() {
         let roll_rad = [0.7, 1.4];
-        let rolling = RollingHead::new(&settings(), roll_rad, &head());
+        let rolling = HeadInSlot::new(&settings(), roll_rad, &head());
         let (mut clear, mut swept) = (0, 0);
         for i in 0..600 {
             let share = |step: f64| (f64::from(i) * step + 0.5).fract();

@@ -92,22 +92,22 @@ struct BevelTouch {
     closing_mm: f64,
     /// The point, gear frame, mm.
     point_mm: DVec3,
-    /// Angles of head and cradle at which gear and pinion are generated there, rad.
-    generated_rad: [[f64; 2]; 2],
+    /// Coordinates of the place on the envelopes of gear and pinion.
+    coordinates: [[f64; 2]; 2],
 }
 
 /// Where a search for a touch begins.
 #[derive(Clone, Copy)]
 struct TouchStart {
     gear_rad: f64,
-    /// Angles of head and cradle of gear and pinion near the place, where they are known.
-    generated_rad: Option<[[f64; 2]; 2]>,
+    /// Coordinates near the place on the envelopes of gear and pinion, where they are known.
+    coordinates: Option<[[f64; 2]; 2]>,
 }
 
 impl BevelTouch {
     /// A beginning for places beside this one.
     fn near(&self) -> TouchStart {
-        TouchStart { gear_rad: self.gear_rad, generated_rad: Some(self.generated_rad) }
+        TouchStart { gear_rad: self.gear_rad, coordinates: Some(self.coordinates) }
     }
 }
 
@@ -117,12 +117,12 @@ struct FlankGap {
     open_mm: f64,
     /// How fast that falls with the gear's angle, mm.
     closing_mm: f64,
-    /// Angles of head and cradle at which the pinion is generated there, rad.
-    generated_rad: [f64; 2],
+    /// Coordinates of the place on the pinion's envelope.
+    coordinates: [f64; 2],
 }
 
 impl BevelPair {
-    /// Angles of pinion and gear at which the middles of both flanks were generated: near these they touch there.
+    /// Angles of pinion and gear at which the middles of both flanks were cut: near these they touch there.
     ///
     /// # Errors
     /// A flank without a middle.
@@ -162,7 +162,7 @@ impl BevelPair {
     fn touch(&self, place_mm: DVec2, pinion_rad: f64, near: TouchStart) -> Result<Option<BevelTouch>, NotConverged> {
         let gear = &self.gear;
         let distance_mm = gear.blank.mean_cone_distance_mm() + place_mm.x;
-        let [on_gear, mut on_pinion] = match near.generated_rad {
+        let [on_gear, mut on_pinion] = match near.coordinates {
             Some([on_gear, on_pinion]) => [Some(on_gear), Some(on_pinion)],
             None => [None, None],
         };
@@ -175,19 +175,19 @@ impl BevelPair {
             };
             let step_rad = gap.open_mm / gap.closing_mm;
             let to = if step_rad.is_finite() { gear_rad + step_rad } else { f64::NAN };
-            on_pinion = Some(gap.generated_rad);
+            on_pinion = Some(gap.coordinates);
             if step_rad.abs() >= LAST_STEP_RAD || step_rad.is_nan() {
                 return ControlFlow::Continue(Step { to, residual: gap.open_mm });
             }
-            let generated_rad = [[point.head_rad, point.cradle_rad], gap.generated_rad];
+            let coordinates = [point.coordinates, gap.coordinates];
             let (closing_mm, point_mm) = (gap.closing_mm, point.point_mm);
-            ControlFlow::Break(Some(BevelTouch { gear_rad: to, closing_mm, point_mm, generated_rad }))
+            ControlFlow::Break(Some(BevelTouch { gear_rad: to, closing_mm, point_mm, coordinates }))
         };
         iterate("the angle at which a point of the gear touches the pinion", near.gear_rad, MOST_STEPS, turned)
     }
 
-    /// A point of the gear (work frame, mm) beside the pinion at angles of pinion and gear; `start` are angles at which
-    /// the pinion is generated near it. `None` where the pinion has no flank.
+    /// A point of the gear (work frame, mm) beside the pinion at angles of pinion and gear; `start` are coordinates of
+    /// the pinion's envelope near it. `None` where the pinion has no flank.
     fn gap(&self, point_mm: DVec3, [pinion_rad, gear_rad]: [f64; 2], start: Option<[f64; 2]>) -> Option<FlankGap> {
         let pinion = &self.pinion;
         let pinion_from_mount = self.mount_from_pinion(pinion_rad).inverse();
@@ -205,7 +205,7 @@ impl BevelPair {
         Some(FlankGap {
             open_mm: arc * DVec3::X.cross(at_mm).dot(on.normal),
             closing_mm: -axis.cross(at_mm - apex_mm).dot(on.normal),
-            generated_rad: [on.head_rad, on.cradle_rad],
+            coordinates: on.coordinates,
         })
     }
 
@@ -217,7 +217,7 @@ impl BevelPair {
             let row = self.gear.row(along_mm).ok()?;
             Some([row.form_height_mm, row.tip_height_mm])
         };
-        let far = TouchStart { gear_rad: start_rad, generated_rad: None };
+        let far = TouchStart { gear_rad: start_rad, coordinates: None };
         let mut best: Option<(DVec2, BevelTouch)> = None;
         let mut turn = 0.0;
         for i in 0..PLACES[0] {

@@ -1,6 +1,10 @@
-//! The cradle machine: its settings under their usual names, and the tool's pose in the work while the cradle rolls.
+//! The cradle machine: its settings under their usual names, and the tool's pose in the work while a slot is cut.
 //!
-//! In: settings and the cradle angle. Out: pose and velocity of the tool in the work (frames: [`super`]).
+//! In: settings and a moment of the slot. Out: pose and velocity of the tool in the work (frames: [`super`]).
+//!
+//! **Moment.** One number says where the machine is in a slot. Where the gear is generated it is the cradle angle, rad.
+//! A gear that is not generated (Formate) has a ratio of roll of 0: cradle and work rest, the sliding base brings the
+//! head in, and the moment is how far the head stands beyond its full depth, mm: negative on the way, 0 at the end.
 //!
 //! Source: Chen, Yan, Ming and Xie (2008), Eq. 6, which this pose equals entry by entry; for the sliding base along the
 //! cradle's axis, the modified roll and the names Litvin and Zhang, NASA CR-4342 (1991). The paper draws X_B along the
@@ -11,7 +15,7 @@
 //! (envelope, axes, passes); only [`CradleSettings::motion`] would have to know it.
 
 use crate::frame::{Rigid3, RigidMotion3};
-use glam::{DMat3, DVec3};
+use glam::{DMat3, DVec2, DVec3};
 
 /// Settings of a cradle machine; mm and rad.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -34,11 +38,20 @@ pub struct CradleSettings {
     pub roll: Roll,
 }
 
+/// Where the machine is at a moment of a slot.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CradleMoment {
+    /// Settings with the sliding base of the moment.
+    pub settings: CradleSettings,
+    /// Cradle angle, rad.
+    pub cradle_rad: f64,
+}
+
 /// Work angle over cradle angle: A(q) = A(q0) + R_a (d - C d^2 - D d^3), d = q - q0, q0 the cradle angle at the middle
 /// of the roll. C and D are Litvin's coefficients of modified roll; with both 0 the ratio is the same all the time.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Roll {
-    /// Ratio of roll R_a: work angle per cradle angle at the middle of the roll.
+    /// Ratio of roll R_a: work angle per cradle angle at the middle of the roll; 0 where nothing rolls.
     pub ratio: f64,
     /// C, 1/rad.
     pub second_order_per_rad: f64,
@@ -47,6 +60,28 @@ pub struct Roll {
 }
 
 impl CradleSettings {
+    /// Whether nothing rolls: the head plunges into each slot, and flanks are its cones (Formate).
+    pub fn plunges(&self) -> bool {
+        self.roll.ratio == 0.0
+    }
+
+    /// Where the machine is at a moment of a slot.
+    pub fn at(&self, moment: f64) -> CradleMoment {
+        if self.plunges() {
+            let settings = Self { sliding_base_mm: self.sliding_base_mm + moment, ..*self };
+            CradleMoment { settings, cradle_rad: self.cradle_angle_rad }
+        } else {
+            CradleMoment { settings: *self, cradle_rad: moment }
+        }
+    }
+
+    /// How far the plane of the tips at full depth stands short of a place of the axial section (along the work's axis
+    /// and away from it, mm) on the head's side, along the cradle's axis; negative where it stands beyond.
+    pub fn short_of_mm(&self, axial_mm: DVec2) -> f64 {
+        let (sin, cos) = self.root_angle_rad.sin_cos();
+        sin * (axial_mm.x + self.center_to_back_mm) - cos * axial_mm.y - self.sliding_base_mm
+    }
+
     /// Work angle A and its rate dA/dq at a cradle angle; A is R_a q where the roll is not modified.
     pub fn work_angle(&self, cradle_rad: f64) -> [f64; 2] {
         let Roll { ratio, second_order_per_rad: c, third_order_per_rad2: d } = self.roll;
@@ -81,16 +116,22 @@ impl CradleSettings {
         turn.after(&still).after(&self.machine_from_tool(cradle_rad))
     }
 
-    /// Pose of the tool in the work while the cradle rolls.
-    pub fn work_from_tool(&self, cradle_rad: f64) -> Rigid3 {
-        self.work_from_tool_at(cradle_rad, self.work_angle(cradle_rad)[0])
+    /// Pose of the tool in the work at a moment of a slot.
+    pub fn work_from_tool(&self, moment: f64) -> Rigid3 {
+        let CradleMoment { settings, cradle_rad } = self.at(moment);
+        settings.work_from_tool_at(cradle_rad, settings.work_angle(cradle_rad)[0])
     }
 
-    /// The same with its velocity where the cradle turns by one radian per second.
-    pub fn motion(&self, cradle_rad: f64) -> RigidMotion3 {
+    /// The same with its velocity where the moment grows by one per second.
+    pub fn motion(&self, moment: f64) -> RigidMotion3 {
+        let cradle_rad = self.at(moment).cradle_rad;
         let [work_rad, rate] = self.work_angle(cradle_rad);
-        let pose = self.work_from_tool_at(cradle_rad, work_rad);
+        let pose = self.work_from_tool(moment);
         let work_from_machine = DMat3::from_rotation_x(-work_rad) * DMat3::from_rotation_y(self.root_angle_rad);
+        if self.plunges() {
+            let velocity_mm_per_s = work_from_machine * DVec3::Z;
+            return RigidMotion3 { pose, velocity_mm_per_s, angular_velocity_rad_per_s: DVec3::ZERO };
+        }
         let (sin, cos) = cradle_rad.sin_cos();
         let turn = -rate * DVec3::X;
         let swing = self.radial_setting_mm * DVec3::new(-sin, cos, 0.0);
@@ -119,11 +160,14 @@ mod tests {
             roll: Roll { ratio: 1.08, second_order_per_rad: 0.03, third_order_per_rad2: -0.2 },
         };
         let (q, h, at) = (1.02, 1e-5, DVec3::new(40.0, -81.0, -3.0));
-        let motion = settings.motion(q);
-        let moved = |q: f64| settings.work_from_tool(q).point(at);
-        let wanted = (moved(q + h) - moved(q - h)) / (2.0 * h);
-        let got = motion.velocity_at(motion.pose.point(at));
-        assert!(got.distance(wanted) < 1e-6, "{got} not {wanted}");
+        let formate = CradleSettings { roll: Roll::default(), ..settings };
+        for (settings, moment) in [(settings, q), (formate, -2.0)] {
+            let motion = settings.motion(moment);
+            let moved = |moment: f64| settings.work_from_tool(moment).point(at);
+            let wanted = (moved(moment + h) - moved(moment - h)) / (2.0 * h);
+            let got = motion.velocity_at(motion.pose.point(at));
+            assert!(got.distance(wanted) < 1e-6, "{got} not {wanted}");
+        }
         // The rest of the third derivative at the step, and rounding: what a wrong sign would leave is 1e8 times
         // larger.
         let [before, rate] = settings.work_angle(q);

@@ -39,12 +39,13 @@ const LENGTH_STEP_MM: f64 = 0.01;
 const ANGLE_STEP_RAD: f64 = 1e-4;
 const RATIO_STEP: f64 = 1e-4;
 
-/// A setting whose error may explain deviations. The cradle angle is none of them: where the roll is even, the head on
-/// another place of the cradle cuts the same slot at another angle of the work.
+/// A setting whose error may explain deviations ([`Setting::acts_on`]).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Setting {
     /// S_r, mm.
     Radial,
+    /// q, rad.
+    CradleAngle,
     /// E_m, mm.
     BlankOffset,
     /// Sliding base, mm.
@@ -70,13 +71,31 @@ pub struct Explained {
 
 impl Setting {
     /// All of them.
-    pub const ALL: [Self; 6] =
-        [Self::Radial, Self::BlankOffset, Self::SlidingBase, Self::CenterToBack, Self::RootAngle, Self::RollRatio];
+    pub const ALL: [Self; 7] = [
+        Self::Radial,
+        Self::CradleAngle,
+        Self::BlankOffset,
+        Self::SlidingBase,
+        Self::CenterToBack,
+        Self::RootAngle,
+        Self::RollRatio,
+    ];
+
+    /// Whether its error changes a flank. Where the roll is even, the head on another place of the cradle cuts the same
+    /// slot at another angle of the work; where nothing rolls there is no ratio.
+    pub fn acts_on(self, settings: &CradleSettings) -> bool {
+        match self {
+            Self::CradleAngle => settings.plunges(),
+            Self::RollRatio => !settings.plunges(),
+            _ => true,
+        }
+    }
 
     /// Its usual name.
     pub fn name(self) -> &'static str {
         match self {
             Self::Radial => "radial setting",
+            Self::CradleAngle => "cradle angle",
             Self::BlankOffset => "blank offset",
             Self::SlidingBase => "sliding base",
             Self::CenterToBack => "machine centre to back",
@@ -87,7 +106,7 @@ impl Setting {
 
     /// Whether it is an angle, rad.
     pub fn is_angle(self) -> bool {
-        self == Self::RootAngle
+        matches!(self, Self::CradleAngle | Self::RootAngle)
     }
 
     fn step(self) -> f64 {
@@ -103,6 +122,7 @@ impl Setting {
         let mut off = *settings;
         match self {
             Self::Radial => off.radial_setting_mm += error,
+            Self::CradleAngle => off.cradle_angle_rad += error,
             Self::BlankOffset => off.blank_offset_mm += error,
             Self::SlidingBase => off.sliding_base_mm += error,
             Self::CenterToBack => off.center_to_back_mm += error,
@@ -125,7 +145,7 @@ pub fn distance_mm(at: &FlankPoint, other: &Envelope, blank: &BevelBlank, turn_r
         let point_mm = at.point_mm + height_mm * at.normal;
         let [distance_mm, over_mm] = blank.cone_distance_and_height_mm(point_mm);
         let found = other.find(blank, distance_mm, OnFlank::Height(over_mm), start)?;
-        start = [found.head_rad, found.cradle_rad];
+        start = found.coordinates;
         let [own, others] = [point_mm, found.point_mm].map(|p| p.z.atan2(p.y));
         let radius_mm = point_mm.with_x(0.0).length();
         let along = DVec3::new(0.0, -own.sin(), own.cos());
@@ -209,7 +229,7 @@ pub fn explain(
 ) -> Result<Vec<Explained>, Refusal> {
     let settled = levelled(flank, shares, along_mm, measured_mm)?;
     let mut found = Vec::new();
-    for setting in Setting::ALL {
+    for setting in Setting::ALL.into_iter().filter(|setting| setting.acts_on(&flank.envelope.settings)) {
         let step = setting.step();
         let envelope = Envelope { settings: setting.off_by(step, &flank.envelope.settings), ..flank.envelope };
         let shape = ease_off_mm(flank, &envelope, shares, along_mm)?;

@@ -1,6 +1,6 @@
 //! The envelope of a cutting surface over the roll: where the head leaves the flank in the limit of many blades.
 //!
-//! In: settings of the machine and a cutting surface. Out: points and normals of the generated flank.
+//! In: settings of the machine and a cutting surface. Out: points and normals of the flank.
 //!
 //! **Law.** A point of the surface is on the envelope in the moment when its normal is square to its velocity in the
 //! work. Along a straight edge the normal n is the same, and the velocity v + w x r is linear in the place u on the
@@ -8,6 +8,9 @@
 //! left are two unknowns, the angle theta about the head's axis and the cradle angle q, for the two coordinates that a
 //! point of the flank is asked for by; Newton's method finds them to rounding. The fillet, made by the round of the
 //! corner, is nobody's target: rays through the blank show it.
+//!
+//! **No roll.** The flank of a head that plunges is its cone at full depth: every shallower cone lies within it. The
+//! unknowns are then theta and the place u on the edge, counted in radii of the cone, so that both are of one size.
 //!
 //! Source: Litvin and Fuentes, Gear Geometry and Applied Theory (2004), chapters 6 and 22.
 
@@ -17,8 +20,8 @@ use super::face_mill::CuttingSurface;
 use crate::error::NotConverged;
 use glam::{DVec2, DVec3};
 
-/// A step of theta and q as small as this is the last, rad: the error after it is of its square times the difference
-/// quotients' share.
+/// A step of both coordinates as small as this is the last, rad: the error after it is of its square times the
+/// difference quotients' share.
 const LAST_STEP_RAD: f64 = 1e-11;
 /// Step of the difference quotients, rad; the steps that they give are off by a share of about as much.
 const DIFFERENCE_RAD: f64 = 1e-6;
@@ -27,7 +30,7 @@ const LARGEST_STEP_RAD: f64 = 0.1;
 /// Steps at most; from the guess of [`Envelope::guess`] it takes four to eight.
 const MOST_STEPS: u32 = 60;
 
-/// A cutting surface and the roll that it goes through.
+/// A cutting surface and the machine that leads it through a slot.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Envelope {
     /// The machine.
@@ -36,7 +39,7 @@ pub struct Envelope {
     pub surface: CuttingSurface,
 }
 
-/// A point of the generated flank, work frame.
+/// A point of the flank, work frame.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FlankPoint {
     /// The point, mm.
@@ -45,10 +48,12 @@ pub struct FlankPoint {
     pub normal: DVec3,
     /// Angle about the head's axis, tool frame, rad.
     pub head_rad: f64,
-    /// Cradle angle at which it is generated, rad.
+    /// Cradle angle at which it is cut, rad.
     pub cradle_rad: f64,
     /// Place on the cutting edge from the plane of the tips, mm.
     pub edge_mm: f64,
+    /// Its coordinates in [`Envelope::at`].
+    pub coordinates: [f64; 2],
 }
 
 /// What fixes a point on a flank beside its cone distance.
@@ -61,22 +66,28 @@ pub enum OnFlank {
 }
 
 impl Envelope {
-    /// Point of the envelope that belongs to an angle about the head's axis and a cradle angle.
-    pub fn at(&self, head_rad: f64, cradle_rad: f64) -> FlankPoint {
-        let motion = self.settings.motion(cradle_rad);
-        let pose = motion.pose;
-        let from_work = pose.rotation.transpose();
-        let v = from_work * motion.velocity_mm_per_s;
-        let w = from_work * motion.angular_velocity_rad_per_s;
+    /// Point of the flank that belongs to an angle about the head's axis, rad, and to the cradle angle at which it is
+    /// generated, rad; without roll to the place on the edge in radii of the cone at the tips.
+    pub fn at(&self, head_rad: f64, second: f64) -> FlankPoint {
         let (normal, start_mm) = (self.surface.normal(head_rad), self.surface.point_mm(head_rad, 0.0));
         let along = self.surface.edge_direction(head_rad);
-        let edge_mm = -normal.dot(v + w.cross(start_mm)) / normal.dot(w.cross(along));
+        let (pose, cradle_rad, edge_mm) = if self.settings.plunges() {
+            let pose = self.settings.work_from_tool(0.0);
+            (pose, self.settings.cradle_angle_rad, second * self.surface.point_radius_mm)
+        } else {
+            let motion = self.settings.motion(second);
+            let from_work = motion.pose.rotation.transpose();
+            let v = from_work * motion.velocity_mm_per_s;
+            let w = from_work * motion.angular_velocity_rad_per_s;
+            (motion.pose, second, -normal.dot(v + w.cross(start_mm)) / normal.dot(w.cross(along)))
+        };
         FlankPoint {
             point_mm: pose.point(start_mm + edge_mm * along),
             normal: pose.direction(normal),
             head_rad,
             cradle_rad,
             edge_mm,
+            coordinates: [head_rad, second],
         }
     }
 
@@ -88,22 +99,22 @@ impl Envelope {
         (self.surface.point_mm(head_rad, 0.0) - in_tool).dot(self.surface.normal(head_rad))
     }
 
-    /// Angles about the head's axis and of the cradle near which a point at a cone distance is generated, rad: where
-    /// the circle of the points, seen along the cradle's axis, crosses the circle of the cone distance, at the moment
-    /// when that crossing lies on the line along which the head touches the root cone.
+    /// Coordinates of a point near the flank at a cone distance: where the circle of the points, seen along the
+    /// cradle's axis, crosses the circle of the cone distance, at the moment when that crossing lies on the line along
+    /// which the head touches the root cone; without roll on the circle itself.
     pub fn guess(&self, cone_distance_mm: f64) -> [f64; 2] {
         let (s, r) = (self.settings.radial_setting_mm, self.surface.point_radius_mm);
         let cosine = (cone_distance_mm.powi(2) - s * s - r * r) / (2.0 * s * r);
         let head_rad = -self.settings.cradle_angle_rad.signum() * cosine.clamp(-1.0, 1.0).acos();
         let at = DVec2::new(s, 0.0) + r * DVec2::from_angle(head_rad);
-        [head_rad, -at.to_angle()]
+        [head_rad, if self.settings.plunges() { 0.0 } else { -at.to_angle() }]
     }
 
     /// Point of the flank at a cone distance and at a height over the pitch cone, or where a place of the edge has cut
-    /// it; `start` are angles about the head's axis and of the cradle near it.
+    /// it; `start` are coordinates near it.
     ///
     /// # Errors
-    /// The roll generates no such point near the start.
+    /// There is no such point near the start.
     pub fn find(
         &self,
         blank: &BevelBlank,
@@ -111,8 +122,8 @@ impl Envelope {
         place: OnFlank,
         start: [f64; 2],
     ) -> Result<FlankPoint, NotConverged> {
-        let missing = |angles: DVec2| {
-            let point = self.at(angles.x, angles.y);
+        let missing = |coordinates: DVec2| {
+            let point = self.at(coordinates.x, coordinates.y);
             let [distance_mm, height_mm] = blank.cone_distance_and_height_mm(point.point_mm);
             let second = match place {
                 OnFlank::Height(wanted_mm) => wanted_mm - height_mm,
@@ -120,27 +131,27 @@ impl Envelope {
             };
             DVec2::new(cone_distance_mm - distance_mm, second)
         };
-        let mut angles = DVec2::from(start);
+        let mut coordinates = DVec2::from(start);
         let mut lost = NotConverged {
-            what: "a point of the generated flank",
+            what: "a point of the flank",
             after: MOST_STEPS,
             last: cone_distance_mm,
             last_step: f64::INFINITY,
             residual: f64::INFINITY,
         };
         for _ in 0..MOST_STEPS {
-            let left = missing(angles);
-            let [by_head, by_cradle] =
-                [DVec2::X, DVec2::Y].map(|axis| (missing(angles + DIFFERENCE_RAD * axis) - left) / DIFFERENCE_RAD);
-            let determinant = by_head.perp_dot(by_cradle);
-            let step = DVec2::new(-left.perp_dot(by_cradle), -by_head.perp_dot(left)) / determinant;
+            let left = missing(coordinates);
+            let [by_head, by_second] =
+                [DVec2::X, DVec2::Y].map(|axis| (missing(coordinates + DIFFERENCE_RAD * axis) - left) / DIFFERENCE_RAD);
+            let determinant = by_head.perp_dot(by_second);
+            let step = DVec2::new(-left.perp_dot(by_second), -by_head.perp_dot(left)) / determinant;
             (lost.residual, lost.last_step) = (left.length(), step.length());
             if !step.is_finite() {
                 return Err(lost);
             }
-            angles += step.clamp_length_max(LARGEST_STEP_RAD);
+            coordinates += step.clamp_length_max(LARGEST_STEP_RAD);
             if step.length() <= LAST_STEP_RAD {
-                return Ok(self.at(angles.x, angles.y));
+                return Ok(self.at(coordinates.x, coordinates.y));
             }
         }
         Err(lost)

@@ -9,7 +9,7 @@
 //! and rests, so that five axes are linked and the turn of the head's frame C = q goes into the spindle, where it is of
 //! no account.
 
-use super::cradle::{CradleSettings, Roll};
+use super::cradle::{CradleMoment, CradleSettings, Roll};
 use crate::error::{NotConverged, Refusal};
 use crate::frame::Rigid3;
 use crate::math::least_squares::solve;
@@ -73,8 +73,10 @@ impl FiveAxisMachine {
         Ok(SixAxes { slides_mm, work_rad, swing_rad, head_rad })
     }
 
-    /// Axes that do what a cradle machine does at a cradle angle, Eqs. 9 to 14, the sliding base added along z.
-    pub fn axes_of_cradle(&self, settings: &CradleSettings, cradle_rad: f64) -> SixAxes {
+    /// Axes that do what a cradle machine does at a moment of a slot, Eqs. 9 to 14, the sliding base added along z: a
+    /// head that plunges moves Z alone.
+    pub fn axes_of_cradle(&self, settings: &CradleSettings, moment: f64) -> SixAxes {
+        let CradleMoment { settings, cradle_rad } = settings.at(moment);
         let (sin, cos) = settings.root_angle_rad.sin_cos();
         let (s, out_mm) = (settings.radial_setting_mm, self.mounting_mm - settings.center_to_back_mm);
         SixAxes {

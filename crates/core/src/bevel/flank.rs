@@ -40,8 +40,8 @@ pub struct FlankRow<'a> {
     pub form_height_mm: f64,
     /// Where it ends: the addendum here, mm.
     pub tip_height_mm: f64,
-    /// Angles of head and cradle at the form point, in the middle of the profile and at the tip.
-    angles: [DVec2; 3],
+    /// Coordinates on the envelope of the form point, the middle of the profile and the tip.
+    coordinates: [DVec2; 3],
 }
 
 impl BevelFlank {
@@ -91,27 +91,26 @@ impl BevelFlank {
     /// The row at a place along the tooth, mm from the middle of the face, positive towards the heel.
     ///
     /// # Errors
-    /// The roll generates no form point or no tip there.
+    /// The head cuts no form point or no tip there.
     pub fn row(&self, along_mm: f64) -> Result<FlankRow<'_>, Refusal> {
         let (envelope, blank) = (&self.envelope, &self.blank);
         let cone_distance_mm = blank.mean_cone_distance_mm() + along_mm;
         let tip_height_mm = blank.addendum_mm(cone_distance_mm);
         let find = |place, start| envelope.find(blank, cone_distance_mm, place, start);
-        let angles = |point: FlankPoint| DVec2::new(point.head_rad, point.cradle_rad);
         let rows = || -> Result<_, NotConverged> {
             let pitch = find(OnFlank::Height(0.0), envelope.guess(cone_distance_mm))?;
-            let start = angles(pitch).into();
+            let start = pitch.coordinates;
             let form = find(OnFlank::Edge(envelope.surface.corner_end_mm()), start)?;
             let [_, form_height_mm] = blank.cone_distance_and_height_mm(form.point_mm);
             let tip = find(OnFlank::Height(tip_height_mm), start)?;
             let middle = find(OnFlank::Height(0.5 * (form_height_mm + tip_height_mm)), start)?;
-            Ok((form_height_mm, [form, middle, tip].map(angles)))
+            Ok((form_height_mm, [form, middle, tip].map(|point| point.coordinates.into())))
         };
-        let (form_height_mm, angles) = rows().map_err(|lost| {
+        let (form_height_mm, coordinates) = rows().map_err(|lost| {
             Refusal::new(
                 parameter::CRADLE,
                 format!(
-                    "at a cone distance of {cone_distance_mm:.3} mm the {} blades generate no flank between root and \
+                    "at a cone distance of {cone_distance_mm:.3} mm the {} blades make no flank between root and \
                      tip: {lost}",
                     envelope.surface.kind.name()
                 ),
@@ -129,7 +128,7 @@ impl BevelFlank {
                 "bring the head deeper by the sliding base, or check the blank's addendum",
             ));
         }
-        Ok(FlankRow { flank: self, cone_distance_mm, form_height_mm, tip_height_mm, angles })
+        Ok(FlankRow { flank: self, cone_distance_mm, form_height_mm, tip_height_mm, coordinates })
     }
 }
 
@@ -155,9 +154,9 @@ impl FlankRow<'_> {
     /// Point of the flank at a share of the profile: 0 in the form point, 1 on the face cone.
     ///
     /// # Errors
-    /// The roll generates no such point.
+    /// There is no such point.
     pub fn point(&self, share: f64) -> Result<FlankPoint, Refusal> {
-        let [form, middle, tip] = self.angles;
+        let [form, middle, tip] = self.coordinates;
         // A parabola through the three known places.
         let (bend, slope) = (2.0 * (form + tip - 2.0 * middle), 4.0 * middle - 3.0 * form - tip);
         let start = form + share * (slope + share * bend);

@@ -12,8 +12,8 @@ use crate::process::bevel::chips::{SlotLedger, SlotPass};
 use crate::process::bevel::job::BevelJob;
 use crate::process::bevel::quantities::{
     BLADE, BLADE_KIND, BLADE_WORK, BODY, CHIPS, LARGEST_EDGE, LARGEST_POWER, LARGEST_SECTION, LAW, MEAN_POWER,
-    OVERHANG, PASS, PASS_ANGLE, PLUNGE, POINTED, REVOLUTION, RIM, ROWS, SLOT_NUMBER, SLOT_VOLUME, TAKEN, TAKING,
-    THICKEST_ALONG,
+    OVERHANG, PASS, PASS_ANGLE, PASS_DEPTH, PLUNGE, POINTED, REVOLUTION, RIM, ROWS, SLOT_NUMBER, SLOT_VOLUME, TAKEN,
+    TAKING, THICKEST_ALONG,
 };
 use gearcut_core::bevel::face_mill::{BladeKind, FaceMill};
 use gearcut_core::units::UM_PER_MM;
@@ -23,6 +23,30 @@ const LAW_OF_FORCE: &str = "K_c times the section of the chip in the rake face p
     engagement; means over the blade's travel through a row of rays";
 /// N mm in a joule.
 const NMM_PER_J: f64 = 1e3;
+
+/// How the moment of a pass is told.
+struct MomentWords {
+    row: &'static QuantityRow,
+    /// Name and unit on charts.
+    axis: [&'static str; 2],
+    /// Name among places.
+    place: &'static str,
+    /// What the head does meanwhile.
+    way: &'static str,
+    scale: f64,
+}
+
+impl MomentWords {
+    fn of(job: &BevelJob) -> Self {
+        if job.finishing().settings.plunges() {
+            let axis = ["place of the head before full depth", "mm"];
+            Self { row: &PASS_DEPTH, axis, place: "depth_mm", way: "plunge", scale: 1.0 }
+        } else {
+            let axis = ["cradle angle", "°"];
+            Self { row: &PASS_ANGLE, axis, place: "cradle_angle_deg", way: "roll", scale: 1_f64.to_degrees() }
+        }
+    }
+}
 
 /// The blank: rays, volumes.
 pub(super) fn blank(job: &BevelJob, whole: &CutCells) -> Section {
@@ -73,10 +97,11 @@ pub(super) fn chips(job: &BevelJob, ledger: &SlotLedger) -> Section {
 }
 
 /// Where the largest value of a pass is.
-pub(super) fn place(pass: &SlotPass) -> Place {
+pub(super) fn place(job: &BevelJob, pass: &SlotPass) -> Place {
+    let words = MomentWords::of(job);
     Place::default()
         .and("blade", u64::from(pass.blade))
-        .and("cradle_angle_deg", pass.cradle_rad.to_degrees())
+        .and(words.place, words.scale * pass.moment)
         .and("v_mm", pass.along_mm)
 }
 
@@ -86,18 +111,18 @@ fn of_operation(job: &BevelJob, ledger: &SlotLedger, operation: usize) -> Sectio
     let passes: Vec<&SlotPass> = of_operation().filter(|pass| !pass.is_plunge()).collect();
     let largest = |row: &QuantityRow, value: &dyn Fn(&SlotPass) -> f64| {
         let found = passes.iter().max_by(|a, b| value(a).total_cmp(&value(b)));
-        found.map_or_else(|| row.none(IDLE), |pass| row.of(value(pass)).at(place(pass)))
+        found.map_or_else(|| row.none(IDLE), |pass| row.of(value(pass)).at(place(job, pass)))
     };
     let of = &job.operations[operation];
     let name = &of.spec.name;
     let section = Section::new(name, format!("Operation {name}")).entries([
         TAKEN.of(of_operation().map(|pass| pass.volume_mm3).sum::<f64>()),
-        PLUNGE.of(plunge_mm3),
         TAKING.of(passes.len()),
         largest(&THICKEST_CHIP, &|pass| pass.thickness_mm * UM_PER_MM).shown(),
         largest(&LARGEST_SECTION, &|pass| pass.section_mm2),
         largest(&LARGEST_EDGE, &|pass| pass.edge_mm),
     ]);
+    let section = section.entries((!of.settings.plunges()).then(|| PLUNGE.of(plunge_mm3)));
     if job.spec.material.is_none() {
         return section.entries([LARGEST_FORCE.none(NO_MATERIAL)]);
     }
@@ -107,7 +132,7 @@ fn of_operation(job: &BevelJob, ledger: &SlotLedger, operation: usize) -> Sectio
     section.entries([
         largest(&LARGEST_FORCE, &force).shown(),
         largest(&LARGEST_POWER, &|pass| force(pass) * speed_mm_per_s / NMM_PER_J),
-        MEAN_POWER.of(work_nmm / of.roll_s() / NMM_PER_J),
+        MEAN_POWER.of(work_nmm / of.course.slot_s() / NMM_PER_J),
     ])
 }
 
@@ -150,12 +175,13 @@ fn by_blade(job: &BevelJob, ledger: &SlotLedger) -> Table {
 }
 
 fn by_pass(job: &BevelJob, ledger: &SlotLedger) -> Table {
+    let words = MomentWords::of(job);
     Table::over("by_pass", "Chips by pass", &ledger.passes)
         .column(&OPERATION, |pass| job.operations[pass.operation].spec.name.as_str())
         .column(&PASS, |pass| pass.pass)
         .column(&BLADE, |pass| pass.blade)
         .column(&REVOLUTION, |pass| pass.revolution)
-        .column(&PASS_ANGLE, |pass| pass.cradle_rad.to_degrees())
+        .column(words.row, |pass| words.scale * pass.moment)
         .column(&TAKEN, |pass| pass.volume_mm3)
         .column(&THICKEST_CHIP, |pass| pass.thickness_mm * UM_PER_MM)
         .column(&THICKEST_ALONG, |pass| pass.along_mm)
@@ -168,8 +194,9 @@ fn by_pass(job: &BevelJob, ledger: &SlotLedger) -> Table {
 /// Charts of the chips, with the names of their files.
 pub type ChipCharts = (Vec<(String, BarChart)>, Vec<(String, LineChart)>);
 
-/// Volume by blade, and thickness and force over the roll of every operation, with the names of their files.
+/// Volume by blade, and thickness and force over the roll or plunge of every operation, with the names of their files.
 pub fn charts(job: &BevelJob, ledger: &SlotLedger) -> ChipCharts {
+    let words = MomentWords::of(job);
     let (mut bars, mut lines) = (Vec::new(), Vec::new());
     for (index, operation) in job.operations.iter().enumerate() {
         let name = &operation.spec.name;
@@ -199,7 +226,7 @@ pub fn charts(job: &BevelJob, ledger: &SlotLedger) -> ChipCharts {
                     .iter()
                     .filter(|pass| pass.operation == index && FaceMill::kind_of(pass.blade) == kind)
                     .filter(|pass| !pass.is_plunge())
-                    .map(|pass| (pass.cradle_rad.to_degrees(), value(pass)))
+                    .map(|pass| (words.scale * pass.moment, value(pass)))
                     .collect(),
             })
         };
@@ -218,11 +245,11 @@ pub fn charts(job: &BevelJob, ledger: &SlotLedger) -> ChipCharts {
             panels.push(panel("largest force of a pass", "N", &|pass| pass.force_n.unwrap_or_default()));
         }
         lines.push((
-            format!("{name}_chips_over_roll"),
+            format!("{name}_chips_over_{}", words.way),
             LineChart {
-                title: format!("{name}: chips of a slot over the roll"),
-                x_name: "cradle angle".to_owned(),
-                x_unit: "°".to_owned(),
+                title: format!("{name}: chips of a slot over the {}", words.way),
+                x_name: words.axis[0].to_owned(),
+                x_unit: words.axis[1].to_owned(),
                 panels,
             },
         ));
@@ -231,9 +258,12 @@ pub fn charts(job: &BevelJob, ledger: &SlotLedger) -> ChipCharts {
 }
 
 /// The rim and the plunge in words, for the page.
-pub fn page_words() -> String {
-    format!(
-        "The body is the toothed ring: it ends {RIM_MODULES} outer module under the root cone. The head stands at full \
-         depth when a roll begins; what its first revolution takes stands for the plunge and is left out of the charts."
-    )
+pub fn page_words(job: &BevelJob) -> String {
+    let plunge = if job.finishing().settings.plunges() {
+        "The head plunges from clear of the blank to full depth and stays there."
+    } else {
+        "The head stands at full depth when a roll begins; what its first revolution takes stands for the plunge and is \
+         left out of the charts."
+    };
+    format!("The body is the toothed ring: it ends {RIM_MODULES} outer module under the root cone. {plunge}")
 }

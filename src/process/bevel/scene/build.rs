@@ -1,7 +1,7 @@
 //! Checked values of a bevel scene to the model.
 
 use super::keys::AXES;
-use super::model::{Bevel, BevelOperation, Cones, HeadSpec, SettingsSpec};
+use super::model::{Bevel, BevelOperation, Cones, HeadSpec, SettingsSpec, SlotFeed};
 use crate::scene::ScenePart;
 use crate::scene::build::{cutting_force, linear_programs, stock_or_offset_mm};
 use crate::scene::machine_errors::{machine_errors, tool_mounting};
@@ -96,6 +96,7 @@ fn settings(cradle: View<'_>, errors: View<'_>) -> Option<SettingsSpec> {
         roll_ratio,
         errors: [
             (Setting::Radial, errors.number("radial_setting_mm")?),
+            (Setting::CradleAngle, errors.rad("cradle_angle_deg")?),
             (Setting::BlankOffset, errors.number("blank_offset_mm")?),
             (Setting::SlidingBase, errors.number("sliding_base_mm")?),
             (Setting::CenterToBack, errors.number("center_to_back_mm")?),
@@ -121,12 +122,20 @@ fn travel(limits: View<'_>) -> [[Option<f64>; 2]; 4] {
 }
 
 fn operation(operation: View<'_>, base_dir: &Path, pressure_angle_rad: f64) -> Option<BevelOperation> {
+    let feed = match operation.number("infeed_mm_per_revolution") {
+        Some(mm_per_turn) => {
+            SlotFeed::Plunge { mm_per_turn, dwell_revolutions: operation.number("dwell_revolutions")? }
+        }
+        None => SlotFeed::Roll {
+            rad_per_s: operation.rad("roll_speed_deg_per_s")?,
+            ends_rad: [operation.rad("roll_from_deg"), operation.rad("roll_to_deg")],
+        },
+    };
     Some(BevelOperation {
         name: operation.text("name")?.to_owned(),
         offset_mm: stock_or_offset_mm(operation, pressure_angle_rad)?,
         head_speed_rad_per_s: operation.number("head_speed_per_minute")? * TURN_RAD / 60.0,
-        roll_speed_rad_per_s: operation.rad("roll_speed_deg_per_s")?,
-        roll_rad: [operation.rad("roll_from_deg"), operation.rad("roll_to_deg")],
+        feed,
         idle_s: operation.number("idle_s")?,
         program: operation.text("program").map(|name| base_dir.join(name)),
     })

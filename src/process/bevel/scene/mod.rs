@@ -6,6 +6,7 @@ pub mod model;
 
 use crate::machine_errors::{ErrorLayer, ToolMounting};
 use crate::scene::error_sources::{self, ErrorSource, KeyForm};
+use crate::scene::keys::join;
 use crate::scene::machine_errors;
 use crate::scene::problems::Found;
 use crate::scene::values::{Checked, Values};
@@ -16,6 +17,16 @@ use std::path::Path;
 /// Why keys of the normal force are refused, and what is there instead.
 const NO_NORMAL_FORCE: &str = "the cutting force alone is computed";
 const CUTTING_FORCE: &str = "remove it; cutting_force_n_per_mm2 and cutting_edge_force_n_per_mm give the cutting force";
+
+/// Section of the head.
+const HEAD: &str = "tool.face_mill";
+/// Speed of the cradle where the scene names none, deg/s.
+const ROLL_DEG_PER_S: f64 = 2.0;
+/// Infeed for each turn and blade where the scene names none, outer modules: chips of a tenth of a millimetre at module
+/// 4, as blades of both kinds share the width of the slot.
+const INFEED_MODULES: f64 = 0.02;
+/// Turns at full depth where the scene names none: the window of a blade is below half a turn.
+const DWELL_TURNS: f64 = 1.5;
 
 /// A shared key or section without sense here.
 const fn without(path: &'static str, why: &'static str, instead: &'static str) -> Senseless {
@@ -42,6 +53,7 @@ const fn setting(key: &'static str, unit: &'static str, step: f64, what: &'stati
 /// Errors of the settings; natural steps are a division of the scales of old machines.
 static CRADLE_ERRORS: &[ErrorSource] = &[
     setting("radial_setting_mm", "mm", 0.01, "radial setting"),
+    setting("cradle_angle_deg", "deg", 0.01, "cradle angle"),
     setting("blank_offset_mm", "mm", 0.01, "blank offset"),
     setting("sliding_base_mm", "mm", 0.01, "sliding base"),
     setting("center_to_back_mm", "mm", 0.01, "machine centre to back"),
@@ -96,12 +108,36 @@ fn derive(values: &mut Values) {
     ] {
         values.put_default(section, key, Checked::Number(number));
     }
+    let _: Option<()> = slot_feeds(values);
+}
+
+/// Speed of the roll, or infeed and dwell where nothing rolls.
+fn slot_feeds(values: &mut Values) -> Option<()> {
+    let infeed_mm =
+        INFEED_MODULES * values.view("gear").number("module_mm")? * f64::from(values.view(HEAD).whole("blades")?);
+    let feeds: &[(&str, f64)] = if plunges(values) {
+        &[("infeed_mm_per_revolution", infeed_mm), ("dwell_revolutions", DWELL_TURNS)]
+    } else {
+        &[("roll_speed_deg_per_s", ROLL_DEG_PER_S)]
+    };
+    for index in 0..values.count("operation") {
+        for &(key, number) in feeds {
+            values.put_default(&format!("operation.{index}"), key, Checked::Number(number));
+        }
+    }
+    Some(())
+}
+
+/// Whether nothing rolls.
+fn plunges(values: &Values) -> bool {
+    values.view("machine.cradle").number("roll_ratio") == Some(0.0)
 }
 
 /// Holds values against each other.
 fn check(found: &mut Found<'_, '_, '_>) {
     let _: Option<()> = runouts(found);
     rolls(found);
+    keys_of_the_other_way(found);
     machine_errors::check(found, &keys::AXES);
     machine_errors::check_noise_in_time(found, &keys::AXES, "a face-mill head");
 }
@@ -124,6 +160,33 @@ fn rolls(found: &mut Found) {
         let message = || format!("the roll from {} to {} deg has no length", from.unwrap_or(0.0), to.unwrap_or(0.0));
         let wrong = from.is_some() && from == to;
         found.blame(wrong, &format!("{path}.roll_to_deg"), message, "make the ends differ");
+    }
+}
+
+/// Keys of the roll where nothing rolls, and keys of the plunge where the cradle rolls.
+fn keys_of_the_other_way(found: &mut Found) {
+    let (keys, why, way_out): (&[&str], _, _) = if plunges(found.values) {
+        let keys = &["roll_speed_deg_per_s", "roll_from_deg", "roll_to_deg"];
+        (keys, "nothing rolls: machine.cradle.roll_ratio is 0", "remove it, or write another roll_ratio")
+    } else {
+        (
+            &["infeed_mm_per_revolution", "dwell_revolutions"],
+            "the cradle rolls",
+            "remove it, or write machine.cradle.roll_ratio = 0",
+        )
+    };
+    let in_operation = |index| keys.iter().map(move |key| (format!("operation.{index}"), *key));
+    let mut wrong: Vec<(String, &str)> = (0..found.values.count("operation")).flat_map(in_operation).collect();
+    wrong.retain(|(path, key)| found.view(path).number(key).is_some());
+    if plunges(found.values) {
+        let of_roll = [("cradle", "modified_roll_c"), ("cradle", "modified_roll_d"), ("cradle_errors", "roll_ratio")];
+        let of_roll = of_roll.map(|(section, key)| (format!("machine.{section}"), key));
+        let is_set = |(path, key): &(String, &str)| found.view(path).number(key).is_some_and(|number| number != 0.0);
+        wrong.extend(of_roll.into_iter().filter(is_set));
+    }
+    for (path, key) in wrong {
+        let key = join(&path, key);
+        found.blame(true, &key, || format!("`{key}`: {why}"), way_out);
     }
 }
 

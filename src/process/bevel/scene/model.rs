@@ -99,7 +99,7 @@ pub struct SettingsSpec {
     /// Ratio of roll, where given.
     pub roll_ratio: Option<f64>,
     /// How far the machine is off, setting by setting: mm, rad or a ratio.
-    pub errors: [(Setting, f64); 6],
+    pub errors: [(Setting, f64); 7],
 }
 
 /// One run of the head over all slots.
@@ -111,12 +111,39 @@ pub struct BevelOperation {
     pub offset_mm: f64,
     /// Speed of the head against the cradle, rad/s.
     pub head_speed_rad_per_s: f64,
-    /// Speed of the cradle, rad/s.
-    pub roll_speed_rad_per_s: f64,
-    /// Cradle angles at which the roll begins and ends, rad; `None`: what the flanks need.
-    pub roll_rad: [Option<f64>; 2],
-    /// Time between two slots: withdraw, roll back, index, s.
+    /// How it goes through a slot.
+    pub feed: SlotFeed,
+    /// Time between two slots: withdraw, roll back or not, index, s.
     pub idle_s: f64,
     /// Axis program (G-code) that is cut instead of the settings' own positions.
     pub program: Option<PathBuf>,
+}
+
+/// How an operation goes through a slot.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum SlotFeed {
+    /// The cradle rolls.
+    Roll {
+        /// Speed of the cradle, rad/s.
+        rad_per_s: f64,
+        /// Cradle angles at which the roll begins and ends, rad; `None`: what the flanks need.
+        ends_rad: [Option<f64>; 2],
+    },
+    /// The head plunges and stays.
+    Plunge {
+        /// Way along its axis for each of its turns, mm.
+        mm_per_turn: f64,
+        /// Turns at full depth.
+        dwell_revolutions: f64,
+    },
+}
+
+impl SlotFeed {
+    /// The key that makes it faster or slower.
+    pub fn key(&self) -> &'static str {
+        match self {
+            Self::Roll { .. } => "roll_speed_deg_per_s",
+            Self::Plunge { .. } => "infeed_mm_per_revolution",
+        }
+    }
 }

@@ -40,8 +40,8 @@ impl GearJob for ShapingJob {
         stroke_noise::warnings(self)
     }
 
-    fn marks_follow_along_tooth(&self, operation: usize) -> bool {
-        self.operations[operation].spec.feed_during_stroke
+    fn marks_follow(&self, operation: usize) -> [bool; 2] {
+        [self.operations[operation].spec.feed_during_stroke, true]
     }
 
     fn profile_length_mm(&self, tooth: u32, side: Side) -> Result<f64> {

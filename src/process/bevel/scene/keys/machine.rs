@@ -43,7 +43,7 @@ pub(super) static SECTIONS: &[KeySection] = &[
                 unit: "deg",
                 default: Default::Required,
                 example: "58.0",
-                teach: "Cradle angle q in the middle of the roll; its sign chooses the hand of the spiral.",
+                teach: "Cradle angle q in the middle of the roll, or at rest; its sign chooses the hand of the spiral.",
             },
             length("blank_offset_mm", "0.0", "Blank offset E_m; 0 on spiral bevel gears."),
             length("cross_shift_mm", "0.0", "X_B as the five-linkage paper draws it, along the machine's x axis."),
@@ -60,12 +60,11 @@ pub(super) static SECTIONS: &[KeySection] = &[
             Key::optional(
                 "roll_ratio",
                 "",
-                Range::above(0.0, 100.0),
+                Range::closed(0.0, 100.0),
                 "that of a crown gear in the plane of the root cone",
                 "1.13",
-                "Ratio of roll R_a: work angle per cradle angle. A gear that is cut without roll (Formate, form cut) \
-                 cannot be written: every flank here is generated. Without the key its cones are those of a generated \
-                 gear.",
+                "Ratio of roll R_a: work angle per cradle angle. With 0 the gear is not generated (Formate): cradle \
+                 and work rest, the head plunges into each slot, and its cones are the flanks.",
             ),
             Key::number(
                 "modified_roll_c",
@@ -86,13 +85,21 @@ pub(super) static SECTIONS: &[KeySection] = &[
             ),
         ],
         groups: &[],
-        teach: "Settings of a cradle machine that generates bevel gears; the six-axis machine follows from them.",
+        teach: "Settings of a cradle machine for bevel gears; the six-axis machine follows from them.",
     },
     KeySection {
         path: "machine.cradle_errors",
         role: Role::Plain,
         keys: &[
             length("radial_setting_mm", "0.02", "Error of the radial setting."),
+            Key::number(
+                "cradle_angle_deg",
+                "deg",
+                Range::closed(-5.0, 5.0),
+                0.0,
+                "0.02",
+                "Error of the cradle angle; an even roll takes it away.",
+            ),
             length("blank_offset_mm", "0.02", "Error of the blank offset."),
             length("sliding_base_mm", "0.02", "Error of the sliding base."),
             length("center_to_back_mm", "0.02", "Error of machine centre to back."),
@@ -142,7 +149,7 @@ pub(super) static SECTIONS: &[KeySection] = &[
         ],
         groups: &[],
         teach: "Largest speeds and accelerations of the linked axes of a six-axis bevel machine, and how far they \
-            travel, where known. They hold for the roll; the way back and the indexing are left to the control.",
+            travel, where known. They hold for a slot's motion; the way back and the indexing are left to the control.",
     },
     X,
     Y,

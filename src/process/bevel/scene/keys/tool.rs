@@ -79,7 +79,7 @@ pub(super) static SECTIONS: &[KeySection] = &[KeySection {
             Range::closed(-360.0, 360.0),
             0.0,
             "0.0",
-            "Angle of the first blade, from the middle of the first slot, when that slot's roll begins.",
+            "Angle of the first blade, from the middle of the first slot, when that slot begins.",
         ),
         TOOL_WOBBLE,
         TOOL_WOBBLE_ANGLE,
