@@ -287,7 +287,7 @@ fn scenes_and_pages_speak_of_a_plunge() {
     assert!((operation["infeed"]["value"].as_f64().expect("a number") - 0.8).abs() < 1e-12, "{operation}");
     let page = std::fs::read_to_string(out.join("report.html")).expect("a page");
     assert!(page.contains("plunged along Z") && page.contains("that is not generated (Formate)"));
-    for words in ["while the cradle rolls", "is rolled", "over the roll", "stands for the plunge"] {
+    for words in ["while the cradle rolls", "is rolled", "chips of a slot over the roll", "stands for the plunge"] {
         assert!(!page.contains(words), "{words}");
     }
     // Nothing is left to look at in a window; one that a scene writes says so.
