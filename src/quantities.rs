@@ -7,7 +7,7 @@ use crate::findings::quantities::SHARED;
 use crate::findings::{QuantityGroup, QuantityRow, unit};
 use crate::process::PROCESSES;
 use crate::wrap::wrapped;
-use crate::{compare, influence, pair_job, scatter, texture};
+use crate::{compare, influence, pair_job, scatter, study, texture};
 use std::fmt::Write as _;
 
 /// Widest line of the page but for tables, characters.
@@ -21,6 +21,7 @@ pub fn groups() -> Vec<&'static QuantityGroup> {
         pair_job::quantities::QUANTITIES,
         influence::quantities::QUANTITIES,
         scatter::quantities::QUANTITIES,
+        study::quantities::QUANTITIES,
         compare::quantities::QUANTITIES,
     ];
     SHARED.iter().chain(own).chain(others.into_iter().flatten()).copied().collect()

@@ -78,10 +78,19 @@ fn directions(dimension: usize) -> [u32; BITS] {
 /// Where every one of `samples` lies in the range of a parameter: above 0, at most 1.
 pub fn latin_hypercube(seed: u32, parameter: usize, samples: u32) -> Vec<f64> {
     let mut even = Draws::new(seed, SOURCE).even([parameter as i64, 0]);
-    let mut shares: Vec<u32> = (0..samples).collect();
-    // Fisher and Yates.
-    for last in (1..shares.len()).rev() {
-        shares.swap(last, ((even() * (last + 1) as f64) as usize).min(last));
+    shuffled(&mut even, samples).into_iter().map(|share| (f64::from(share) + even()) / f64::from(samples)).collect()
+}
+
+/// 0 to `count` - 1 in an order of chance that is always the same.
+pub(super) fn in_an_order_of_chance(count: u32) -> Vec<u32> {
+    shuffled(&mut Draws::new(0, SOURCE).even([-1, 0]), count)
+}
+
+/// By Fisher and Yates.
+fn shuffled(even: &mut impl FnMut() -> f64, count: u32) -> Vec<u32> {
+    let mut numbers: Vec<u32> = (0..count).collect();
+    for last in (1..numbers.len()).rev() {
+        numbers.swap(last, ((even() * (last + 1) as f64) as usize).min(last));
     }
-    shares.into_iter().map(|share| (f64::from(share) + even()) / f64::from(samples)).collect()
+    numbers
 }

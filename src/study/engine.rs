@@ -1,14 +1,16 @@
 //! A study at work: cases on all cores, each a row on the disk as soon as it is found.
 //!
-//! In: a [`Study`]. Out: a folder with `rows.csv`, `columns.csv` and the run record. It grows under its final name
-//! (`GrowingFolder`): what a kill leaves is rows, and the same command goes on with the cases that are missing.
-//! At the end the rows are in the order of their cases, whatever order they were found in.
+//! In: a [`Study`]. Out: a folder with `rows.csv`, `columns.csv`, the page of a whole study and the run record. It
+//! grows under its final name (`GrowingFolder`): what a kill leaves is rows, and the same command goes on with the cases
+//! that are missing. At the end the rows are in the order of their cases, whatever order they were found in.
 //!
 //! The law: nothing of a row depends on time, threads or machine. What a case refuses is its row; what the machine
 //! refuses (a full disk) ends the study.
 
 use super::kept::{CaseOutcome, LAST_HEADS, cells, columns};
+use super::page;
 use super::plan::{Shard, StudyCommand, StudyPlan};
+use super::rows::StudyRows;
 use crate::backend::Choice;
 use crate::findings::{Findings, TableColumn};
 use crate::interrupt::Interrupt;
@@ -121,7 +123,12 @@ impl Study<'_> {
                 let place = new.path(name)?;
                 std::fs::copy(path, &place).map_err(Error::writing(place))?;
             }
-            Ok(())
+            if self.shard != Shard::WHOLE {
+                return Ok(());
+            }
+            let parameters: Vec<String> = self.plan.parameters().iter().map(|of| of.key.clone()).collect();
+            let read = StudyRows::read([&rows, &about], &parameters, &self.keep)?;
+            page::write((&self.base.scene, &self.plan), &read, new)
         })?;
         Ok(StudyOutcome { path: finished, ..outcome })
     }

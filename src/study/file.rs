@@ -4,7 +4,7 @@
 //! those beside it.
 
 use super::engine::Study;
-use super::parameter::{ParameterValues, StudyParameter, ValueRange};
+use super::parameter::{NormalValues, ParameterValues, StudyParameter, ValueRange};
 use super::plan::{SampleDesign, Shard, StudyCommand, StudyPlan};
 use crate::backend::Choice;
 use crate::process;
@@ -81,6 +81,7 @@ struct ParameterTable {
     key: String,
     values: Option<Vec<Value>>,
     range: Option<[Value; 2]>,
+    normal: Option<[f64; 2]>,
     count: Option<u32>,
     #[serde(default)]
     log: bool,
@@ -98,7 +99,8 @@ pub fn read(path: &Path, most: u64) -> Result<StudyFile> {
     let parameter = |table: ParameterTable| {
         let key = table.key.clone();
         let refuse = |why: String| {
-            let way_out = "write values = [...], or range = [first, last] with count = n or samples in [study]";
+            let way_out = "write values = [...], range = [first, last] with count = n or samples in [study], or \
+                normal = [mean, deviation] with samples";
             Refusal::new("parameter", format!("{}: parameter `{key}`: {why}", path.display()), way_out)
         };
         choice(table).map(|choice| StudyParameter { key: key.clone(), choice }).map_err(refuse)
@@ -110,7 +112,13 @@ pub fn read(path: &Path, most: u64) -> Result<StudyFile> {
 }
 
 fn choice(table: ParameterTable) -> Result<ParameterValues, String> {
-    let ParameterTable { values, range, count, log, .. } = table;
+    let ParameterTable { values, range, normal, count, log, .. } = table;
+    if let Some(normal) = normal {
+        return match (values, range, count, log) {
+            (None, None, None, false) => Ok(ParameterValues::Normal(NormalValues::new(normal)?)),
+            _ => Err("normal excludes values, range, count and log".to_owned()),
+        };
+    }
     match (values, range) {
         (Some(values), None) if count.is_none() && !log => {
             if values.is_empty() {
@@ -131,7 +139,7 @@ fn choice(table: ParameterTable) -> Result<ParameterValues, String> {
         }
         (Some(_), None) => Err("count and log belong to a range".to_owned()),
         (Some(_), Some(_)) => Err("it has values and a range".to_owned()),
-        (None, None) => Err("it has neither values nor a range".to_owned()),
+        (None, None) => Err("it has no values, no range and no normal distribution".to_owned()),
     }
 }
 

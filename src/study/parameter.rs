@@ -4,8 +4,10 @@
 //! TOML that a setting of the scene takes, so that a number, a word, a list and a whole table are alternatives alike.
 //!
 //! The law of ranges: `a..b/n` is n values evenly from a to b, both included; `a..b/n log` evenly in their logarithms.
-//! Ends that are written as whole numbers make whole numbers, the nearest ones.
+//! Ends that are written as whole numbers make whole numbers, the nearest ones. A normal distribution has its values at
+//! the same shares of its cases as a range has them of its length.
 
+use statrs::distribution::{ContinuousCDF, Normal};
 use std::str::FromStr;
 
 /// Most values of one parameter.
@@ -27,6 +29,35 @@ pub enum ParameterValues {
     Values(Vec<String>),
     /// One between these for each sample.
     Between(ValueRange),
+    /// One of a normal distribution for each sample.
+    Normal(NormalValues),
+}
+
+/// Values that scatter about a mean.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct NormalValues {
+    mean: f64,
+    deviation: f64,
+}
+
+impl NormalValues {
+    /// By mean and standard deviation, checked.
+    ///
+    /// # Errors
+    /// In words: numbers that are no distribution.
+    pub fn new([mean, deviation]: [f64; 2]) -> Result<Self, String> {
+        if mean.is_finite() && deviation.is_finite() && deviation > 0.0 {
+            return Ok(Self { mean, deviation });
+        }
+        Err(format!("{mean}, {deviation} is no mean with a standard deviation, which must be above 0"))
+    }
+
+    /// The text of the value that this share of all values is below.
+    pub fn at(&self, share: f64) -> String {
+        // The last share of a Latin hypercube may be all of them.
+        let share = share.clamp(f64::EPSILON, 1.0 - f64::EPSILON);
+        format!("{:?}", self.mean + self.deviation * Normal::standard().inverse_cdf(share))
+    }
 }
 
 /// From one number to another.

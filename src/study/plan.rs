@@ -107,7 +107,8 @@ impl StudyPlan {
                 return refuse(format!("`{}` is a parameter twice", parameter.key), "leave one of them");
             }
         }
-        let sampled = parameters.iter().filter(|of| matches!(of.choice, ParameterValues::Between(_))).count();
+        let is_sampled = |of: &StudyParameter| !matches!(of.choice, ParameterValues::Values(_));
+        let sampled = parameters.iter().filter(|of| is_sampled(of)).count();
         let samples = match (samples, sampled) {
             (None, 0) => 1,
             (Some(0), _) => return refuse("0 samples are no study".to_owned(), "take 1 or more"),
@@ -146,7 +147,7 @@ impl StudyPlan {
         };
         let mut place = 0;
         let shares = parameters.iter().map(|of| {
-            matches!(of.choice, ParameterValues::Between(_)).then(|| {
+            is_sampled(of).then(|| {
                 let dimension = place;
                 place += 1;
                 match design {
@@ -177,12 +178,13 @@ impl StudyPlan {
         for (parameter, shares) in self.parameters.iter().zip(&self.shares).rev() {
             values.push(match (&parameter.choice, shares) {
                 (ParameterValues::Between(range), Some(shares)) => range.at(shares[sample]),
+                (ParameterValues::Normal(normal), Some(shares)) => normal.at(shares[sample]),
                 (ParameterValues::Values(list), _) => {
                     let place = (rest % list.len() as u64) as usize;
                     rest /= list.len() as u64;
                     list[place].clone()
                 }
-                (ParameterValues::Between(_), None) => unreachable!("ranges have samples"),
+                (_, None) => unreachable!("what lists no values has samples"),
             });
         }
         values.reverse();

@@ -42,11 +42,12 @@ fn plain(text: &str) -> String {
     parts.fold(first, |plain, part| plain + &after(part))
 }
 
-/// Lines that are too long; a word that no terminal can break, such as a path, is not.
+/// Lines that are too long; a word that no terminal can break, such as a path, is not, nor are the blanks with which
+/// progress clears what was there.
 fn too_long(text: &str) -> Vec<String> {
     let plain = plain(text);
     let lines = plain.split(['\n', '\r']);
-    lines.filter(|line| line.chars().count() > COLUMNS).map(str::to_owned).collect()
+    lines.map(str::trim_end).filter(|line| line.chars().count() > COLUMNS).map(str::to_owned).collect()
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! Which cases there are: combinations, ranges, samples, shares.
 
 use gearcut::study::design::{latin_hypercube, sobol};
-use gearcut::study::parameter::{GridWords, RangeWords, StudyParameter};
+use gearcut::study::parameter::{GridWords, NormalValues, RangeWords, StudyParameter};
 use gearcut::study::plan::{SampleDesign, Shard, StudyPlan, USUAL_CASES};
 
 fn grid(text: &str) -> StudyParameter {
@@ -105,4 +105,17 @@ fn what_is_no_study_is_refused() {
     assert!(refused(vec![grid("k=1,2,3,4"), grid("l=1,2,3")], None, 9).contains("12 cases are more than 9"));
     let many = (0..22).map(|k| range(&format!("k{k}=1..2"))).collect();
     assert!(refused(many, Some(4), 9).contains("22 parameters are more than the 21"));
+}
+
+/// Quantiles of the normal distribution (Abramowitz and Stegun, 1964, table 26.1): 84.134 % lie below one deviation
+/// over the mean, 97.725 % below two.
+#[test]
+fn values_of_a_tolerance_are_those_of_tables() {
+    let of = NormalValues::new([5.0, 1.5]).expect("a distribution");
+    let at = |share: f64| of.at(share).parse::<f64>().expect("a number");
+    for (share, expected) in [(0.5, 5.0), (0.841_344_7, 6.5), (0.158_655_3, 3.5), (0.977_249_9, 8.0)] {
+        assert!((at(share) - expected).abs() < 1e-5, "{share}: {}", at(share));
+    }
+    assert!(at(1.0).is_finite() && at(1.0) > 15.0);
+    assert!(NormalValues::new([5.0, 0.0]).is_err() && NormalValues::new([f64::NAN, 1.0]).is_err());
 }

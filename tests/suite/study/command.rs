@@ -212,9 +212,41 @@ fn studies_that_are_none_say_why() {
     file(&format!("{head}kep = [\"axis_margin\"]\n")).failed(1, &["study.toml", "line 4", "kep", "expected one of"]);
     let parameter = "keep = [\"axis_margin\"]\n[[parameter]]\nkey = \"gear.teeth\"\n";
     file(&format!("{head}{parameter}"))
-        .failed(1, &["study.toml: parameter `gear.teeth`", "neither values nor a range"]);
+        .failed(1, &["study.toml: parameter `gear.teeth`", "no values, no range and no normal distribution"]);
     file(&format!("{head}{parameter}values = [20, 24]\nlog = true\n")).failed(1, &["count and log belong to a range"]);
+    file(&format!("{head}{parameter}normal = [20.0, 0.0]\n")).failed(1, &["must be above 0"]);
+    file(&format!("{head}{parameter}normal = [20.0, 1.0]\ncount = 3\n")).failed(1, &["normal excludes values"]);
     file(&format!("{head}{parameter}values = [20, 24]\n")).done().says(&["2 cases; their rows are in"]);
+}
+
+/// The speed of the work is that of the strokes alone, 360 n / 60 / 2,400 deg/s, so that they make all of its variance
+/// and the cutter none: that of the law over 200 to 600 strokes a minute. A share of a study has no page.
+#[test]
+fn a_page_says_what_moves_what() {
+    let folder = folder();
+    let cutters = ["--grid", "tool.shaper_cutter.teeth=20,25,30"];
+    let sweep = |out: &str, more: &[&str]| {
+        gearcut_in(folder.path(), &[&SWEEP[..5], &cutters, &SWEEP[7..], &["--out", out], more].concat()).done();
+        folder.path().join(out)
+    };
+    let whole = sweep("whole", &[]);
+    let effects = fs::read_to_string(whole.join("tables/effects.csv")).expect("effects");
+    let cells = |line: &str| -> Vec<String> { line.split(',').map(str::to_owned).collect() };
+    let effects: Vec<Vec<String>> = effects.lines().map(cells).collect();
+    let number = |row: usize, column: usize| effects[row][column].parse::<f64>().expect("a number");
+    assert_eq!(effects[0][1..3], ["key", "first_order_share_percent"]);
+    assert_eq!([&effects[1][1], &effects[2][1]], ["tool.shaper_cutter.teeth", "machine.double_strokes_per_minute"]);
+    assert!(number(1, 2) < 0.0 && number(1, 5) < 1e-12, "{effects:?}");
+    assert!((number(2, 2) - 100.0).abs() < 1e-9 && (number(2, 5) - 1.0).abs() < 1e-12, "{effects:?}");
+    let page = fs::read_to_string(whole.join("report.html")).expect("a page");
+    for words in ["What moves what", "Along the parameters", "Two parameters together", "18 cases of 2 parameters"] {
+        assert!(page.contains(words), "{words}");
+    }
+    let results = fs::read_to_string(whole.join("results.json")).expect("results");
+    let results: serde_json::Value = serde_json::from_str(&results).expect("JSON");
+    assert_eq!(results["headline"]["cases"]["value"], 18);
+    let share = sweep("share", &["--shard", "1/2"]);
+    assert!(share.join("rows.csv").exists() && !share.join("report.html").exists());
 }
 
 /// Every shipped study is read, and its cases are scenes.

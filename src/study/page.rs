@@ -1,0 +1,230 @@
+//! The page of a study: which parameter moves which quantity, means along the parameters, pairs of parameters, and the
+//! best cases; and all that is written beside the rows.
+
+use super::effects::Effect;
+use super::findings::{ParetoFront, StudyEffects, findings};
+use super::plan::StudyPlan;
+use super::rows::{StudyColumn, StudyRows};
+use crate::findings::{Findings, RESULTS_FILE, unit};
+use crate::output::bar_chart::BarSeries;
+use crate::output::bar_panels::{BarPanel, BarPanels};
+use crate::output::folder::OutputFolder;
+use crate::output::line_chart::{LineChart, LineSeries, Panel};
+use crate::output::report::{Block, FileLinks, Page, PageSection, PageTable, REPORT_FILE};
+use crate::output::table::write_tables;
+use crate::output::text::significant;
+use crate::scene::Scene;
+use crate::steps::report::facts::gear_words;
+use crate::steps::report::page_of;
+use gearcut_core::error::Result;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Digits in tables.
+const DIGITS: u32 = 3;
+/// Most values of either parameter in a table of both.
+const MOST_OF_A_PAIR: usize = 12;
+/// Most rows of a table of best cases.
+const MOST_BEST: usize = 25;
+/// Shares below this are rounding, per cent.
+const LEAST_PERCENT: f64 = 0.1;
+
+/// Writes results, tables and the page beside the rows.
+///
+/// # Errors
+/// Files that cannot be written.
+pub fn write((base, plan): (&Scene, &StudyPlan), rows: &StudyRows, folder: &OutputFolder) -> Result<()> {
+    let found = StudyEffects::of(rows);
+    let tree = findings(base, rows, &found);
+    write_tables(&tree, folder)?;
+    let mut files = folder.written()?;
+    files.push(RESULTS_FILE.to_owned());
+    page((base, plan), rows, (&found, &tree), files).write(&folder.path(REPORT_FILE)?)?;
+    folder.write_json(RESULTS_FILE, &tree.to_json())
+}
+
+fn page(
+    (base, plan): (&Scene, &StudyPlan),
+    rows: &StudyRows,
+    (found, tree): (&StudyEffects, &Findings),
+    files: Vec<String>,
+) -> Page {
+    let charts = [shares(rows, found), swings(rows, found)].into_iter().flatten().map(Block::Panels);
+    let effects = PageSection::new(
+        "effects",
+        "What moves what",
+        "Share: the part of a quantity's variance over all cases that a parameter makes alone (Sobol's first-order \
+         index) with its 95 % interval. What the shares lack of 100 % is what parameters do together, and chance. \
+         Swing: largest less smallest mean of the quantity along the parameter.",
+        charts.chain(found.of.iter().map(effects_table)).collect(),
+    );
+    let along = rows.parameters.iter().filter_map(|parameter| means_chart(parameter, found));
+    let mut sections = vec![effects];
+    let add = |id, title: &str, lead: &str, blocks: Vec<Block>| {
+        (!blocks.is_empty()).then(|| PageSection::new(id, title, lead, blocks))
+    };
+    sections.extend(add(
+        "means",
+        "Along the parameters",
+        "Means of the quantities over all cases with a value of the parameter, whatever the other parameters are; of \
+         ranges over neighbouring cases.",
+        along.map(Block::Lines).collect(),
+    ));
+    sections.extend(add(
+        "pairs",
+        "Two parameters together",
+        "Means of a quantity over the two parameters that move it most.",
+        found.of.iter().filter_map(pair_table).map(Block::Table).collect(),
+    ));
+    sections.extend(add(
+        "best",
+        "Best cases",
+        "Time against each quantity: no other case is as fast and smaller in size, or as small and faster. The \
+         settings repeat a case: gearcut cut with the scene of the study and --set for each of them.",
+        found.fronts.iter().map(|front| Block::Table(front_table(plan, rows, front))).collect(),
+    ));
+    let links = FileLinks { what: "Beside this page".to_owned(), files, more: 0 };
+    sections.push(PageSection::new("files", "Files", "", vec![Block::Files(vec![links])]));
+    Page {
+        what: "study",
+        subtitle: format!("{} cases of {} parameters", plan.cases(), rows.parameters.len()),
+        operations: vec![gear_words(&base.gear)],
+        done: "all cases made",
+        sections,
+        ..page_of(tree)
+    }
+}
+
+/// Panels of one value for each parameter, a panel for each quantity; none without quantities.
+fn panels(
+    rows: &StudyRows,
+    found: &StudyEffects,
+    (title, value_name): (&str, &str),
+    value: impl Fn(&StudyColumn, &Effect) -> Option<(f64, String)>,
+) -> Option<BarPanels> {
+    let panel = |(quantity, on): &(&StudyColumn, Vec<(&StudyColumn, Effect)>)| {
+        let of = |parameter: &StudyColumn| {
+            let (_, effect) = on.iter().find(|(own, _)| own.name == parameter.name)?;
+            value(quantity, effect)
+        };
+        let found: Vec<Option<(f64, String)>> = rows.parameters.iter().map(of).collect();
+        let unit = found.iter().flatten().next()?.1.clone();
+        Some(BarPanel {
+            value_name: quantity.name.clone(),
+            least_division: if unit == "%" { LEAST_PERCENT } else { 0.0 },
+            unit,
+            series: vec![BarSeries {
+                name: value_name.to_owned(),
+                values: found.into_iter().map(|of| of.map(|of| of.0)).collect(),
+            }],
+            limits: Vec::new(),
+        })
+    };
+    let panels: Vec<BarPanel> = found.of.iter().filter_map(panel).collect();
+    (!panels.is_empty()).then(|| BarPanels {
+        title: title.to_owned(),
+        category_name: "parameter".to_owned(),
+        categories: rows.parameters.iter().map(|of| of.name.clone()).collect(),
+        panels,
+    })
+}
+
+fn shares(rows: &StudyRows, found: &StudyEffects) -> Option<BarPanels> {
+    let words = ("Share of the variance that each parameter makes alone", "share");
+    panels(rows, found, words, |_, effect| Some((100.0 * effect.share?.index.max(0.0), "%".to_owned())))
+}
+
+fn swings(rows: &StudyRows, found: &StudyEffects) -> Option<BarPanels> {
+    panels(rows, found, ("Swing of each quantity's mean along each parameter", "swing"), |quantity, effect| {
+        Some((effect.swing(), unit::signs(&quantity.unit)))
+    })
+}
+
+fn effects_table((quantity, on): &(&StudyColumn, Vec<(&StudyColumn, Effect)>)) -> Block {
+    let mut on: Vec<&(&StudyColumn, Effect)> = on.iter().collect();
+    on.sort_by(|a, b| b.1.swing().total_cmp(&a.1.swing()));
+    let rows = on.into_iter().map(|(parameter, effect)| {
+        let percent = |share: f64| significant(100.0 * share.clamp(0.0, 1.0), DIGITS);
+        let [share, interval] = effect.share.map_or(["–".to_owned(), "–".to_owned()], |share| {
+            let [low, high] = share.interval.map(percent);
+            [percent(share.index), format!("{low} to {high}")]
+        });
+        vec![parameter.name.clone(), share, interval, shown(effect.swing())]
+    });
+    let heads = ["Parameter", "Share [%]", "95 % interval [%]"].map(str::to_owned);
+    Block::Table(PageTable {
+        caption: quantity.name.clone(),
+        columns: heads.into_iter().chain([format!("Swing [{}]", unit::signs(&quantity.unit))]).collect(),
+        rows: rows.collect(),
+    })
+}
+
+/// Means of all quantities along a parameter of numbers; none of words.
+fn means_chart(parameter: &StudyColumn, found: &StudyEffects) -> Option<LineChart> {
+    let panel = |(quantity, on): &(&StudyColumn, Vec<(&StudyColumn, Effect)>)| {
+        let (_, effect) = on.iter().find(|(own, _)| own.name == parameter.name)?;
+        let points: Vec<(f64, f64)> =
+            effect.parts.iter().map(|part| Some((part.number?, part.mean))).collect::<Option<_>>()?;
+        Some(Panel {
+            value_name: quantity.name.clone(),
+            unit: unit::signs(&quantity.unit),
+            series: vec![LineSeries { name: "mean".to_owned(), points }],
+            limits: Vec::new(),
+            least_division: 0.0,
+        })
+    };
+    let panels: Vec<Panel> = found.of.iter().filter_map(panel).collect();
+    (!panels.is_empty()).then(|| LineChart {
+        title: format!("Means along {}", parameter.name),
+        x_name: parameter.name.clone(),
+        x_unit: unit::signs(&parameter.unit),
+        panels,
+    })
+}
+
+/// Means over the two parameters with the largest swings; none where they have too many values for a table.
+fn pair_table((quantity, on): &(&StudyColumn, Vec<(&StudyColumn, Effect)>)) -> Option<PageTable> {
+    let mut on: Vec<&(&StudyColumn, Effect)> = on.iter().collect();
+    on.sort_by(|a, b| b.1.swing().total_cmp(&a.1.swing()));
+    let [(first, down), (second, across)] = on.get(..2)? else { return None };
+    let is_listed = |effect: &Effect, parameter: &StudyColumn| {
+        let values: BTreeSet<&String> = parameter.cells.iter().collect();
+        effect.parts.len() == values.len() && values.len() <= MOST_OF_A_PAIR
+    };
+    if !is_listed(down, first) || !is_listed(across, second) {
+        return None;
+    }
+    let mut sums: BTreeMap<[&str; 2], (f64, usize)> = BTreeMap::new();
+    for ((a, b), value) in first.cells.iter().zip(&second.cells).zip(quantity.numbers()?) {
+        let (sum, count) = sums.entry([a, b]).or_default();
+        *sum += value;
+        *count += 1;
+    }
+    let cell =
+        |a: &str, b: &str| sums.get(&[a, b]).map_or_else(|| "–".to_owned(), |(sum, count)| shown(sum / *count as f64));
+    let head = format!("{} (down), {} (across)", first.name, second.name);
+    let rows = down.parts.iter().map(|row| {
+        std::iter::once(row.at.clone()).chain(across.parts.iter().map(|column| cell(&row.at, &column.at))).collect()
+    });
+    Some(PageTable {
+        caption: format!("{} [{}]", quantity.name, unit::signs(&quantity.unit)),
+        columns: std::iter::once(head).chain(across.parts.iter().map(|part| part.at.clone())).collect(),
+        rows: rows.collect(),
+    })
+}
+
+fn front_table(plan: &StudyPlan, rows: &StudyRows, front: &ParetoFront) -> PageTable {
+    let row = |(place, [time, value]): &(usize, [f64; 2])| {
+        let case = rows.cases[*place];
+        vec![case.to_string(), shown(*time), shown(*value), plan.settings(case).join("; ")]
+    };
+    let named = |column: &StudyColumn| format!("{} [{}]", column.name, unit::signs(&column.unit));
+    PageTable {
+        caption: format!("{} and {}", front.time.name, front.quantity.name),
+        columns: vec!["Case".to_owned(), named(front.time), named(front.quantity), "Settings".to_owned()],
+        rows: front.best.iter().take(MOST_BEST).map(row).collect(),
+    }
+}
+
+fn shown(value: f64) -> String {
+    significant(value, DIGITS).replace('-', "−")
+}
