@@ -1,8 +1,8 @@
 //! A study at work: cases on all cores, each a row on the disk as soon as it is found.
 //!
 //! In: a [`Study`]. Out: a folder with `rows.csv`, `columns.csv`, the page of a whole study and the run record. It
-//! grows under its final name (`GrowingFolder`): what a kill leaves is rows, and the same command goes on with the cases
-//! that are missing. At the end the rows are in the order of their cases, whatever order they were found in.
+//! grows under its final name (`GrowingFolder`): what a kill leaves is rows, and the same command goes on with the
+//! cases that are missing. At the end the rows are in the order of their cases, whatever order they were found in.
 //!
 //! The law: nothing of a row depends on time, threads or machine. What a case refuses is its row; what the machine
 //! refuses (a full disk) ends the study.

@@ -1,7 +1,7 @@
 //! A study as findings: what each parameter does to each kept quantity, and the cases that no other one betters.
 //!
 //! In: [`StudyRows`]. Out: the tree, with tables of effects, of means along parameters, and of the front of Pareto of
-//! time against each quantity, where a time is kept. Quantities that lack a value in some case are left out.
+//! time against each quantity, where a time is kept. Cases without a value are left out of what is said of it.
 
 use super::effects::Effect;
 use super::quantities::{
@@ -13,11 +13,12 @@ use crate::findings::{Findings, Table};
 use crate::influence::quantities::UNIT;
 use crate::scatter::quantities::KEY;
 use crate::scene::Scene;
+use std::collections::BTreeMap;
 
 /// What a study's parameters do.
 #[derive(Debug)]
 pub struct StudyEffects<'a> {
-    /// Kept quantities that are numbers in every case, with the effects of the parameters on them.
+    /// Kept quantities that are numbers, with the effects of the parameters on them.
     pub of: Vec<(&'a StudyColumn, Vec<(&'a StudyColumn, Effect)>)>,
     /// Cases that no other one betters in time and in the size of a quantity together.
     pub fronts: Vec<ParetoFront<'a>>,
@@ -37,39 +38,41 @@ pub struct ParetoFront<'a> {
 impl<'a> StudyEffects<'a> {
     /// Of all rows.
     pub fn of(rows: &'a StudyRows) -> Self {
-        let numbers: Vec<(&StudyColumn, Vec<f64>)> = rows
-            .kept
-            .iter()
-            .filter(|column| !column.cells.is_empty())
-            .filter_map(|column| Some((column, column.numbers()?)))
-            .collect();
-        let effects = |(column, numbers): &(&'a StudyColumn, Vec<f64>)| {
+        let numbers = rows.kept.iter().map(|column| (column, column.numbers()));
+        let numbers: Vec<(&StudyColumn, Vec<(usize, f64)>)> =
+            numbers.filter(|(_, values)| !values.is_empty()).collect();
+        let effects = |(column, numbers): &(&'a StudyColumn, Vec<(usize, f64)>)| {
+            let quantity: Vec<f64> = numbers.iter().map(|(_, value)| *value).collect();
             let on = rows.parameters.iter().map(|parameter| {
-                let values: Vec<&str> = parameter.cells.iter().map(String::as_str).collect();
-                (parameter, Effect::of(&values, numbers))
+                let values: Vec<&str> = numbers.iter().map(|&(place, _)| parameter.cells[place].as_str()).collect();
+                (parameter, Effect::of(&values, &quantity))
             });
             (*column, on.filter(|(_, effect)| effect.parts.len() > 1).collect())
         };
         let time = numbers.iter().find(|(column, _)| column.unit == "s");
-        let front = |(time, times): &(&'a StudyColumn, Vec<f64>)| {
+        let front = |(time, times): &(&'a StudyColumn, Vec<(usize, f64)>)| {
+            let times: BTreeMap<usize, f64> = times.iter().copied().collect();
             let others = numbers.iter().filter(|(column, _)| column.unit != "s");
-            others.map(|(column, values)| ParetoFront { time, quantity: column, best: best(times, values) }).collect()
+            let of = |(quantity, values): &(&'a StudyColumn, Vec<(usize, f64)>)| {
+                let both = values.iter().filter_map(|&(place, value)| Some((place, [*times.get(&place)?, value])));
+                ParetoFront { time, quantity, best: best(both.collect()) }
+            };
+            others.map(of).collect()
         };
         Self { of: numbers.iter().map(effects).collect(), fronts: time.map_or_else(Vec::new, front) }
     }
 }
 
-/// Cases of which no other one is as fast and smaller in size, or as small and faster.
-fn best(times: &[f64], values: &[f64]) -> Vec<(usize, [f64; 2])> {
-    let mut order: Vec<usize> = (0..times.len()).collect();
-    order.sort_by(|&a, &b| times[a].total_cmp(&times[b]).then(values[a].abs().total_cmp(&values[b].abs())));
+/// Of times and values, those of which no other one is as fast and smaller in size, or as small and faster.
+fn best(mut cases: Vec<(usize, [f64; 2])>) -> Vec<(usize, [f64; 2])> {
+    cases.sort_by(|(_, a), (_, b)| a[0].total_cmp(&b[0]).then(a[1].abs().total_cmp(&b[1].abs())));
     let mut smallest = f64::INFINITY;
-    order.retain(|&case| {
-        let betters = values[case].abs() < smallest;
-        smallest = smallest.min(values[case].abs());
+    cases.retain(|(_, [_, value])| {
+        let betters = value.abs() < smallest;
+        smallest = smallest.min(value.abs());
         betters
     });
-    order.into_iter().map(|case| (case, [times[case], values[case]])).collect()
+    cases
 }
 
 /// The tree.
@@ -128,8 +131,8 @@ mod tests {
 
     #[test]
     fn a_front_has_the_cases_that_no_other_one_betters() {
-        let (times, values) = ([5.0, 1.0, 2.0, 2.0, 4.0], [0.5, 9.0, -4.0, 6.0, 4.0]);
-        let cases: Vec<usize> = best(&times, &values).iter().map(|of| of.0).collect();
+        let cases = [[5.0, 0.5], [1.0, 9.0], [2.0, -4.0], [2.0, 6.0], [4.0, 4.0]];
+        let cases: Vec<usize> = best(cases.into_iter().enumerate().collect()).iter().map(|of| of.0).collect();
         assert_eq!(cases, [1, 2, 0]);
     }
 }

@@ -110,7 +110,7 @@ fn panels(
         let unit = found.iter().flatten().next()?.1.clone();
         Some(BarPanel {
             value_name: quantity.name.clone(),
-            least_division: if unit == "%" { LEAST_PERCENT } else { 0.0 },
+            least_division: if unit == "%" { LEAST_PERCENT } else { least_division(&quantity.unit) },
             unit,
             series: vec![BarSeries {
                 name: value_name.to_owned(),
@@ -169,7 +169,7 @@ fn means_chart(parameter: &StudyColumn, found: &StudyEffects) -> Option<LineChar
             unit: unit::signs(&quantity.unit),
             series: vec![LineSeries { name: "mean".to_owned(), points }],
             limits: Vec::new(),
-            least_division: 0.0,
+            least_division: least_division(&quantity.unit),
         })
     };
     let panels: Vec<Panel> = found.of.iter().filter_map(panel).collect();
@@ -194,8 +194,8 @@ fn pair_table((quantity, on): &(&StudyColumn, Vec<(&StudyColumn, Effect)>)) -> O
         return None;
     }
     let mut sums: BTreeMap<[&str; 2], (f64, usize)> = BTreeMap::new();
-    for ((a, b), value) in first.cells.iter().zip(&second.cells).zip(quantity.numbers()?) {
-        let (sum, count) = sums.entry([a, b]).or_default();
+    for (place, value) in quantity.numbers() {
+        let (sum, count) = sums.entry([&first.cells[place], &second.cells[place]]).or_default();
         *sum += value;
         *count += 1;
     }
@@ -222,6 +222,15 @@ fn front_table(plan: &StudyPlan, rows: &StudyRows, front: &ParetoFront) -> PageT
         caption: format!("{} and {}", front.time.name, front.quantity.name),
         columns: vec!["Case".to_owned(), named(front.time), named(front.quantity), "Settings".to_owned()],
         rows: front.best.iter().take(MOST_BEST).map(row).collect(),
+    }
+}
+
+/// Smallest distance of two ticks: what is less is no finding.
+fn least_division(unit: &str) -> f64 {
+    match unit {
+        "um" => 0.01,
+        "mm" => 1e-5,
+        _ => 0.0,
     }
 }
 

@@ -66,9 +66,10 @@ impl StudyRows {
 }
 
 impl StudyColumn {
-    /// Its numbers, case by case; none if a cell is no number.
-    pub fn numbers(&self) -> Option<Vec<f64>> {
-        let number = |cell: &String| cell.parse().ok().filter(|number: &f64| number.is_finite());
-        self.cells.iter().map(number).collect()
+    /// Its numbers, each behind the place of its case; cells without one are left out.
+    pub fn numbers(&self) -> Vec<(usize, f64)> {
+        let number =
+            |(place, cell): (usize, &String)| Some((place, cell.parse().ok().filter(|of: &f64| of.is_finite())?));
+        self.cells.iter().enumerate().filter_map(number).collect()
     }
 }
