@@ -14,7 +14,8 @@ use gearcut_core::error::{Error, Result};
 use gearcut_core::passes::{CutPlan, SweepPlan};
 use gearcut_core::terms::Side;
 use std::path::Path;
-use std::time::{Duration, Instant};
+use std::time::Duration;
+use web_time::Instant;
 
 /// A round gear shaped in one operation, the feed going on during the strokes.
 const SHAPED: &str = "

@@ -91,7 +91,7 @@ impl ColourScale {
 }
 
 /// Colours of the sequential and of the diverging scale at 256 even places, for programs that colour values themselves.
-pub(super) fn tables() -> [[[u8; 3]; 256]; 2] {
+pub fn tables() -> [[[u8; 3]; 256]; 2] {
     [&VIRIDIS[..], &BLUE_WHITE_RED].map(|anchors| std::array::from_fn(|i| between(anchors, i as f64 / 255.0)))
 }
 

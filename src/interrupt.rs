@@ -38,6 +38,7 @@ pub fn end_now(code: u8) -> ! {
 }
 
 /// Ends the process without a word to its libraries; without a shell it is aborted.
+#[cfg_attr(not(unix), expect(unused_variables, reason = "no shell"))]
 fn end_without_libraries(code: u8) -> ! {
     #[cfg(unix)]
     {
@@ -58,6 +59,7 @@ impl Interrupt {
     ///
     /// # Errors
     /// Another listener is there already.
+    #[cfg(feature = "command")]
     pub fn listen() -> io::Result<Self> {
         let interrupt = Self::default();
         let on_signal = interrupt.clone();

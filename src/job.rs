@@ -14,6 +14,7 @@ use crate::surface::triangles::{SectionProfile, in_space};
 use gearcut_core::cut::Backend;
 use gearcut_core::dexel::{Layer, Ray};
 use gearcut_core::error::Result;
+use gearcut_core::frame::Rigid2;
 use gearcut_core::gear::PitchCurve;
 use gearcut_core::gear::blank::Blank;
 use gearcut_core::terms::Side;
@@ -191,6 +192,12 @@ pub trait CylindricalGear: GearJob {
 
     /// Edge of the tool, its chords within `chord_mm`.
     fn tool_section(&self, chord_mm: f64) -> ToolSection;
+
+    /// Where [`Self::tool_section`] stands in the gear when it cuts the middle of the face, stroke by stroke through
+    /// all operations; none where the tool does not move in transverse sections.
+    fn tool_places(&self) -> Vec<Rigid2> {
+        Vec::new()
+    }
 
     /// Surface of the tip land of a tooth after all operations; `None` on a pointed tooth.
     ///

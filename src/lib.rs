@@ -75,7 +75,7 @@
 //! - `gearcut_gpu`: the backend on wgpu, left out without the feature `gpu`
 //! - [`backend`]: which machine cuts
 //! - [`interrupt`]: Ctrl-C as a flag
-//! - `colormap`: numbers as colours
+//! - [`colormap`]: numbers as colours
 //! - `wrap`: texts in lines of a width
 //! - `regular_file`: files of others, up to a size
 //! - `random`: normal numbers that follow from a key
@@ -109,8 +109,13 @@
 
 // What only tests and benchmarks call is no dead code.
 
+// What only commands call is no dead code, either.
+#![cfg_attr(not(feature = "command"), allow(dead_code, unused_imports))]
+
 pub mod backend;
+#[cfg(feature = "command")]
 mod cli;
+pub mod colormap;
 pub mod findings;
 pub mod interrupt;
 pub mod notices;
@@ -125,7 +130,6 @@ cfg_if::cfg_if! {
     // Tests and benchmarks see them, other programs do not.
     if #[cfg(feature = "testing")] {
         pub mod bench;
-        pub mod colormap;
         pub mod compare;
         pub mod export;
         pub mod gcode;
@@ -148,7 +152,6 @@ cfg_if::cfg_if! {
         pub mod wrap;
     } else {
         mod bench;
-        mod colormap;
         mod compare;
         mod export;
         mod gcode;
@@ -173,11 +176,11 @@ cfg_if::cfg_if! {
 }
 
 pub use findings::Findings;
-pub use library::{Flank, Job};
+pub use library::{Flank, Job, PlanarView};
 pub use process::{load, parse, table as key_table};
 pub use run::{Done, Run};
 pub use scene::{LoadedScene, Scene};
-pub use steps::parts::{Part, Parts};
+pub use steps::parts::{Part, Parts, Stages};
 
 pub use gearcut_core::terms::Side;
 pub use gearcut_core::{Error, Refusal, Result};
@@ -193,6 +196,7 @@ pub use gearcut_gpu as gpu;
 ///
 /// 0: done. 1: the work was refused or failed, and standard error says why. 2: wrong usage. 3: done, and the verdict is
 /// bad. 130: stopped by Ctrl-C.
+#[cfg(feature = "command")]
 pub fn command() -> std::process::ExitCode {
     cli::run(<cli::args::CommandLine as clap::Parser>::parse())
 }

@@ -23,9 +23,10 @@ use crate::run::Run;
 use crate::scene::LoadedScene;
 use gearcut_core::dexel::{Layer, NO_PASS, Ray};
 use gearcut_core::error::{Refusal, Result};
+use gearcut_core::frame::Rigid2;
 use gearcut_core::terms::Side;
-use gearcut_core::units::UM_PER_MM;
-use glam::DVec3;
+use gearcut_core::units::{TURN_RAD, UM_PER_MM};
+use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 use std::sync::Arc;
 
@@ -84,6 +85,16 @@ impl Job {
         })
     }
 
+    /// Places of a flank at the scene's spacing, as [`Self::cut_flank_at`] takes them: arcs and places along the tooth,
+    /// mm. Whoever cuts a flank piece by piece takes some of the arcs at a time, and has the same heights within
+    /// 0.1 nm.
+    ///
+    /// # Errors
+    /// Those of [`Self::cut_flank`].
+    pub fn flank_places_mm(&self, tooth: u32, side: Side) -> Result<[Vec<f64>; 2]> {
+        self.with_gear(|gear| Flank::places_mm(gear, tooth, side))
+    }
+
     /// Cuts all flanks with the scene's spacing, on all cores, and hands over each as it is finished, in no fixed
     /// order. Memory holds as many flanks as there are cores.
     ///
@@ -108,6 +119,42 @@ impl Job {
         self.prepared.check(sheet)
     }
 
+    /// What must be known before cutting: the notices of [`Self::check`] without its sheet, and without the cuts by
+    /// which it forecasts the cost.
+    ///
+    /// # Errors
+    /// Geometry that cannot be cut.
+    pub fn foreseen(&self) -> Result<Vec<Notice>> {
+        self.prepared.foreseen()
+    }
+
+    /// Those notices of [`Self::foreseen`] that follow from the shapes of gear and tool alone: undercut, pointed teeth,
+    /// interference in rings. Of shaped gears they come within milliseconds.
+    ///
+    /// # Errors
+    /// Geometry that cannot be cut.
+    pub fn foreseen_of_shapes(&self) -> Result<Vec<Notice>> {
+        self.prepared.foreseen_of_shapes()
+    }
+
+    /// Charts of the axes as SVG, each with its name, such as `finish_velocities`.
+    ///
+    /// # Errors
+    /// A chart that cannot be drawn.
+    pub fn axis_charts(&self) -> Result<Vec<(String, String)>> {
+        self.prepared.axis_charts()
+    }
+
+    /// Outlines of gear and tool in the middle of the face, and where the tool stands at every stroke: what a drawing
+    /// of the cut needs. Chords lie within `chord_mm` of the tool's edge, points of the gear so far apart that the
+    /// same holds of its fillets.
+    ///
+    /// # Errors
+    /// A gear without transverse sections; flanks whose target is not known in closed form.
+    pub fn planar_view(&self, chord_mm: f64) -> Result<PlanarView> {
+        self.with_gear(|gear| PlanarView::of(gear, chord_mm))
+    }
+
     /// Writes axis tables, charts and programs into `axes/` of a folder, and says on a sheet what the axes do; gives
     /// what must be known before they are used.
     ///
@@ -129,6 +176,54 @@ impl Job {
             Ok(())
         })?;
         Ok(answered.expect("a job shows its gear"))
+    }
+}
+
+/// A gear and its tool in a transverse section, gear frame, mm; all outlines are closed.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PlanarView {
+    /// The target, tooth after tooth counter-clockwise.
+    pub gear_mm: Vec<DVec2>,
+    /// The pitch curve.
+    pub pitch_mm: Vec<DVec2>,
+    /// The stock before the first stroke: where the tips come to lie.
+    pub stock_mm: Vec<DVec2>,
+    /// Radius of the bore, or of a ring's rim, mm.
+    pub back_radius_mm: f64,
+    /// The tool in its own frame.
+    pub tool_mm: Vec<DVec2>,
+    /// Turn of the tool against its own frame, rad, and its axis at every stroke through all operations; none where
+    /// the tool does not move in transverse sections.
+    pub strokes: Vec<(f64, DVec2)>,
+}
+
+impl PlanarView {
+    fn of(gear: &dyn GearJob, chord_mm: f64) -> Result<Self> {
+        let Some(of) = gear.cylindrical() else {
+            let why = "a gear without transverse sections has no such drawing";
+            return Err(Refusal::new("tool", why, "draw gears of shaping or hobbing").into());
+        };
+        let teeth = gear.scene().gear.teeth;
+        let spacing_mm = (chord_mm * gear.scene().gear.module_mm).sqrt();
+        let mut gear_mm = Vec::new();
+        for tooth in 1..=teeth {
+            gear_mm.extend(of.target_section(tooth, 0.0, spacing_mm)?.outline_mm());
+        }
+        let blank = of.blank();
+        let round = |height_mm: f64| {
+            let places = 24 * teeth;
+            let at = |i: u32| blank.at_height_mm(TURN_RAD * f64::from(i) / f64::from(places), height_mm);
+            (0..places).map(at).collect()
+        };
+        let place = |place: Rigid2| (place.rotation.to_angle(), place.translation_mm);
+        Ok(Self {
+            gear_mm,
+            pitch_mm: round(0.0),
+            stock_mm: round(blank.addendum_mm),
+            back_radius_mm: blank.back.radius_mm,
+            tool_mm: of.tool_section(chord_mm).points_mm,
+            strokes: of.tool_places().into_iter().map(place).collect(),
+        })
     }
 }
 
@@ -173,11 +268,15 @@ pub struct Flank {
 
 impl Flank {
     fn spaced(gear: &dyn GearJob, choice: &Choice, tooth: u32, side: Side) -> Result<Self> {
+        let [arcs_mm, face_mm] = Self::places_mm(gear, tooth, side)?;
+        Self::cut(gear, choice, (tooth, side), arcs_mm, face_mm)
+    }
+
+    fn places_mm(gear: &dyn GearJob, tooth: u32, side: Side) -> Result<[Vec<f64>; 2]> {
         refuse_tooth(gear, tooth)?;
         let scene = gear.scene();
         let face_mm = rows_z_mm(scene.gear.face_width_mm, scene.fields.lead_spacing_mm);
-        let arcs_mm = gear.even_arcs_mm(tooth, side, scene.fields.profile_spacing_mm)?;
-        Self::cut(gear, choice, (tooth, side), arcs_mm, face_mm)
+        Ok([gear.even_arcs_mm(tooth, side, scene.fields.profile_spacing_mm)?, face_mm])
     }
 
     fn cut(

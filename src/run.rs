@@ -20,7 +20,7 @@ use crate::steps::summary::Summary;
 use crate::steps::{Tools, record};
 use gearcut_core::cut::Backend;
 use gearcut_core::cut::cpu::Cpu;
-use gearcut_core::error::{Error, Result};
+use gearcut_core::error::Result;
 use std::path::Path;
 
 /// A finished run.
@@ -90,9 +90,8 @@ impl<'a> Run<'a> {
     /// Cuts and measures, and keeps no file. A GPU that nobody asked for by name is not tried.
     ///
     /// # Errors
-    /// Geometry, the backend, the folder of temporary files. Ctrl-C is no error once a flank is finished.
+    /// Geometry, the backend. Ctrl-C is no error once a flank is finished.
     pub fn found(self) -> Result<Findings> {
-        let scratch = tempfile::tempdir().map_err(Error::writing(std::env::temp_dir()))?;
         let (native, quiet) = (Cpu::default(), Progress::new(ProgressMode::Quiet));
         let tools = Tools {
             resolved: "",
@@ -100,7 +99,7 @@ impl<'a> Run<'a> {
             backend_why: &self.choice.why,
             progress: self.progress.unwrap_or(&quiet),
             interrupt: &self.interrupt,
-            folder: &OutputFolder::create(&scratch.path().join("run"))?,
+            folder: &OutputFolder::nowhere(),
             parts: Parts::of([]),
             stages: self.stages,
             notes: &[],

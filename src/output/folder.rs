@@ -69,6 +69,16 @@ impl OutputFolder {
         Self::create_by(final_path, Box::new(Disk))
     }
 
+    /// No folder, for a run that keeps no file: a writer that asks for a path is refused.
+    pub fn nowhere() -> Self {
+        Self { final_path: PathBuf::new(), name: OsString::new(), workplace: Workplace::nowhere() }
+    }
+
+    /// Whether there is no folder.
+    pub fn is_nowhere(&self) -> bool {
+        self.workplace.is_nowhere()
+    }
+
     /// [`create`](Self::create) for what a command writes: these parts, if it writes results in parts.
     ///
     /// # Errors
@@ -113,8 +123,12 @@ impl OutputFolder {
     /// Place of a file inside the folder, given relative to it; the subfolders on the way are made.
     ///
     /// # Errors
-    /// A subfolder cannot be made.
+    /// A subfolder cannot be made; there is no folder.
     pub fn path(&self, relative: impl AsRef<Path>) -> Result<PathBuf> {
+        if self.is_nowhere() {
+            let path = relative.as_ref().to_owned();
+            return Err(Error::Output { path, reason: "this run keeps no file".to_owned() });
+        }
         let path = self.workplace.new_files().join(relative);
         if let Some(parent) = path.parent() {
             fs::create_dir_all(parent).map_err(Error::writing(parent))?;

@@ -19,7 +19,8 @@ use std::marker::PhantomData;
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 use std::sync::{Mutex, PoisonError};
-use std::time::{Duration, Instant};
+use std::time::Duration;
+use web_time::Instant;
 
 /// Between two moments at which lines are forced to the disk.
 const FORCED_EVERY: Duration = Duration::from_secs(1);

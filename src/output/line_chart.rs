@@ -64,6 +64,14 @@ pub struct Limit {
 }
 
 impl LineChart {
+    /// The chart as SVG, or why it cannot be drawn.
+    ///
+    /// # Errors
+    /// No panel, or a panel with no curve or more than seven.
+    pub fn svg(&self) -> std::result::Result<String, String> {
+        self.problem().map_or_else(|| self.figure().svg(), Err)
+    }
+
     /// Writes the chart as SVG.
     ///
     /// # Errors

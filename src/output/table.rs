@@ -18,11 +18,14 @@ use crate::output::atomic::write_atomically;
 use crate::output::folder::OutputFolder;
 use gearcut_core::{Error, Result};
 
-/// Writes every table of the tree that has a file.
+/// Writes every table of the tree that has a file, if there is a folder.
 ///
 /// # Errors
 /// Files that cannot be written.
 pub fn write_tables(findings: &Findings, folder: &OutputFolder) -> Result<()> {
+    if folder.is_nowhere() {
+        return Ok(());
+    }
     let mut tables = Vec::new();
     findings.walk(&mut |_, section| tables.extend(&section.tables));
     for table in tables {

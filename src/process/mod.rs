@@ -68,6 +68,25 @@ pub trait ProcessJob: Send + Sync {
     /// Geometry that cannot be cut.
     fn check(&self, sheet: &mut Sheet) -> Result<Vec<Notice>>;
 
+    /// What must be known before cutting, without the cost of [`Self::check`].
+    ///
+    /// # Errors
+    /// Geometry that cannot be cut.
+    fn foreseen(&self) -> Result<Vec<Notice>>;
+
+    /// Those of them that follow from the shapes of gear and tool alone, undercut, pointed teeth, interference in
+    /// rings: where others take long, they can follow a hand that draws a gear.
+    ///
+    /// # Errors
+    /// Geometry that cannot be cut.
+    fn foreseen_of_shapes(&self) -> Result<Vec<Notice>>;
+
+    /// Charts of the axes as SVG, by the names of their files without endings.
+    ///
+    /// # Errors
+    /// A chart that cannot be drawn.
+    fn axis_charts(&self) -> Result<Vec<(String, String)>>;
+
     /// Shows the gear to `visit`, with which single flanks can be cut.
     ///
     /// # Errors

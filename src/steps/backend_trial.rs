@@ -16,7 +16,7 @@ use gearcut_core::cut::cpu::Cpu;
 use gearcut_core::error::Result;
 use gearcut_core::terms::Side;
 use rayon::prelude::*;
-use std::time::Instant;
+use web_time::Instant;
 
 /// Columns of a patch in the middle of a profile: two tiles, some tens of milliseconds with all rows.
 const COLUMNS: usize = 32;

@@ -55,5 +55,8 @@ pub fn write<O: AxesOfOperation>(
     }
     found.warnings = list(attempts);
     found.complete &= !attempts.lost_files();
+    if folder.is_nowhere() {
+        return Ok(());
+    }
     folder.write_json(RESULTS_FILE, &found.to_json())
 }

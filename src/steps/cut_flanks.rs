@@ -20,7 +20,7 @@ use gearcut_core::error::Result;
 use gearcut_core::terms::Side;
 use std::collections::BTreeMap;
 use std::sync::{Mutex, PoisonError};
-use std::time::Instant;
+use web_time::Instant;
 
 /// One flank after all operations.
 #[derive(Debug)]

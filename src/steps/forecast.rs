@@ -157,6 +157,6 @@ fn processor_time() -> Duration {
 /// Wall time, where the system has no such clock.
 #[cfg(not(any(target_os = "linux", target_os = "android", target_vendor = "apple")))]
 fn processor_time() -> Duration {
-    static START: std::sync::OnceLock<std::time::Instant> = std::sync::OnceLock::new();
-    START.get_or_init(std::time::Instant::now).elapsed()
+    static START: std::sync::OnceLock<web_time::Instant> = std::sync::OnceLock::new();
+    START.get_or_init(web_time::Instant::now).elapsed()
 }

@@ -113,6 +113,58 @@ fn a_flank_at_places_of_the_callers_own_holds_the_same_heights() {
     }
 }
 
+/// What a page draws of a round gear lies where its drawing says: tips, roots, pitch circle, and the cutter's axis.
+#[test]
+fn a_planar_view_is_the_drawing_of_a_round_gear() {
+    let job = Job::new(coarse()).expect("a scene that cuts");
+    let view = job.planar_view(0.01).expect("a gear with sections");
+    let [lowest, highest] = [f64::INFINITY, 0.0];
+    let ends = |points: &[glam::DVec2]| {
+        points.iter().fold([lowest, highest], |[low, high], p| [low.min(p.length()), high.max(p.length())])
+    };
+    let near = |found: [f64; 2], expected: [f64; 2], mm: f64| {
+        let off = [found[0] - expected[0], found[1] - expected[1]];
+        assert!(off.iter().all(|off| off.abs() < mm), "{found:?} mm, {expected:?} expected");
+    };
+    near(ends(&view.pitch_mm), [36.0; 2], 1e-9);
+    near(ends(&view.stock_mm), [39.0; 2], 1e-9);
+    // The cutter has an addendum of 1.25 modules, and roots lie where its tips end.
+    near(ends(&view.gear_mm), [36.0 - 3.75, 39.0], 1e-3);
+    near(ends(&view.tool_mm), [30.0 - 3.75, 33.75], 1e-3);
+    let (_, last_mm) = view.strokes[view.strokes.len() - 1];
+    near([last_mm.length(); 2], [66.0; 2], 1e-9);
+    let turns: f64 = view.strokes[view.strokes.len() - 2..].windows(2).map(|two| two[1].0 - two[0].0).sum();
+    let angle = view.strokes[view.strokes.len() - 2].1.angle_to(last_mm);
+    // In the gear's frame the cutter rolls round: its axis goes on by an angle, and it turns by that and z / z_c of it.
+    let rolls = (turns / angle - (1.0 + 24.0 / 20.0)).abs();
+    assert!(rolls < 1e-6, "{turns} rad while its axis goes on by {angle}");
+}
+
+/// A run that keeps no file finds what one with a folder finds.
+#[test]
+fn findings_are_those_of_a_run_with_a_folder() {
+    let job = Job::new(coarse()).expect("a scene that cuts");
+    let folder = tempfile::tempdir().expect("a folder");
+    let written = job.run().only(Parts::of([])).into_folder(&folder.path().join("run")).expect("a run").findings;
+    let found = job.run().found().expect("findings");
+    assert_eq!(found.to_json(), written.to_json());
+}
+
+#[test]
+fn notices_and_charts_come_without_a_folder() {
+    let job = Job::new(spur()).expect("a scene that cuts");
+    let mut sheet = gearcut::output::text::Sheet::default();
+    let all = job.foreseen().expect("notices");
+    assert_eq!(all, job.check(&mut sheet).expect("notices"));
+    let undercut = "gear.teeth=10".to_owned();
+    let few = Job::new(coarse().with_settings(&[undercut], gearcut::key_table()).expect("a scene")).expect("it cuts");
+    let (all, some) = (few.foreseen().expect("notices"), few.foreseen_of_shapes().expect("notices"));
+    assert!(some.iter().any(|notice| notice.id == "flank.undercut"), "{some:?}");
+    assert!(some.len() < all.len() && some.iter().all(|notice| all.contains(notice)), "{some:?} of {all:?}");
+    let charts = job.axis_charts().expect("charts");
+    assert!(!charts.is_empty() && charts.iter().all(|(name, svg)| !name.is_empty() && svg.starts_with("<svg")));
+}
+
 #[test]
 fn a_job_is_shared_by_threads_and_ends_when_its_flag_is_raised() {
     let job = Job::new(coarse()).expect("a scene that cuts");

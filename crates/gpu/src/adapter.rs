@@ -4,6 +4,7 @@
 //! under several interfaces (Vulkan and DirectX 12 on Windows).
 
 use super::problem::GpuProblem;
+use super::waiting::wait;
 use gearcut_shaders::{STORAGE_BUFFERS, WORKGROUP_THREADS};
 use serde::Serialize;
 use std::fmt;
@@ -106,11 +107,15 @@ pub struct FoundAdapter {
 
 /// All adapters, best first.
 pub fn adapters() -> Vec<FoundAdapter> {
+    wait(all())
+}
+
+/// The same for those who may not wait: a browser shows the adapter that it would take, with a name or without.
+pub async fn all() -> Vec<FoundAdapter> {
     let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle());
-    let mut found: Vec<FoundAdapter> = pollster::block_on(instance.enumerate_adapters(wgpu::Backends::all()))
-        .into_iter()
-        .map(|handle| FoundAdapter { facts: facts(&handle), handle })
-        .collect();
+    let listed = instance.enumerate_adapters(wgpu::Backends::all()).await;
+    let mut found: Vec<FoundAdapter> =
+        listed.into_iter().map(|handle| FoundAdapter { facts: facts(&handle), handle }).collect();
     // The sort is stable: among equals the loader's order, which users set in their drivers, stands.
     found.sort_by_key(|a| (a.facts.lacks.is_some(), a.facts.kind, a.facts.interface == "Dx12"));
     found
@@ -161,7 +166,15 @@ pub fn pick(adapters: &[AdapterFacts], wish: AdapterWish) -> Option<usize> {
 /// # Errors
 /// [`GpuProblem::NoAdapter`] with the names of those that do not.
 pub fn choose(wish: AdapterWish) -> Result<FoundAdapter, GpuProblem> {
-    let mut found = adapters();
+    wait(chosen(wish))
+}
+
+/// The same for those who may not wait.
+///
+/// # Errors
+/// As there.
+pub async fn chosen(wish: AdapterWish) -> Result<FoundAdapter, GpuProblem> {
+    let mut found = all().await;
     let facts: Vec<AdapterFacts> = found.iter().map(|a| a.facts.clone()).collect();
     match pick(&facts, wish) {
         Some(index) => Ok(found.swap_remove(index)),

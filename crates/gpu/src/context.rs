@@ -7,6 +7,7 @@ use crate::batches::Allowance;
 use crate::device::Device;
 use crate::pipeline;
 use crate::problem::GpuProblem;
+use crate::waiting::wait;
 use gearcut_core::cut::cpu::Cpu;
 use gearcut_core::cut::{Backend, CutStats, StageTime};
 use gearcut_core::dexel::Layer;
@@ -81,7 +82,15 @@ impl Gpu {
     /// # Errors
     /// No such adapter, or it gives no device, or refuses the shaders.
     pub fn new(wish: AdapterWish, options: GpuOptions) -> Result<Self, GpuProblem> {
-        Self::on(&adapter::choose(wish)?, options)
+        wait(Self::open(wish, options))
+    }
+
+    /// The same for those who may not wait.
+    ///
+    /// # Errors
+    /// As there.
+    pub async fn open(wish: AdapterWish, options: GpuOptions) -> Result<Self, GpuProblem> {
+        Self::opened_on(&adapter::chosen(wish).await?, options).await
     }
 
     /// Backend on a given adapter.
@@ -89,15 +98,19 @@ impl Gpu {
     /// # Errors
     /// The adapter gives no device, or refuses the shaders.
     pub fn on(adapter: &FoundAdapter, options: GpuOptions) -> Result<Self, GpuProblem> {
-        let device = Device::open(adapter)?;
+        wait(Self::opened_on(adapter, options))
+    }
+
+    async fn opened_on(adapter: &FoundAdapter, options: GpuOptions) -> Result<Self, GpuProblem> {
+        let device = Device::open(adapter).await?;
         let by_kind = if adapter.facts.kind == AdapterKind::Software { Rows::Many } else { Rows::Few };
         let rows = options.rows.unwrap_or(by_kind);
-        let planar_flank = pipeline::pipelines(&device, &planar_flank(rows))?;
-        let planar_uncut = pipeline::pipelines(&device, &PLANAR_UNCUT)?;
-        let flank_figures = pipeline::pipelines(&device, &FLANK_FIGURES)?;
-        let blank_rays = pipeline::pipelines(&device, &BLANK_RAYS)?;
-        let blank_lists = pipeline::pipelines(&device, &BLANK_LISTS)?;
-        let spatial_flank = pipeline::pipelines(&device, &spatial_flank(rows))?;
+        let planar_flank = pipeline::pipelines(&device, &planar_flank(rows)).await?;
+        let planar_uncut = pipeline::pipelines(&device, &PLANAR_UNCUT).await?;
+        let flank_figures = pipeline::pipelines(&device, &FLANK_FIGURES).await?;
+        let blank_rays = pipeline::pipelines(&device, &BLANK_RAYS).await?;
+        let blank_lists = pipeline::pipelines(&device, &BLANK_LISTS).await?;
+        let spatial_flank = pipeline::pipelines(&device, &spatial_flank(rows)).await?;
         let native = Cpu::default();
         Ok(Self {
             device,

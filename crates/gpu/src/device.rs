@@ -2,9 +2,12 @@
 //!
 //! Errors are caught in scopes of the calling thread, so flanks cut in parallel do not see each other's. What no scope
 //! catches, the loss of the device, is kept and ends every later call.
+//!
+//! What a device answers comes later: [`Device::tried`] is a future, and [`Device::checked`] waits for it.
 
 use super::adapter::{AdapterFacts, FoundAdapter};
 use super::problem::GpuProblem;
+use super::waiting::wait;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
@@ -27,7 +30,7 @@ impl Device {
     ///
     /// # Errors
     /// The driver gives none.
-    pub fn open(adapter: &FoundAdapter) -> Result<Self, GpuProblem> {
+    pub async fn open(adapter: &FoundAdapter) -> Result<Self, GpuProblem> {
         let timestamps = adapter.handle.features() & wgpu::Features::TIMESTAMP_QUERY;
         let descriptor = wgpu::DeviceDescriptor {
             label: Some("gearcut"),
@@ -35,7 +38,8 @@ impl Device {
             required_limits: adapter.handle.limits(),
             ..Default::default()
         };
-        let (handle, queue) = pollster::block_on(adapter.handle.request_device(&descriptor))
+        let opened = adapter.handle.request_device(&descriptor).await;
+        let (handle, queue) = opened
             .map_err(|error| GpuProblem::NoDevice { adapter: adapter.facts.name.clone(), reason: error.to_string() })?;
         let lost = Arc::new(Mutex::new(None));
         let keep = |lost: &Arc<Mutex<Option<GpuProblem>>>| {
@@ -53,17 +57,26 @@ impl Device {
         Ok(Self { handle, queue, facts: adapter.facts.clone(), lost })
     }
 
+    /// [`Self::tried`], waiting.
+    ///
+    /// # Errors
+    /// As there.
+    pub fn checked<T>(&self, work: impl FnOnce() -> T) -> Result<T, GpuProblem> {
+        wait(self.tried(work))
+    }
+
     /// Runs `work` and gives the first error of its calls instead of its result.
     ///
     /// # Errors
     /// The device is lost, memory was refused, a call was refused.
-    pub fn checked<T>(&self, work: impl FnOnce() -> T) -> Result<T, GpuProblem> {
+    pub async fn tried<T>(&self, work: impl FnOnce() -> T) -> Result<T, GpuProblem> {
         let filters = [wgpu::ErrorFilter::Internal, wgpu::ErrorFilter::Validation, wgpu::ErrorFilter::OutOfMemory];
         let scopes = filters.map(|filter| self.handle.push_error_scope(filter));
         let value = work();
         let mut first = None;
         for scope in scopes.into_iter().rev() {
-            first = first.or(pollster::block_on(scope.pop()));
+            let met = scope.pop().await;
+            first = first.or(met);
         }
         self.alive()?;
         match first {

@@ -7,6 +7,7 @@
 use crate::context::{Gpu, IN_FLIGHT, OnGpuFailure};
 use crate::problem::GpuProblem;
 use crate::readback::{self, InFlight, ReadbackJob, Returned, Shipment};
+use crate::waiting::wait;
 use gearcut_core::cut::cpu::Cpu;
 use gearcut_core::cut::{Backend, CutLayers};
 use gearcut_core::error::Error;
@@ -26,7 +27,7 @@ const SUBMISSION_BYTES: u64 = 256 << 20;
 /// A field that may go to the device whole.
 pub(crate) trait WholeField: Send + Sized {
     /// What goes there.
-    type Inputs: Send + Sync;
+    type Inputs: Send + Sync + 'static;
     /// Name of the stage that cuts it.
     const STAGE: &'static str;
     /// `UNIFORM` or `STORAGE`, whichever the stage reads records from.
@@ -131,13 +132,13 @@ impl Gpu {
     pub(crate) fn send_jobs<F: WholeField>(&self, jobs: &[ReadbackJob]) -> Result<InFlight, GpuProblem> {
         let poison = self.options.poison_outputs;
         let shipment = Shipment { stage: F::STAGE, record_usage: F::RECORD_USAGE, jobs, poison };
-        readback::send(&self.device, &shipment)
+        wait(readback::send(&self.device, &shipment))
     }
 
     /// Waits for fields; cuts them natively if that is what a failure asks for.
     fn take_fields<F: WholeField>(&self, sent: Sent<F>, take: &Take<F>) -> Result<(), Error> {
         let Sent { fields, in_flight } = sent;
-        match in_flight.and_then(|in_flight| in_flight.collect(&self.device)) {
+        match in_flight.and_then(|in_flight| wait(in_flight.collect(&self.device))) {
             Ok((left, device_ns)) => {
                 self.log().count(F::STAGE, device_ns);
                 let fields = fields.into_par_iter().zip(left);

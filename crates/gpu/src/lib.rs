@@ -9,6 +9,7 @@
 //! The modules, from the ground up; each uses only those above it in this list:
 //!
 //! - `problem`: what can go wrong on a device, as values
+//! - [`waiting`]: where this crate waits
 //! - [`adapter`]: which adapters are there, and which one serves
 //! - `device`: a device that reports its problems
 //! - `pipeline`: pipelines of the stages that the crate `gearcut-shaders` holds
@@ -29,6 +30,7 @@
 //! - `blank`: the blank of shaping
 //! - `blank_sweeps`: the blank of hobbing
 //! - `backend`: the backend as the program sees it
+//! - `deferred`: the backend for those who may not wait
 
 pub mod adapter;
 mod backend;
@@ -39,6 +41,7 @@ pub mod blank_records;
 mod blank_sweeps;
 pub mod compose;
 mod context;
+mod deferred;
 mod device;
 pub mod edge_cells;
 mod in_flight;
@@ -51,7 +54,9 @@ pub mod records;
 mod spatial;
 mod stamps;
 pub mod sweep_records;
+pub mod waiting;
 
 pub use context::{Gpu, GpuOptions, OnGpuFailure};
+pub use deferred::Deferred;
 pub use gearcut_shaders as shaders;
 pub use problem::GpuProblem;

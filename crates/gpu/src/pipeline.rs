@@ -9,8 +9,8 @@ use gearcut_shaders::Stage;
 ///
 /// # Errors
 /// The driver refuses the shader.
-pub fn pipelines(device: &Device, stage: &Stage) -> Result<Vec<wgpu::ComputePipeline>, GpuProblem> {
-    device.checked(|| {
+pub async fn pipelines(device: &Device, stage: &Stage) -> Result<Vec<wgpu::ComputePipeline>, GpuProblem> {
+    let made = || {
         let module = device.handle.create_shader_module(wgpu::ShaderModuleDescriptor {
             label: Some(stage.name),
             source: wgpu::ShaderSource::Wgsl(stage.text.into()),
@@ -26,5 +26,6 @@ pub fn pipelines(device: &Device, stage: &Stage) -> Result<Vec<wgpu::ComputePipe
             })
         };
         stage.variants.iter().map(pipeline).collect()
-    })
+    };
+    device.tried(made).await
 }

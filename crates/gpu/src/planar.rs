@@ -11,6 +11,7 @@ use crate::readback::{
     Before, FigureInputs, InFlight, Input, ReadbackJob, ReadbackStep, Returned, StageLaunch, Wanted,
 };
 use crate::records::FigureColumn;
+use crate::waiting::wait;
 use crate::{compose, records};
 use gearcut_core::cut::cpu::Cpu;
 use gearcut_core::cut::{CutLayers, CutStats, PlannedField, cut_in_turn};
@@ -74,7 +75,7 @@ impl Gpu {
         let mut unconverged = 0;
         let mut waiting: Vec<(Batch, InFlight)> = Vec::new();
         let mut collect = |(batch, in_flight): (Batch, InFlight)| -> Result<(), GpuProblem> {
-            let (jobs, device_ns) = in_flight.collect(&self.device)?;
+            let (jobs, device_ns) = wait(in_flight.collect(&self.device))?;
             let Returned { layers, unconverged: short, .. } = &jobs[0];
             let Layer { heights_mm, passes } = &layers[0];
             for (index, column) in batch.columns.enumerate() {

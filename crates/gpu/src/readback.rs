@@ -5,16 +5,17 @@
 //! time. All jobs of a submission go together and come back together. Sending returns at once; the next submission is
 //! composed and sent while the device works on this one.
 
+mod arrival;
 mod sending;
 
 use super::device::Device;
 use super::problem::GpuProblem;
 use super::records::FigureColumn;
 use super::stamps::{STAMP_BYTES, Stamps, device_ns};
+use arrival::Arrival;
 use gearcut_core::dexel::Layer;
 use sending::Sending;
 use std::ops::Range;
-use std::sync::mpsc;
 use std::time::Duration;
 use wgpu::BufferUsages as Use;
 
@@ -144,7 +145,7 @@ pub struct Shipment<'a> {
 pub struct InFlight {
     back: wgpu::Buffer,
     submission: wgpu::SubmissionIndex,
-    mapped: mpsc::Receiver<Result<(), wgpu::BufferAsyncError>>,
+    mapped: Arrival<Result<(), wgpu::BufferAsyncError>>,
     jobs: Vec<JobBytes>,
     timed: usize,
 }
@@ -193,8 +194,8 @@ pub struct Returned {
 ///
 /// # Errors
 /// The device is lost, or refuses memory or a call.
-pub fn send(device: &Device, shipment: &Shipment) -> Result<InFlight, GpuProblem> {
-    device.checked(|| {
+pub async fn send(device: &Device, shipment: &Shipment<'_>) -> Result<InFlight, GpuProblem> {
+    let sent = || {
         let launches = shipment.jobs.iter().flat_map(|job| &job.steps).map(|step| step.launches.len()).sum::<usize>();
         let timed = if device.facts.timestamps { launches.min(TIMED_ROUNDS) } else { 0 };
         let jobs: Vec<JobBytes> = shipment.jobs.iter().map(JobBytes::of).collect();
@@ -219,13 +220,12 @@ pub fn send(device: &Device, shipment: &Shipment) -> Result<InFlight, GpuProblem
             stamps.bring_back(&mut encoder, &back, place, timed);
         }
         let submission = device.queue.submit([encoder.finish()]);
-        let (sender, mapped) = mpsc::channel();
-        back.map_async(wgpu::MapMode::Read, .., move |result| {
-            // Nobody listens any more when the batch was given up.
-            let _ = sender.send(result);
-        });
+        let mapped = Arrival::default();
+        let arrives = mapped.clone();
+        back.map_async(wgpu::MapMode::Read, .., move |result| arrives.with(result));
         InFlight { back, submission, mapped, jobs, timed }
-    })
+    };
+    device.tried(sent).await
 }
 
 impl InFlight {
@@ -234,18 +234,15 @@ impl InFlight {
     ///
     /// # Errors
     /// The device is lost or silent, or refuses to give the result.
-    pub fn collect(self, device: &Device) -> Result<(Vec<Returned>, Option<f64>), GpuProblem> {
-        let wait = wgpu::PollType::Wait { submission_index: Some(self.submission), timeout: Some(PATIENCE) };
-        if device.checked(|| device.handle.poll(wait))?.is_err() {
+    pub async fn collect(self, device: &Device) -> Result<(Vec<Returned>, Option<f64>), GpuProblem> {
+        // A browser polls by itself, and this returns at once there.
+        let done = wgpu::PollType::Wait { submission_index: Some(self.submission), timeout: Some(PATIENCE) };
+        if device.tried(|| device.handle.poll(done)).await?.is_err() {
             return Err(GpuProblem::Silent { seconds: PATIENCE.as_secs() });
         }
         let lost = |reason: String| GpuProblem::Lost { reason };
-        match self.mapped.recv_timeout(PATIENCE) {
-            Ok(Ok(())) => {}
-            Ok(Err(error)) => return Err(lost(error.to_string())),
-            Err(_) => return Err(GpuProblem::Silent { seconds: PATIENCE.as_secs() }),
-        }
-        let view = device.checked(|| self.back.get_mapped_range(..))?.map_err(|error| lost(error.to_string()))?;
+        self.mapped.await.map_err(|error| lost(error.to_string()))?;
+        let view = device.tried(|| self.back.get_mapped_range(..)).await?.map_err(|error| lost(error.to_string()))?;
         let mut rest = &view[..];
         let mut jobs = Vec::with_capacity(self.jobs.len());
         for bytes in &self.jobs {

@@ -16,6 +16,7 @@ use super::in_flight::WholeField;
 use super::problem::GpuProblem;
 use super::readback::{Before, InFlight, Input, ReadbackJob, ReadbackStep, Returned, StageLaunch, Wanted};
 use super::sweep_records::{SpatialPass, SpatialTile};
+use super::waiting::wait;
 use gearcut_core::cut::cpu::Cpu;
 use gearcut_core::cut::{CutLayers, CutStats, SweptField};
 use gearcut_core::dexel::{Layer, SpatialField};
@@ -54,7 +55,7 @@ pub fn cut_on_device(
     let mut unconverged = 0;
     let mut waiting: Vec<(Range<usize>, InFlight)> = Vec::new();
     let mut collect = |(tiles, in_flight): (Range<usize>, InFlight)| -> Result<(), GpuProblem> {
-        let (jobs, device_ns) = in_flight.collect(&gpu.device)?;
+        let (jobs, device_ns) = wait(in_flight.collect(&gpu.device))?;
         let Returned { layers, unconverged: short, .. } = &jobs[0];
         spread(field, &plan.tiles[tiles], gpu.rows.lanes(), &layers[0], &mut result);
         unconverged += u64::from(short[0]);

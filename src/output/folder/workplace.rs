@@ -27,7 +27,7 @@ use rayon::prelude::*;
 use same_file::Handle;
 
 use super::RUN_RECORD;
-use super::steps::Steps;
+use super::steps::{Disk, Steps};
 use gearcut_core::{Error, Result};
 
 const LOCK: &str = "lock";
@@ -52,8 +52,8 @@ pub(super) struct Workplace {
     is_left: bool,
     /// Whether the files are on the disk, but for the record.
     is_forced: AtomicBool,
-    /// Holds the lock.
-    _lock: File,
+    /// Holds the lock; none where no file is kept.
+    lock: Option<File>,
 }
 
 impl Workplace {
@@ -70,7 +70,7 @@ impl Workplace {
             steps,
             is_left: false,
             is_forced: AtomicBool::new(false),
-            _lock: lock,
+            lock: Some(lock),
         };
         place.clear().map_err(|source| Error::Io {
             action: "cannot put back or remove what an earlier run left in",
@@ -80,6 +80,23 @@ impl Workplace {
         let new = place.new_files();
         place.steps.create_folder(&new).map_err(Error::writing(&new))?;
         Ok(place)
+    }
+
+    /// No place at all, for a run that keeps no file.
+    pub(super) fn nowhere() -> Self {
+        Self {
+            folder: PathBuf::new(),
+            parent: PathBuf::new(),
+            steps: Box::new(Disk),
+            is_left: true,
+            is_forced: AtomicBool::new(false),
+            lock: None,
+        }
+    }
+
+    /// Whether this is no place at all.
+    pub(super) fn is_nowhere(&self) -> bool {
+        self.lock.is_none()
     }
 
     /// The folder to fill.

@@ -66,6 +66,18 @@ impl super::ProcessJob for BevelJob {
         check::print(sheet, self)
     }
 
+    fn foreseen(&self) -> Result<Vec<Notice>> {
+        Ok(findings::foresee(self, &BevelAxesReport::of_job(self), Stages::ALL)?.warnings)
+    }
+
+    fn foreseen_of_shapes(&self) -> Result<Vec<Notice>> {
+        self.foreseen()
+    }
+
+    fn axis_charts(&self) -> Result<Vec<(String, String)>> {
+        axes::svg_charts(&BevelAxesReport::of_job(self))
+    }
+
     fn with_gear(&self, visit: &mut dyn FnMut(&dyn GearJob) -> Result<()>) -> Result<()> {
         visit(self)
     }

@@ -68,6 +68,19 @@ impl ProcessJob for HobbingJob {
         check::print(sheet, self)
     }
 
+    fn foreseen(&self) -> Result<Vec<Notice>> {
+        let motion = HobbingAxesReport::of_job(self);
+        Ok(foreseen::foresee(&HobCutter::new(self)?, &motion, Stages::ALL)?.warnings)
+    }
+
+    fn foreseen_of_shapes(&self) -> Result<Vec<Notice>> {
+        self.foreseen()
+    }
+
+    fn axis_charts(&self) -> Result<Vec<(String, String)>> {
+        axes::svg_charts(&HobbingAxesReport::of_job(self))
+    }
+
     fn with_gear(&self, visit: &mut dyn FnMut(&dyn GearJob) -> Result<()>) -> Result<()> {
         visit(&HobCutter::new(self)?)
     }

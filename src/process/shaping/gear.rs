@@ -25,7 +25,7 @@ use gearcut_core::dexel::figures::LinesAt;
 use gearcut_core::dexel::{Field, Layer};
 use gearcut_core::error::{Error, Result};
 use std::sync::{Mutex, PoisonError};
-use std::time::Instant;
+use web_time::Instant;
 
 /// A cut and measured gear, before anything is written about it as a whole.
 #[derive(Debug)]

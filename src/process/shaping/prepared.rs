@@ -12,6 +12,7 @@ use crate::output::text::Sheet;
 use crate::process::shaping::cut::chips::deflections;
 use crate::process::shaping::cut::section::CutSection;
 use crate::process::shaping::findings::foreseen::foresee;
+use crate::process::shaping::findings::warnings;
 use crate::process::shaping::{ShapingJob, check, run};
 use crate::process::{CutDone, ProcessJob};
 use crate::scene::Scene;
@@ -63,6 +64,18 @@ impl ProcessJob for PreparedShaping {
 
     fn check(&self, sheet: &mut Sheet) -> Result<Vec<Notice>> {
         check::print(sheet, &self.rigid)
+    }
+
+    fn foreseen(&self) -> Result<Vec<Notice>> {
+        Ok(foresee(&self.rigid, &OperationAxes::of_job(&self.rigid), Stages::ALL)?.warnings)
+    }
+
+    fn foreseen_of_shapes(&self) -> Result<Vec<Notice>> {
+        Ok(warnings::of_shapes(&self.rigid, &OperationAxes::of_job(&self.rigid)))
+    }
+
+    fn axis_charts(&self) -> Result<Vec<(String, String)>> {
+        axes::svg_charts(&OperationAxes::of_job(&self.rigid))
     }
 
     fn with_gear(&self, visit: &mut dyn FnMut(&dyn GearJob) -> Result<()>) -> Result<()> {

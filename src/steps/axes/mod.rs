@@ -31,7 +31,7 @@ use crate::output::table::write_table;
 use crate::output::text::Sheet;
 use crate::scene::Scene;
 use crate::steps::report::peak_table;
-use gearcut_core::error::Result;
+use gearcut_core::error::{Error, Result};
 
 /// A chart with the word that ends the name of its file.
 pub type NamedChart<C> = (&'static str, C);
@@ -121,6 +121,21 @@ pub fn write(operation: &impl AxesOfOperation, folder: &OutputFolder) -> Result<
         chart.write_svg(&folder.path(format!("axes/{name}_{what}.svg"))?)?;
     }
     Ok(())
+}
+
+/// Charts of the motion as SVG, by the names of their files without endings.
+///
+/// # Errors
+/// A chart that cannot be drawn.
+pub fn svg_charts(operations: &[impl AxesOfOperation]) -> Result<Vec<(String, String)>> {
+    let of = |operation: &_, (what, chart): &NamedChart<LineChart>| {
+        let file = format!("{}_{what}", AxesOfOperation::name(operation));
+        match chart.svg() {
+            Ok(svg) => Ok((file, svg)),
+            Err(reason) => Err(Error::Output { path: file.into(), reason }),
+        }
+    };
+    operations.iter().flat_map(|operation| operation.charts().iter().map(move |chart| of(operation, chart))).collect()
 }
 
 /// Writes the programs of all operations into `axes/`, the faults and warnings among `warnings` in their heads (notes

@@ -150,11 +150,15 @@ fn sheet(
     }
 }
 
-/// Writes the lines of the inspector's sheet as `inspection_charts.csv`: what `gearcut diagnose` and `calibrate` read.
+/// Writes the lines of the inspector's sheet as `inspection_charts.csv`, if there is a folder: what `gearcut diagnose`
+/// and `calibrate` read.
 ///
 /// # Errors
 /// The file cannot be written.
 pub fn write_charts(inspection: &Inspection, folder: &OutputFolder) -> Result<()> {
+    if folder.is_nowhere() {
+        return Ok(());
+    }
     charts::write(inspection, &folder.path("inspection_charts.csv")?)
 }
 

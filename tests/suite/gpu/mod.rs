@@ -1,6 +1,7 @@
 //! The shaders on a software adapter; every test here needs one, but for those of the shaders as text.
 
 mod blades;
+mod deferred;
 mod failures;
 mod golden;
 mod hobbed_blank;

@@ -19,7 +19,7 @@ use crate::{Error, Result};
 /// Points that a surface in a file may have.
 pub const MOST_POINTS: usize = 8_000_000;
 /// Values that a map in a file may have, all channels together: 0.4 GB.
-const MOST_VALUES: usize = 100_000_000;
+pub(super) const MOST_VALUES: usize = 100_000_000;
 /// Bytes of a height in formats of raw numbers.
 const BYTES_PER_NUMBER: u64 = 8;
 /// Bytes of a height in formats of text, its separator included: all digits of an f64 are 24.
@@ -42,17 +42,6 @@ pub(super) fn points(nx: usize, ny: usize) -> std::result::Result<usize, FileFau
         FileFault::TooLarge(format!(
             "the header declares {nx} x {ny} points, more than {MOST_POINTS}, which take 1 GB of memory while they are \
              evaluated: crop or thin the surface where it was measured"
-        ))
-    })
-}
-
-/// Refuses a map whose header declares too many values.
-pub(super) fn values(nx: usize, ny: usize, channels: usize) -> std::result::Result<(), FileFault> {
-    let count = nx.checked_mul(ny).and_then(|count| count.checked_mul(channels));
-    count.filter(|&count| count <= MOST_VALUES).map(drop).ok_or_else(|| {
-        FileFault::TooLarge(format!(
-            "the header declares {nx} x {ny} points in {channels} channels, more than {MOST_VALUES} values: write the \
-             map on a wider grid"
         ))
     })
 }

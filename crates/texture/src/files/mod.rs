@@ -24,6 +24,7 @@ mod al3d;
 mod bounds;
 mod content;
 mod exr;
+#[cfg(not(target_family = "wasm"))]
 mod exr_header;
 pub mod exr_map;
 pub mod grid;

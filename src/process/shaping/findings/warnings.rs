@@ -35,16 +35,31 @@ const BELOW_TARGET_MM: f64 = 1e-4;
 /// hydraulic main drive system for large-scale CNC gear shaping machines", zhygear.com).
 pub const USUAL_FORCE_N: f64 = 40e3;
 
-/// What is known before anything is cut; `ring`: what the cutter can do in a ring, if the gear is one.
-///
-/// # Errors
-/// A back-off so large that the retraction leads to no pose.
-pub fn before(job: &ShapingJob, motion: &[OperationAxes], ring: Option<&Section>) -> Result<Vec<Notice>> {
+/// What follows from the shapes of gear and cutter alone.
+pub fn of_shapes(job: &ShapingJob, motion: &[OperationAxes]) -> Vec<Notice> {
+    let ring = ring::of_job(job, program::not_of_the_gear(job, motion).as_deref());
+    ranked(of_teeth(job, motion).into_iter().chain(of_ring(job, ring.as_ref())).chain(too_deep(job)))
+}
+
+fn of_teeth(job: &ShapingJob, motion: &[OperationAxes]) -> Vec<Notice> {
     let mut warnings = check_curve::warnings(&job.curve, &job.scene.gear);
     // Facts of the teeth are those of the scene's own strokes.
     if program::not_of_the_gear(job, motion).is_none() {
         warnings.extend(tooth_facts::warnings(job, &ToothFacts::of_job(job)));
     }
+    warnings
+}
+
+fn of_ring(job: &ShapingJob, ring: Option<&Section>) -> Vec<Notice> {
+    ring.map_or_else(Vec::new, |section| ring::warnings(section, gouge_mm(job.scene.gear.module_mm)))
+}
+
+/// What is known before anything is cut; `ring`: what the cutter can do in a ring, if the gear is one.
+///
+/// # Errors
+/// A back-off so large that the retraction leads to no pose.
+pub fn before(job: &ShapingJob, motion: &[OperationAxes], ring: Option<&Section>) -> Result<Vec<Notice>> {
+    let mut warnings = of_teeth(job, motion);
     for (index, (operation, motion)) in job.operations.iter().zip(motion).enumerate() {
         let other = program::not_of_the_operation(job, motion);
         match returns::section(job, index, other.as_deref())? {
@@ -55,7 +70,7 @@ pub fn before(job: &ShapingJob, motion: &[OperationAxes], ring: Option<&Section>
             }
         }
     }
-    warnings.extend(ring.into_iter().flat_map(|section| ring::warnings(section, gouge_mm(job.scene.gear.module_mm))));
+    warnings.extend(of_ring(job, ring));
     warnings.extend(too_deep(job));
     warnings.extend(axes::warnings(motion));
     warnings.extend(program::warnings(job, motion));

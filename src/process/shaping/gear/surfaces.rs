@@ -7,7 +7,7 @@ use crate::findings::Notice;
 use crate::job::{CylindricalGear, GearJob, ToolSection, ToothFrame, ToothSection, teeth_of_extreme_radius};
 use crate::measure::round_gear::{RoundGear, ToothEnds, is_round};
 use crate::measure::thickness::Thickness;
-use crate::process::shaping::cut::section::cutter_outline;
+use crate::process::shaping::cut::section::{CutSection, cutter_outline};
 use crate::process::shaping::cut::stroke_noise;
 use crate::process::shaping::gear::measure::flank_report;
 use crate::process::shaping::job::ShapingJob;
@@ -18,6 +18,7 @@ use crate::surface::triangles::SectionProfile;
 use gearcut_core::cut::Backend;
 use gearcut_core::dexel::{Layer, Ray};
 use gearcut_core::error::Result;
+use gearcut_core::frame::Rigid2;
 use gearcut_core::gear::PitchCurve;
 use gearcut_core::gear::blank::Blank;
 use gearcut_core::terms::Side;
@@ -157,6 +158,10 @@ impl CylindricalGear for ShapingJob {
             self.cutter.teeth
         );
         ToolSection { points_mm: cutter_outline(self, chord_mm), is_closed: true, words }
+    }
+
+    fn tool_places(&self) -> Vec<Rigid2> {
+        (0..CutSection::strokes(self)).map(|stroke| CutSection::work_from_tool(self, stroke)).collect()
     }
 
     fn tip_surface(&self, backend: &dyn Backend, tooth: u32) -> Result<Option<SurfaceGrid>> {
