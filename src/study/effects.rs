@@ -79,7 +79,8 @@ impl Effect {
     }
 }
 
-/// Cases by parts, in the order of numbers, else in that in which values first come.
+/// Cases by parts, in the order of numbers, else in that in which values first come. Too many words are one part: they
+/// have no neighbours.
 fn parted(values: &[&str], numbers: Option<&[f64]>) -> Vec<Vec<usize>> {
     let mut order: Vec<usize> = (0..values.len()).collect();
     if let Some(numbers) = numbers {
@@ -97,6 +98,9 @@ fn parted(values: &[&str], numbers: Option<&[f64]>) -> Vec<Vec<usize>> {
     }
     if own.len() <= MOST_PARTS && (numbers.is_none() || values.len() >= 2 * own.len()) {
         return own;
+    }
+    if numbers.is_none() {
+        return vec![order];
     }
     let count = (values.len() as f64).sqrt().min((values.len() / LEAST_IN_A_PART) as f64);
     let count = (count as usize).clamp(1, MOST_PARTS);
@@ -212,6 +216,10 @@ mod tests {
     #[test]
     fn what_cannot_be_found_is_not_stated() {
         assert_eq!(Effect::of(&["1", "2", "3"], &[1.0, 2.0, 3.0]).share, None, "three cases are no study");
+        let words: Vec<String> = (0..80).map(|case| format!("word {}", case % 40)).collect();
+        let words: Vec<&str> = words.iter().map(String::as_str).collect();
+        let many = Effect::of(&words, &(0..80).map(f64::from).collect::<Vec<_>>());
+        assert_eq!((many.share, many.parts.len(), many.swing()), (None, 1, 0.0), "40 words are no range");
         let alike = Effect::of(&["1", "1", "2", "2"], &[5.0; 4]);
         assert_eq!((alike.share, alike.swing()), (None, 0.0));
     }

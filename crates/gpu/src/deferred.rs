@@ -54,7 +54,7 @@ struct Lists {
     settled: VecDeque<Option<(AnyInputs, Returned)>>,
 }
 
-/// A backend that is asked twice.
+/// A backend that is asked twice, for one cut: the next one has a `Deferred` of its own.
 #[derive(Clone)]
 pub struct Deferred {
     gpu: Arc<Gpu>,
