@@ -5,13 +5,13 @@
 use gearcut::cut::cpu::Cpu;
 use gearcut::gear::GearKind;
 use gearcut::interrupt::Interrupt;
-use gearcut::output::progress::{Progress, ProgressMode};
 use gearcut::pair::rolling::roll;
 use gearcut::pair_job::fit::Fit;
 use gearcut::pair_job::flanks::PairFlanks;
 use gearcut::pair_job::member;
 use gearcut::pair_job::options::PairOptions;
 use gearcut::pair_job::watch::Watch;
+use gearcut::progress::{Progress, ProgressMode};
 use gearcut::scene::Mate;
 use std::path::Path;
 use std::time::Instant;

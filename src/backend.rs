@@ -59,7 +59,7 @@ pub struct Choice {
 /// A GPU was asked for, and there is none, it does not work, or this build has no GPU backend.
 pub fn choose(wish: BackendWish, on_failure: OnFailure) -> Result<Choice> {
     match wish {
-        BackendWish::Cpu => Ok(native("asked for".into())),
+        BackendWish::Cpu => Ok(native("chosen by --backend cpu".into())),
         BackendWish::Gpu => build::gpu(on_failure),
         BackendWish::Auto => Ok(build::any(on_failure)),
     }

@@ -29,12 +29,15 @@ mod ranked;
 pub mod surfaces;
 mod table;
 
+use crate::findings::table::table_file;
 use crate::findings::{Findings, Level};
 use crate::output::folder::OutputFolder;
 use crate::output::report::REPORT_FILE;
+use crate::output::table::write_table;
 use crate::output::text::Sheet;
 use gearcut_core::Result;
 use lines::Line;
+use quantities::COMPARISON;
 use std::path::PathBuf;
 
 /// Most results that stand side by side: as many as a chart has colours for.
@@ -96,7 +99,7 @@ impl Comparison {
     /// # Errors
     /// Files that cannot be written; tables of the results that cannot be read.
     pub fn write(&self, folder: &OutputFolder) -> Result<()> {
-        self.write_csv(&folder.path("comparison.csv")?)?;
+        write_table(&folder.path(table_file(COMPARISON.key))?, &self.as_table())?;
         let drawn: &[Compared] = if self.is_mixed { &[] } else { &self.results };
         let (bars, curves) = (charts::charts(drawn), charts::curves(drawn)?);
         for (name, chart) in &bars {

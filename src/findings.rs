@@ -32,7 +32,7 @@ pub mod unit;
 
 pub use column::{TableCell, TableCells};
 pub use datum::Datum;
-pub use entry::Entry;
+pub use entry::{Advice, Entry};
 pub use json::{RESULTS_FILE, SCHEMA, SCHEMA_VERSION};
 pub use notice::{Notice, Severity};
 pub use place::{Coordinate, Place};

@@ -77,6 +77,8 @@
 //! - [`interrupt`]: Ctrl-C as a flag
 //! - [`colormap`]: numbers as colours
 //! - `wrap`: texts in lines of a width
+//! - `number_text`: numbers as text
+//! - [`progress`]: what the user sees while the work goes on
 //! - `regular_file`: files of others, up to a size
 //! - `random`: normal numbers that follow from a key
 //! - `machine`: the axes of a machine: kinds, units, motion, limits, peaks
@@ -107,9 +109,7 @@
 //! - [`quantities`]: the table of all quantities that results can have
 //! - `cli`: the command line, a file a command
 
-// What only tests and benchmarks call is no dead code.
-
-// What only commands call is no dead code, either.
+// What only commands call is no dead code.
 #![cfg_attr(not(feature = "command"), allow(dead_code, unused_imports))]
 
 pub mod backend;
@@ -121,6 +121,7 @@ pub mod interrupt;
 pub mod notices;
 pub mod output;
 pub mod pair_job;
+pub mod progress;
 pub mod quantities;
 pub mod run;
 pub mod scene;
@@ -140,6 +141,7 @@ cfg_if::cfg_if! {
         pub mod machine_errors;
         pub mod material;
         pub mod measure;
+        pub mod number_text;
         pub mod overlay;
         pub mod pair;
         pub mod process;
@@ -162,6 +164,7 @@ cfg_if::cfg_if! {
         mod machine_errors;
         mod material;
         mod measure;
+        mod number_text;
         mod overlay;
         mod pair;
         mod process;

@@ -16,13 +16,13 @@ use crate::findings::quantities::surfaces::{
 use crate::findings::{Notice, Section};
 use crate::measure::topography::align::{self, Aligned, SurfaceMarks};
 use crate::measure::topography::{Arguments, Chain, Evaluation, Parameter, Surface, TextureError};
+use crate::number_text::significant;
 use crate::output::atomic::file_error;
 use crate::output::folder::OutputFolder;
 use crate::output::grid::{MapAxis, MapGrid};
 use crate::output::line_chart::{LineChart, LineSeries, Panel};
 use crate::output::map_png::{MapPicture, write_map_png};
 use crate::output::surface_files::{Format, SurfaceFile, write_surface};
-use crate::output::text::significant;
 use gearcut_core::error::{Error, Result};
 use gearcut_core::units::UM_PER_MM;
 

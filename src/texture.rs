@@ -41,7 +41,7 @@ use crate::interrupt::Interrupt;
 use crate::job::{GearJob, RAY_DEPTH_MODULES};
 use crate::measure::topography::{Arguments, Evaluation, Surface, TextureError};
 use crate::output::folder::OutputFolder;
-use crate::output::progress::Progress;
+use crate::progress::Progress;
 use gearcut_core::cut::Backend;
 use gearcut_core::dexel::{Layer, NO_PASS};
 use gearcut_core::error::Result;

@@ -5,7 +5,7 @@
 //! Python delivers them to its main thread alone.
 
 use gearcut::interrupt::Interrupt;
-use gearcut::output::progress::{Event, Progress, ProgressMode};
+use gearcut::progress::{Event, Progress, ProgressMode};
 use pyo3::prelude::*;
 use std::sync::{Arc, Condvar, Mutex, PoisonError};
 use std::thread;

@@ -28,9 +28,9 @@ pub(super) fn gpu(on_failure: OnFailure) -> gearcut_core::error::Result<Choice> 
     ASKED.store(true, Ordering::SeqCst);
     let found = adapter::choose(AdapterWish::RealFirst)?;
     let why = if found.facts.kind.is_real() {
-        "asked for".into()
+        "chosen by --backend gpu".into()
     } else {
-        format!("asked for; no real GPU is there, {} stands in", found.facts.name)
+        format!("chosen by --backend gpu; no real GPU is there, {} takes its place", found.facts.name)
     };
     Ok(Choice { backend: Box::new(Gpu::on(&found, options(on_failure))?), why, on_trial: false })
 }

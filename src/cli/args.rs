@@ -147,9 +147,9 @@ pub enum Command {
         gearcut pair out/elliptical_normal out/my_mate --eccentricity-b-um 15 --parallelism-in-plane-um 10\n\n\
         A drives, B is driven. Each is a scene or a folder of results; --mate solves B from A. The gears must belong \
         together: one module, pitch curves that close on each other (0.1 module is allowed between them). \
-        Their flanks are cut in the sections that are rolled, with every stroke; --flanks nominal leaves the strokes \
-        and the fillets out. A ring is always gear B.\n\n\
-        Transmission error is B's rotation less the one that the pitch curves ask for (arcsec), and times r2 (um). \
+        Their flanks are cut in the sections that are rolled, with every stroke; --flanks nominal takes targets \
+        without strokes and fillets. A ring is always gear B.\n\n\
+        Transmission error is B's rotation less that of the pitch curves (arcsec), and times r2 (um). \
         Right flanks drive when the angle of A grows; left ones are the back flanks.\n\n\
         Writes a folder (out/<A>_with_<B> unless --out is given): results.json, tables/rolling.csv with a row for \
         every position, tables/contact_by_tooth.csv, harmonics, double-flank rolling. See docs/pair.md.")]
@@ -161,7 +161,7 @@ pub enum Command {
         The flanks that the heads' cones generate touch; marks of blades are left out. Both scenes have a face-mill \
         head, one module and opposite hands of spiral; the shaft angle is the sum of their pitch angles.\n\n\
         Errors of the mounting have Gleason's letters: E offset of the pinion's axis, P pinion and G gear away from \
-        the apex, Sigma shaft angle. Beside the mounting asked for, 50 um and 0.05 deg of each are tried in both \
+        the apex, Sigma shaft angle. Beside the mounting of the command, 50 um and 0.05 deg of each are tried in both \
         directions: how far the contact moves, and what the motion error becomes.\n\n\
         Writes a folder (out/<GEAR>_with_<PINION> unless --out is given): report.html, results.json, \
         tables/contact_*.csv, tables/trends_*.csv, pictures/motion_error.svg, pictures/bearing_*.svg. \

@@ -3,7 +3,8 @@
 use std::path::PathBuf;
 
 use crate::influence::budget::{self, BudgetOptions};
-use crate::output::text::{Sheet, plain};
+use crate::number_text::plain;
+use crate::output::text::Sheet;
 use crate::process;
 use gearcut_core::terms::Side;
 use gearcut_core::{Refusal, Result};

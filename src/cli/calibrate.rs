@@ -4,8 +4,9 @@ use std::path::PathBuf;
 
 use crate::influence::budget::chosen;
 use crate::influence::calibrate::{self, Calibrated, Calibration, MeasuredGear, MeasuredNumber, MeasuredWish};
+use crate::number_text::{plain, significant};
 use crate::output::summary;
-use crate::output::text::{Sheet, plain, significant};
+use crate::output::text::Sheet;
 use crate::process;
 use crate::scene::LoadedScene;
 use gearcut_core::{Refusal, Result};

@@ -4,7 +4,6 @@ use std::path::PathBuf;
 
 use crate::findings::RESULTS_FILE;
 use crate::output::atomic::write_bytes_atomically;
-use crate::output::progress::{Progress, ProgressMode};
 use crate::output::report::REPORT_FILE;
 use crate::output::summary;
 use crate::output::table::write_tables;
@@ -12,6 +11,7 @@ use crate::output::text::Sheet;
 use crate::process::bevel::BevelJob;
 use crate::process::bevel::pair::{MountingErrors, bearing, charts, findings, page, roll};
 use crate::process::load;
+use crate::progress::{Progress, ProgressMode};
 use crate::scene::LoadedScene;
 use gearcut_core::units::UM_PER_MM;
 use gearcut_core::{Error, Refusal};

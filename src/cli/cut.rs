@@ -5,8 +5,8 @@ use std::sync::Arc;
 
 use crate::interrupt::Interrupt;
 use crate::library::Job;
-use crate::output::progress::{Progress, ProgressMode};
 use crate::process;
+use crate::progress::{Progress, ProgressMode};
 use crate::scene::draft;
 use crate::steps::parts::{Part, Parts};
 use gearcut_core::Error;

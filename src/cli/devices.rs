@@ -3,8 +3,9 @@
 use crate::backend;
 use crate::backend::bench_machines;
 use crate::bench::{KERNELS, KernelRate, kernel_rates};
-use crate::output::progress::{Progress, ProgressMode};
-use crate::output::text::{Sheet, significant};
+use crate::number_text::significant;
+use crate::output::text::Sheet;
+use crate::progress::{Progress, ProgressMode};
 
 use super::args::DevicesArguments;
 use super::failure::Failure;

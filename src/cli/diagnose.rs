@@ -4,7 +4,8 @@ use std::path::PathBuf;
 
 use crate::influence::diagnose::{self, MeasuredCuts};
 use crate::influence::measured;
-use crate::output::text::{Sheet, plain};
+use crate::number_text::plain;
+use crate::output::text::Sheet;
 use crate::process;
 use gearcut_core::{Refusal, Result};
 use serde_json::json;

@@ -3,8 +3,9 @@
 use std::path::PathBuf;
 
 use crate::findings::Findings;
+use crate::number_text::plain;
 use crate::output::summary;
-use crate::output::text::{Sheet, plain};
+use crate::output::text::Sheet;
 use crate::pair_job::flanks::FlankSource;
 use crate::pair_job::options::PairOptions;
 use crate::pair_job::page::PairRecord;

@@ -4,7 +4,7 @@ use std::io::{self, ErrorKind, IsTerminal, Write};
 
 use crate::findings::Notice;
 use crate::findings::notice::count_words;
-use crate::output::progress::{Progress, ProgressMode};
+use crate::progress::{Progress, ProgressMode};
 use crate::wrap::{fitted, printable};
 use gearcut_core::{Error, Result};
 

@@ -7,9 +7,9 @@ use std::path::PathBuf;
 
 use crate::interrupt::Interrupt;
 use crate::output::growing_folder::GrowingFolder;
-use crate::output::progress::Progress;
 use crate::process;
 use crate::process::ProcessJob;
+use crate::progress::Progress;
 use crate::scatter::layers::{cases, measure_cases};
 use crate::scatter::rows::{self, Rows};
 use crate::scatter::seeds::measure_seeds;
@@ -62,7 +62,7 @@ pub fn run(arguments: &ScatterArguments) -> Result<(), Failure> {
     };
     let done = rows.range(..=gears.unwrap_or(0)).count();
     if let Some(gears) = gears.filter(|&gears| done < gears as usize) {
-        rows::write(&folder.path().join(rows::FILE), &rows)?;
+        rows::write(folder.path(), &rows)?;
         return Err(Failure::to_go_on(&out, [done as u64, gears.into()], "gears"));
     }
     let mut unfollowed = Vec::new();
@@ -88,7 +88,7 @@ fn seeds(
     folder: &GrowingFolder,
     watch: (&Progress, &Interrupt),
 ) -> Result<Rows, Error> {
-    let (file, known) = rows::open(&folder.path().join(rows::FILE))?;
+    let (file, known) = rows::open(folder.path())?;
     let with_seed = |seed: u32| {
         let mut settings = vec![format!("machine.errors.seed={seed}")];
         settings.extend(tolerance::settings(&arguments.tolerances, seed));

@@ -43,6 +43,5 @@ fn run(file: StudyFile, stem: &str, arguments: &CasesArguments) -> Result<(), Fa
         return Err(Failure::to_go_on(&out, [done.rows, done.cases], "cases"));
     }
     let failed = if done.failed == 0 { String::new() } else { format!(", {} of them failed", done.failed) };
-    let rows = done.path.join("rows.csv");
-    Ok(print::sheet(&format!("{} cases{failed}; their rows are in {}\n", done.cases, rows.display()))?)
+    Ok(print::sheet(&format!("{} cases{failed}; their rows are in {}\n", done.cases, done.table().display()))?)
 }

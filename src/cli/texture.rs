@@ -9,8 +9,9 @@ use crate::findings::Entry;
 use crate::interrupt::Interrupt;
 use crate::measure::topography::height_steps::coarse_step_um;
 use crate::measure::topography::{Arguments, Chain, Evaluation, Parameter, ProfileTrace, Surface, TextureError};
+use crate::number_text::{plain, significant};
 use crate::output::surface_files::{SurfaceFile, write_surface};
-use crate::output::text::{Sheet, plain, significant};
+use crate::output::text::Sheet;
 use gearcut_core::Refusal;
 use serde_json::{Value, json};
 

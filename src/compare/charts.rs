@@ -109,7 +109,7 @@ fn paths(results: &[Compared], chart: ColumnChart) -> Vec<String> {
 
 fn table_at<'a>(findings: &'a Findings, path: &str) -> Option<&'a Table> {
     let (section, key) = path.rsplit_once('.')?;
-    findings.find(section)?.table_of(key)
+    findings.at_path(section)?.table_at(key)
 }
 
 /// Bars of the first `count` rows of some tables.

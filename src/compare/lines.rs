@@ -90,7 +90,7 @@ fn plain_title(sections: &[String], own: &Entry) -> String {
 
 /// Figures of the inspection: of the worst left and right flank, or of both sides together.
 fn figures(findings: &Findings) -> Vec<Entry> {
-    let Some(table) = findings.group(&INSPECTION).and_then(|section| section.table_of(FIGURES.key)) else {
+    let Some(table) = findings.group(&INSPECTION).and_then(|section| section.table_of(&FIGURES)) else {
         return Vec::new();
     };
     let mut found = Vec::new();

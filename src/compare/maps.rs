@@ -9,12 +9,12 @@
 use super::{Comparison, letters};
 use crate::colormap::ColourScale;
 use crate::findings::unit::sentence_with_signs;
+use crate::number_text::significant;
 use crate::output::atomic::file_error;
 use crate::output::contact_sheet::{ContactSheet, Thumbnail, write_contact_sheet};
 use crate::output::folder::OutputFolder;
 use crate::output::grid::MapGrid;
 use crate::output::surface_files::read_surface;
-use crate::output::text::significant;
 use crate::overlay::grid_of;
 use gearcut_core::error::{Error, Result};
 use std::collections::BTreeSet;

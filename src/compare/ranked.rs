@@ -30,7 +30,7 @@ fn worth_telling(unit: Option<&str>) -> f64 {
 pub(super) fn limits_um(results: &[Compared]) -> HashMap<String, f64> {
     let mut limits_um = HashMap::new();
     for one in results {
-        let Some(table) = one.findings.group(&INSPECTION).and_then(|section| section.table_of(FIGURES.key)) else {
+        let Some(table) = one.findings.group(&INSPECTION).and_then(|section| section.table_of(&FIGURES)) else {
             continue;
         };
         for (symbol, limit_um) in table.words(&FIGURE).zip(table.values(&FIGURE_LIMIT)) {

@@ -13,9 +13,10 @@
 
 mod page;
 
-use super::quantities::{LESS, OVER};
+use super::quantities::{COMPARISON, LESS, OVER};
 use crate::findings::Table;
 use crate::findings::quantities::surfaces::{OF_FIRST, OF_SECOND, PARAMETER, PARAMETER_UNIT, WHAT_IT_IS};
+use crate::findings::table::table_file;
 use crate::output::folder::OutputFolder;
 use crate::output::report::REPORT_FILE;
 use crate::output::table::write_table;
@@ -37,7 +38,7 @@ pub fn write(of: &SurfaceComparison, folder: &OutputFolder) -> Result<()> {
         .column(&LESS, ComparedRow::difference)
         .column(&OVER, |row| ratio(row.values))
         .column(&WHAT_IT_IS, |row| row.definition.clone());
-    write_table(&folder.path("comparison.csv")?, &table.into())?;
+    write_table(&folder.path(table_file(COMPARISON.key))?, &table.into())?;
     let pictures = of.write_maps(folder, "")?;
     let (abbott, profiles) = (of.abbott(), of.profiles());
     abbott.write_svg(&folder.path("abbott.svg")?)?;

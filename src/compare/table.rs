@@ -1,25 +1,18 @@
 //! The lines of a comparison, as CSV and for the terminal.
 
-use std::path::Path;
-
 use super::lines::{Line, is_rounding};
 use super::quantities::{DEFINITION, DIFFERENCE_TO_FIRST, PATH, RATIO_TO_FIRST, UNIT, VALUE_OF_RESULT};
 use super::{Comparison, letters};
 use crate::findings::{Quantity, Table};
-use crate::output::table::write_table;
-use crate::output::text::{Sheet, significant};
-use gearcut_core::Result;
+use crate::number_text::significant;
+use crate::output::text::Sheet;
 
 /// Longest words that stand in a column of the terminal, characters.
 const LONGEST_WORDS: usize = 20;
 
 impl Comparison {
-    pub(super) fn write_csv(&self, path: &Path) -> Result<()> {
-        write_table(path, &self.as_table())
-    }
-
     /// A row with the names of the results, then one for each line. Values are words: those of some lines are.
-    fn as_table(&self) -> Table {
+    pub(super) fn as_table(&self) -> Table {
         let rows = std::iter::once(None).chain(self.lines.iter().map(Some));
         let mut table = Table::over("comparison", "Comparison", rows)
             .column(&PATH, |line| line.map_or("name", |line: &Line| line.name.as_str()))

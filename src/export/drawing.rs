@@ -5,7 +5,7 @@
 use super::arcs::{ArcPath, PathPieces};
 use super::section::{FIT_SHARE, GearSection, ProfileSource, SectionCurve, SectionWish};
 use crate::job::{CylindricalGear, ToolSection};
-use crate::output::text::plain;
+use crate::number_text::plain;
 use gearcut_core::units::UM_PER_MM;
 use glam::DVec2;
 

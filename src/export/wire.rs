@@ -16,7 +16,7 @@ use crate::gcode::{Grammar, Move, ProgramArc, ascii, statements};
 use crate::job::CylindricalGear;
 use crate::machine::AxisKind;
 use crate::measure::target_outline::TargetOutline;
-use crate::output::text::plain;
+use crate::number_text::plain;
 use gearcut_core::error::Refusal;
 use gearcut_core::gear::Back;
 use gearcut_core::units::UM_PER_MM;

@@ -18,6 +18,17 @@ pub struct Entry {
     pub level: Level,
     /// The value.
     pub quantity: Quantity,
+    /// What follows from the value, where that is said beside it.
+    pub advice: Option<Advice>,
+}
+
+/// What follows from a value.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Advice {
+    /// Sentences, the last one without its full stop.
+    pub text: String,
+    /// Whether something should be changed.
+    pub change: bool,
 }
 
 impl QuantityRow {
@@ -47,7 +58,7 @@ impl QuantityRow {
     fn entry(&self, value: Datum, why: Cow<'static, str>) -> Entry {
         let unit = (!self.unit.is_empty()).then_some(Cow::Borrowed(self.unit));
         let quantity = Quantity::new(value, unit, self.definition.into(), why);
-        Entry { key: self.key.to_owned(), title: self.title(), level: self.level, quantity }
+        Entry { key: self.key.to_owned(), title: self.title(), level: self.level, quantity, advice: None }
     }
 }
 
@@ -59,7 +70,7 @@ impl From<&Parameter> for Entry {
             Err(why) => (Datum::Undefined, why.to_string()),
         };
         let quantity = Quantity::new(value, Some(of.unit.into()), of.definition.clone().into(), why.into());
-        Self { key: of.symbol.clone(), title: of.symbol.clone(), level: Level::Detail, quantity }
+        Self { key: of.symbol.clone(), title: of.symbol.clone(), level: Level::Detail, quantity, advice: None }
     }
 }
 
@@ -71,6 +82,18 @@ impl Entry {
             Some(place) => Self { quantity: self.quantity.at(place), ..self },
             None => self,
         }
+    }
+
+    /// The same, with what should be changed.
+    #[must_use]
+    pub fn change(self, text: impl Into<String>) -> Self {
+        Self { advice: Some(Advice { text: text.into(), change: true }), ..self }
+    }
+
+    /// The same, with what to know of it; nothing needs to be changed.
+    #[must_use]
+    pub fn fine(self, text: impl Into<String>) -> Self {
+        Self { advice: Some(Advice { text: text.into(), change: false }), ..self }
     }
 
     /// The same, under a key that its row cannot know, such as one that begins with the name of an operation.
@@ -101,7 +124,7 @@ impl Entry {
     #[must_use]
     pub fn unless(self, why: Option<&str>) -> Self {
         match why {
-            Some(why) => Self { quantity: self.quantity.without_value(why.to_owned()), ..self },
+            Some(why) => Self { quantity: self.quantity.without_value(why.to_owned()), advice: None, ..self },
             None => self,
         }
     }

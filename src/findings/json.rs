@@ -10,11 +10,11 @@ use serde_json::{Map, Value, json};
 
 use super::column::TableCells;
 use super::datum::Datum;
-use super::entry::Entry;
+use super::entry::{Advice, Entry};
 use super::notice::Notice;
 use super::quantity::Quantity;
 use super::row::{ColumnChart, Level, title_of};
-use super::table::{CSV, Table, TableColumn};
+use super::table::{Table, TableColumn, table_file};
 use super::tree::{Findings, Section};
 use crate::regular_file;
 use gearcut_core::{Error, Result};
@@ -94,6 +94,9 @@ fn of_entry(entry: &Entry) -> Value {
     {
         value["level"] = json!(name);
     }
+    if let Some(Advice { text, change }) = &entry.advice {
+        value["advice"] = json!({"text": text, "change": change});
+    }
     value
 }
 
@@ -122,7 +125,7 @@ fn of_table(table: &Table) -> Value {
     if let Some(rows) = table.period_rows {
         value["period_rows"] = json!(rows);
     }
-    if let Some(file) = table.file_as(CSV) {
+    if let Some(file) = table.file.as_deref().map(table_file) {
         value["file"] = json!(file);
     }
     if table.rows_in_file {

@@ -25,7 +25,7 @@ pub enum Severity {
     /// The gear or its machine may be refused on the shop floor: undercut, a force or chip beyond what is usual, an
     /// axis beyond its limit, strokes that rub, deviations.
     Warning,
-    /// The gear is damaged, a program must not be run, or something that was asked for is not there. `gearcut cut` ends
+    /// The gear is damaged, a program must not be run, or a part of the run is missing. `gearcut cut` ends
     /// with exit code 3.
     Fault,
 }

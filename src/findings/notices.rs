@@ -4,7 +4,7 @@ use super::notice::notices;
 
 notices! {
     /// The machine cannot make this motion: its control slows down or stops, and another gear comes out.
-    AxisLimit: Warning or Fault where "a program under test asks for it" "axis.limit", "gcode.md",
+    AxisLimit: Warning or Fault where "a program under test makes it" "axis.limit", "gcode.md",
         (operation, peak, reached, allowed, unit, way_out),
         "operation {operation}: the {peak} reaches {reached} {unit}, the machine allows {allowed} {unit}: {way_out}";
         "Make the motion slower or smoother as the notice says, or state the machine's true limits."
@@ -41,7 +41,7 @@ notices! {
     /// Part of the flanks is still the blank, and no number covers it.
     Untouched: Warning "flank.uncut", "hobbing.md", (dexels, why),
         "{dexels} dexels were reached by no pass: {why}"; "Let the tool travel or roll further."
-    /// A file or a chapter that was asked for is missing.
+    /// A file or a chapter of this run is missing.
     PartFailed: Fault "cut.part_failed", "howto.md", (part, why),
         "{part}: {why}; everything else is there"; "Remove the reason that the notice names and run again."
     /// Meshes for other programs and pictures show no closed gear.
@@ -91,7 +91,7 @@ notices! {
         "{of}the window could not be evaluated: {why}"; "Change the window or its filters as the reason says."
     /// The numbers are rounding.
     NoMarks: Note "texture.no_marks", "texture.md", (of),
-        "{of}the motion of the tool leaves no marks on this flank: its numbers are those of rounding";
+        "{of}this flank has no marks of the tool's motion: its numbers are those of rounding";
         "Remove the window, or give the machine the errors whose traces it is to show."
     /// Numbers of few marks depend on where the window begins.
     FewMarks: Note "texture.few_marks", "texture.md", (of, marks, direction, enough),

@@ -16,8 +16,7 @@ pub mod teeth;
 use super::row::QuantityGroup;
 
 /// The section with a part for each operation.
-pub static OPERATIONS: QuantityGroup =
-    QuantityGroup { key: "operations", title: "Operations", place: "operations", rows: &[] };
+pub static OPERATIONS: QuantityGroup = QuantityGroup::of_parts("operations", "Operations");
 
 /// The groups of this table.
 pub static SHARED: &[&QuantityGroup] = &[

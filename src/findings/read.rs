@@ -7,12 +7,12 @@ use serde_json::{Map, Value};
 
 use super::column::TableCells;
 use super::datum::Datum;
-use super::entry::Entry;
+use super::entry::{Advice, Entry};
 use super::json::{CHARTS, LEVELS};
 use super::notice::{Notice, Severity};
 use super::quantity::Quantity;
 use super::row::{Level, title_of};
-use super::table::{CSV, Table, TableColumn};
+use super::table::{Table, TableColumn, table_name};
 use super::tree::{Findings, Section};
 
 /// What reads a part, or why it cannot.
@@ -69,7 +69,12 @@ fn entry(key: &str, value: &Value) -> Read<Entry> {
         Some(name) => LEVELS.iter().find(|level| level.1 == name).ok_or(format!("{key}: there is no level {name}"))?.0,
     };
     let quantity: Quantity = serde_json::from_value(value.clone()).map_err(|reason| format!("{key}: {reason}"))?;
+    let advice = |of: &Value| {
+        let (text, change) = of.get("text").and_then(Value::as_str).zip(of.get("change").and_then(Value::as_bool))?;
+        Some(Advice { text: text.to_owned(), change })
+    };
     Ok(Entry {
+        advice: value.get("advice").and_then(advice),
         key: key.to_owned(),
         title: text("title").map_or_else(|| title_of(key), str::to_owned),
         level,
@@ -114,7 +119,7 @@ fn table(key: &str, value: &Value) -> Read<Table> {
     let mut table = Table { columns, cells, ..Table::new(key, title) };
     table.period_rows = all.get("period_rows").and_then(Value::as_u64).and_then(|rows| rows.try_into().ok());
     let file = all.get("file").and_then(Value::as_str);
-    table.file = file.map(|file| file.strip_suffix(&format!(".{CSV}")).unwrap_or(file).to_owned());
+    table.file = file.map(|file| table_name(file).to_owned());
     table.rows_in_file = all.get("rows_in_file").and_then(Value::as_bool).unwrap_or(false);
     Ok(table)
 }
@@ -185,11 +190,13 @@ mod tests {
     #[test]
     fn paths_lead_to_sections_and_quantities() {
         let findings = findings();
-        let operations = findings.find("operations").expect("a section");
+        let operations = findings.at_path("operations").expect("a section");
         assert_eq!(operations.number("rough.strokes"), Some(4200.0));
         assert_eq!(operations.number("rough.relief.ratio"), None);
-        assert!(findings.find("operations.rough.relief").is_some() && findings.find("operations.finish").is_none());
-        let teeth = findings.find("operations.rough").and_then(|rough| rough.table_of("teeth")).expect("a table");
+        assert!(
+            findings.at_path("operations.rough.relief").is_some() && findings.at_path("operations.finish").is_none()
+        );
+        let teeth = findings.at_path("operations.rough").and_then(|rough| rough.table_at("teeth")).expect("a table");
         assert_eq!(teeth.values(&VOLUME).collect::<Vec<_>>(), [Some(0.25), None]);
         let document = findings.to_json();
         assert_eq!(document["sections"]["operations"]["rough"]["strokes"]["value"], 4200);

@@ -108,6 +108,13 @@ macro_rules! rows {
 }
 pub(crate) use rows;
 
+impl QuantityGroup {
+    /// A section whose own keys are names of parts, or whose rows another group lists.
+    pub const fn of_parts(key: &'static str, title: &'static str) -> Self {
+        Self { key, title, place: "", rows: &[] }
+    }
+}
+
 impl QuantityRow {
     /// A detail that always has a value, called as its key.
     pub const fn new(key: &'static str, unit: &'static str, definition: &'static str) -> Self {

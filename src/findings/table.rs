@@ -15,7 +15,17 @@ use super::row::{BY_ROW, ColumnChart, QuantityRow, title_of};
 use std::borrow::Cow;
 
 /// Ending of the files of tables that a run writes.
-pub const CSV: &str = "csv";
+const CSV: &str = "csv";
+
+/// Name of the file of a table: that of the table, with the ending of the form that is written.
+pub fn table_file(name: &str) -> String {
+    format!("{name}.{CSV}")
+}
+
+/// Name of the table in a file: [`table_file`] the other way.
+pub(super) fn table_name(file: &str) -> &str {
+    file.strip_suffix(CSV).and_then(|name| name.strip_suffix('.')).unwrap_or(file)
+}
 
 /// Columns and rows.
 #[derive(Debug, Clone, PartialEq)]
@@ -88,11 +98,6 @@ impl Table {
     #[must_use]
     pub fn at(self, file: &str) -> Self {
         Self { file: Some(file.to_owned()), ..self }
-    }
-
-    /// The name of its file in a form with this ending.
-    pub fn file_as(&self, ending: &str) -> Option<String> {
-        self.file.as_ref().map(|file| format!("{file}.{ending}"))
     }
 
     /// How many rows there are.

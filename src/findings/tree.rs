@@ -6,6 +6,7 @@ use super::notice::{Notice, ranked};
 use super::quantity::Quantity;
 use super::row::{QuantityGroup, QuantityRow};
 use super::table::{Columns, Table};
+use gearcut_core::terms::Side;
 
 /// Everything that a run found.
 #[derive(Debug, Clone, PartialEq)]
@@ -102,7 +103,7 @@ impl Section {
     #[must_use]
     pub fn without_values(mut self, why: &str, keep: &[&QuantityRow]) -> Self {
         for entry in self.entries.iter_mut().filter(|entry| keep.iter().all(|row| row.key != entry.key)) {
-            entry.quantity = entry.quantity.clone().without_value(why.to_owned());
+            *entry = entry.clone().unless(Some(why));
         }
         for table in &mut self.tables {
             table.cells.iter_mut().for_each(TableCells::clear);
@@ -118,15 +119,15 @@ impl Section {
             && self.sections.iter().all(|section| section.key != key)
     }
 
-    /// The part at a path of keys joined by dots.
-    pub fn find(&self, path: &str) -> Option<&Section> {
-        find(&self.sections, path)
+    /// The part at a path of keys joined by dots, such as a user writes; who knows it takes [`Self::group`].
+    pub fn at_path(&self, path: &str) -> Option<&Section> {
+        at_path(&self.sections, path)
     }
 
     /// The entry at a path.
     pub fn entry(&self, path: &str) -> Option<&Entry> {
         let (section, key) = match path.rsplit_once('.') {
-            Some((parts, key)) => (self.find(parts)?, key),
+            Some((parts, key)) => (self.at_path(parts)?, key),
             None => (self, path),
         };
         section.entries.iter().find(|entry| entry.key == key)
@@ -169,11 +170,21 @@ impl Section {
 
     /// The part of this group.
     pub fn group(&self, group: &QuantityGroup) -> Option<&Section> {
-        self.find(group.key)
+        at_path(&self.sections, group.key)
     }
 
-    /// The table of this key.
-    pub fn table_of(&self, key: &str) -> Option<&Table> {
+    /// The part of the flanks of this side.
+    pub fn side(&self, side: Side) -> Option<&Section> {
+        at_path(&self.sections, side.name())
+    }
+
+    /// The table of this group.
+    pub fn table_of(&self, group: &QuantityGroup) -> Option<&Table> {
+        self.table_at(group.key)
+    }
+
+    /// The table of this key, such as a file names.
+    pub fn table_at(&self, key: &str) -> Option<&Table> {
         self.tables.iter().find(|table| table.key == key)
     }
 
@@ -198,11 +209,11 @@ impl QuantityGroup {
     }
 }
 
-fn find<'a>(sections: &'a [Section], path: &str) -> Option<&'a Section> {
+fn at_path<'a>(sections: &'a [Section], path: &str) -> Option<&'a Section> {
     let (first, rest) = path.split_once('.').map_or((path, None), |(first, rest)| (first, Some(rest)));
     let section = sections.iter().find(|section| section.key == first)?;
     match rest {
-        Some(rest) => find(&section.sections, rest),
+        Some(rest) => at_path(&section.sections, rest),
         None => Some(section),
     }
 }
@@ -228,19 +239,19 @@ impl Findings {
         }
     }
 
-    /// The section at a path of keys joined by dots.
-    pub fn find(&self, path: &str) -> Option<&Section> {
-        find(&self.sections, path)
-    }
-
-    /// The parts of a section; none where it is missing.
-    pub fn parts(&self, path: &str) -> &[Section] {
-        self.find(path).map_or(&[], |section| &section.sections)
+    /// The section at a path of keys joined by dots, such as a user writes; who knows it takes [`Self::group`].
+    pub fn at_path(&self, path: &str) -> Option<&Section> {
+        at_path(&self.sections, path)
     }
 
     /// The section of this group.
     pub fn group(&self, group: &QuantityGroup) -> Option<&Section> {
-        self.find(group.key)
+        at_path(&self.sections, group.key)
+    }
+
+    /// The parts of the section of this group; none where it is missing.
+    pub fn parts(&self, group: &QuantityGroup) -> &[Section] {
+        self.group(group).map_or(&[], |section| &section.sections)
     }
 
     /// The quantity of this row in the headline.

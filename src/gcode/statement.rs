@@ -119,7 +119,7 @@ impl Modes {
             let refuse = |why: &str| Err(format!("word `{}`: {why}", word.text));
             if let Some(group) = word.group(grammar)? {
                 if let Some((_, before)) = groups.iter().find(|(of, _)| *of == group) {
-                    return refuse(&format!("`{}` stands in the same block, and one rules out the other", before.text));
+                    return refuse(&format!("`{}` is in the same block, and one rules out the other", before.text));
                 }
                 groups.push((group, word));
                 match (word.letter, word.number as u32) {
@@ -140,7 +140,7 @@ impl Modes {
                 continue;
             }
             if letters.contains(&word.letter) {
-                return refuse("this letter stands twice in the block");
+                return refuse("this letter is twice in the block");
             }
             letters.push(word.letter);
             match word.letter {

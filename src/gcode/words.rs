@@ -69,10 +69,7 @@ pub fn blocks(
         lines = index + 1;
         let line = line.trim();
         if tape_ended && !line.is_empty() {
-            return Err(format!(
-                "line {lines}: `{}` stands behind the `%` at which a control stops reading",
-                cut(line)
-            ));
+            return Err(format!("line {lines}: `{}` comes after the `%` at which a control stops reading", cut(line)));
         }
         if line == "%" {
             tape_ended = std::mem::replace(&mut begun, true);
@@ -98,7 +95,7 @@ fn words(line: &str) -> Result<Vec<Word<'_>>, String> {
             break;
         }
         if first == '%' {
-            return Err(format!("`{}`: a `%` stands alone in its line", cut(rest)));
+            return Err(format!("`{}`: a `%` is alone in its line", cut(rest)));
         }
         if first == '(' {
             let Some(end) = rest.find(')') else { return Err(format!("the comment `{}` is not closed", cut(rest))) };

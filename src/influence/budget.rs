@@ -18,8 +18,8 @@ use super::known_cuts::{KnownCuts, digest};
 use super::numbers::numbers;
 use crate::backend::Choice;
 use crate::interrupt::Interrupt;
-use crate::output::progress::Progress;
 use crate::process;
+use crate::progress::Progress;
 use crate::scene::error_parameters::{ErrorParameter, error_parameters};
 use crate::scene::suggest::did_you_mean;
 use crate::scene::{LoadedScene, Scene};
@@ -167,7 +167,7 @@ pub fn chosen(loaded: &LoadedScene, names: &[String]) -> Result<Vec<ErrorParamet
 fn whole_flanks(scene: &Scene, asked: &[(u32, Side)]) -> Result<Vec<(u32, Side)>, Refusal> {
     let teeth = scene.gear.teeth;
     if let Some((tooth, _)) = asked.iter().find(|(tooth, _)| !(1..=teeth).contains(tooth)) {
-        let problem = format!("tooth {tooth} is asked for, the gear has {teeth}");
+        let problem = format!("there is no tooth {tooth}, the gear has {teeth}");
         return Err(Refusal::new("--flanks", problem, "name teeth from 1 to the number of teeth"));
     }
     if !asked.is_empty() {

@@ -29,7 +29,7 @@ use super::interval::interval;
 use super::known_cuts::KnownCuts;
 use crate::backend::Choice;
 use crate::interrupt::Interrupt;
-use crate::output::progress::Progress;
+use crate::progress::Progress;
 use crate::scene::LoadedScene;
 use crate::scene::error_parameters::ErrorParameter;
 use gearcut_core::error::{Error, Result};

@@ -8,6 +8,7 @@
 //! that it names, and of what is asked. So a run takes up what is the same, whatever else has changed, and no other.
 //! Numbers are written with all their digits: what follows from them has the same bytes, whether they were cut or read.
 
+use crate::findings::table::table_file;
 use crate::output::folder::{OutputFolder, RUN_RECORD};
 use crate::output::growing::{KeyedRows, RowFile, RowKind, RowValues, begin};
 use crate::scene::Scene;
@@ -20,8 +21,8 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-/// File of the rows.
-const CUTS: &str = "cuts.csv";
+/// File of the rows, without its ending.
+const CUTS: &str = "cuts";
 
 /// Cuts that are known, and how many were made.
 #[derive(Debug, Default)]
@@ -59,7 +60,7 @@ impl KnownCuts {
         if there.as_ref().is_some_and(|there| there.get("command") != record.get("command")) {
             return Ok(Self::default());
         }
-        let path = folder.join(CUTS);
+        let path = folder.join(table_file(CUTS));
         let (file, rows) = if path.exists() {
             let (file, rows) = RowFile::open(&path, &kind())?;
             (Some(file), rows)
@@ -123,7 +124,7 @@ impl KnownCuts {
         if self.place.is_none() {
             return Ok(());
         }
-        kind().write(&folder.path(CUTS)?, &locked(&self.rows))
+        kind().write(&folder.path(table_file(CUTS))?, &locked(&self.rows))
     }
 
     /// Takes away what this run has left beside the result: it has failed, and would fail again.
@@ -146,7 +147,7 @@ impl GrowingPlace {
         let mut file = locked(&self.file);
         if file.is_none() {
             begin(&self.folder, &self.record)?;
-            *file = Some(RowFile::open(&self.folder.join(CUTS), &kind())?.0);
+            *file = Some(RowFile::open(&self.folder.join(table_file(CUTS)), &kind())?.0);
         }
         file.as_ref().map_or(Ok(()), |file| file.add(key, values))
     }

@@ -31,11 +31,11 @@ notices! {
     /// Something else is wrong with the gear than the scene can name.
     DiagnosisUnexplained: Warning "fit.unexplained", "budget.md", (left_um),
         "unexplained: {left_um} um are left beyond the stated noise; no error that the scene can name makes them, and \
-         what is named is said without intervals: it may stand in for something else";
+         what is named has no intervals: it may take the place of something else";
         "Check --noise-um, and the tool and blank that the scene names."
     /// Mending the named one may mend nothing.
     SameAs: Warning "fit.not_told_apart", "budget.md", (source, others),
-        "{source} cannot be told apart from: {others}. Each would explain these deviations as well";
+        "{source} acts on these deviations like {others}: each would explain them as well";
         "Measure more teeth, both sides and helices, or look at the machine."
     /// Their size is not known one by one.
     NoOwnSize: Note "fit.no_own_size", "budget.md", (source),
@@ -56,7 +56,7 @@ notices! {
         "stopped by Ctrl-C: fitted by the rounds that were done; intervals are of the last one"; "Let the run end."
     /// The measured values want a machine that the scene cannot describe.
     AtEnd: Warning "fit.at_end_of_range", "budget.md", (parameter, shift, unit),
-        "{parameter} is at the end of its range, {shift} {unit} beyond the scene: the measured values ask for more, \
+        "{parameter} is at the end of its range, {shift} {unit} beyond the scene: the measured values lie beyond, \
          and no interval of any parameter holds; are they in the units that their columns name?";
         "Check the units, or fit another error."
     /// Any size of it would fit as well.

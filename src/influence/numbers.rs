@@ -7,8 +7,8 @@
 use crate::backend::Choice;
 use crate::findings::{Quantity, Section, Table};
 use crate::interrupt::Interrupt;
-use crate::output::progress::{Progress, ProgressMode};
 use crate::process;
+use crate::progress::{Progress, ProgressMode};
 use crate::run::Run;
 use crate::scene::LoadedScene;
 use crate::steps::parts::Parts;

@@ -249,7 +249,7 @@ impl RoundGear {
             return Err(format!("balls of {ball_mm:.3} mm touch at {touch_diameter_mm:.3} mm, not on the involute"));
         }
         if hidden {
-            return Err(format!("balls of {ball_mm:.3} mm do not stand out over the tips"));
+            return Err(format!("balls of {ball_mm:.3} mm do not rise over the tips"));
         }
         Ok(OverBalls { ball_mm, dimension_mm: apart_mm + sign * ball_mm, touch_diameter_mm })
     }

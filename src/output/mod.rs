@@ -1,4 +1,4 @@
-//! Everything that leaves a run: files, pictures, tables, and what the user sees meanwhile.
+//! Everything that leaves a run: files, pictures, tables.
 //!
 //! In: finished numbers with their units and names. Out: files that explain themselves.
 //! The writers are generic: they know grids, series and words, but compute nothing about gears.
@@ -18,7 +18,6 @@
 //! | charts, on the page and as SVG files | `bar_chart`, [`line_chart`], `range_chart`, `ratio_chart` |
 //! | charts with a scale for each number | `bar_panels`, `strip_chart` |
 //! | the report: everything on one page that opens offline | `report` |
-//! | progress and Ctrl-C | [`progress`], [`crate::interrupt`] |
 
 pub mod atomic;
 mod axis;
@@ -31,7 +30,6 @@ mod letters;
 pub mod line_chart;
 mod map_cells;
 mod plot;
-pub mod progress;
 mod raster;
 mod relief;
 pub mod table;

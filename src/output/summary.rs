@@ -5,8 +5,9 @@
 //! windows. What is undefined is told with its reason in the headline and left out below it.
 
 use crate::findings::{Entry, Findings, Level, Notice, Quantity, Section};
-use crate::output::progress::duration_text;
-use crate::output::text::{Sheet, VALUE_COLUMN, plain, significant};
+use crate::number_text::{plain, significant};
+use crate::output::text::{Sheet, VALUE_COLUMN};
+use crate::progress::duration_text;
 use crate::wrap::wrapped;
 use gearcut_core::cut::KERNEL_UM;
 

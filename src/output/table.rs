@@ -12,7 +12,7 @@
 use std::io;
 use std::path::Path;
 
-use crate::findings::table::CSV;
+use crate::findings::table::table_file;
 use crate::findings::{Datum, Findings, Table, TableColumn};
 use crate::output::atomic::write_atomically;
 use crate::output::folder::OutputFolder;
@@ -29,8 +29,8 @@ pub fn write_tables(findings: &Findings, folder: &OutputFolder) -> Result<()> {
     let mut tables = Vec::new();
     findings.walk(&mut |_, section| tables.extend(&section.tables));
     for table in tables {
-        if let Some(file) = table.file_as(CSV) {
-            write_table(&folder.path(file)?, table)?;
+        if let Some(name) = &table.file {
+            write_table(&folder.path(table_file(name))?, table)?;
         }
     }
     Ok(())
@@ -64,7 +64,7 @@ pub fn write_table(path: &Path, table: &Table) -> Result<()> {
 /// # Errors
 /// No such file; a file with other columns, or with a cell of another type.
 pub fn with_rows(table: &Table, folder: &Path) -> Result<Table> {
-    let Some(file) = table.file_as(CSV).filter(|_| table.rows_in_file && table.is_empty()) else {
+    let Some(file) = table.file.as_deref().map(table_file).filter(|_| table.rows_in_file && table.is_empty()) else {
         return Ok(table.clone());
     };
     let path = folder.join(file);

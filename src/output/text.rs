@@ -1,11 +1,10 @@
-//! Aligned text for the terminal: labelled lines, tables, numbers with the digits that matter.
+//! Aligned text for the terminal: labelled lines and tables.
 //!
 //! Plain text without colours, the same on a terminal and in a log; units stand behind every number.
 
 use std::fmt::Write as _;
 
 use crate::wrap::wrapped;
-use gearcut_core::units::UM_PER_MM;
 
 /// Where values begin on labelled lines, in characters.
 pub const VALUE_COLUMN: usize = 32;
@@ -14,9 +13,6 @@ const LINE: usize = 80;
 /// Blanks between the columns of a table, and between those of one that would be too wide; where even one blank is too
 /// many, the columns keep apart.
 const GAPS: [usize; 3] = [3, 2, 1];
-
-/// Offsets below this are rounding, mm.
-const LEAST_OFFSET_MM: f64 = 5e-7;
 
 /// Text that grows line by line. A brief one leaves out tables and details, and headings under which nothing is left.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
@@ -150,48 +146,6 @@ impl Sheet {
     }
 }
 
-/// A length, where it is not 0.
-pub fn um(name: &str, value_mm: f64) -> Vec<String> {
-    size(name, value_mm * UM_PER_MM, "um")
-}
-
-/// A size with its unit, where it is not 0.
-pub fn size(name: &str, value: f64, unit: &str) -> Vec<String> {
-    if value == 0.0 { Vec::new() } else { vec![format!("{name} {} {unit}", number(value))] }
-}
-
-/// Four digits, without zeros behind the point: as a scene gives it.
-pub fn number(value: f64) -> String {
-    let text = significant(value, 4);
-    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
-}
-
-/// A number with this many significant digits and no exponent, such as "0.0942", "14.95", "4200".
-pub fn significant(value: f64, digits: u32) -> String {
-    if value == 0.0 || !value.is_finite() {
-        return format!("{value}");
-    }
-    let decimals = (f64::from(digits) - 1.0 - value.abs().log10().floor()).clamp(0.0, 15.0) as usize;
-    let text = format!("{value:.decimals$}");
-    if text.trim_start_matches(['-', '0', '.']).is_empty() { "0".to_owned() } else { text }
-}
-
-/// How far a tool stays back from full depth, in words.
-pub fn from_full_depth(offset_mm: f64) -> String {
-    match offset_mm {
-        short if short > LEAST_OFFSET_MM => format!("{} mm short of full depth", plain(offset_mm)),
-        beyond if beyond < -LEAST_OFFSET_MM => format!("{} mm beyond full depth", plain(-offset_mm)),
-        _ => "at full depth".to_owned(),
-    }
-}
-
-/// A number as a scene gives it, to six decimals and without trailing zeros, such as "3", "0.5", "61.11".
-pub fn plain(value: f64) -> String {
-    let text = format!("{value:.6}");
-    let text = text.trim_end_matches('0').trim_end_matches('.');
-    if text == "-0" { "0".to_owned() } else { text.to_owned() }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -222,27 +176,6 @@ mod tests {
         assert_eq!(print(Sheet::brief()), format!("title\n\nCost\n{time}"));
         let whole = print(Sheet::default());
         assert!(whole.contains("\nPeaks\n  axis   1\n") && whole.contains("24 MB"), "{whole}");
-    }
-
-    #[test]
-    fn an_offset_says_which_way_it_goes() {
-        let words = [2.0, 0.0, -0.068_687, 1e-13].map(from_full_depth);
-        let expected = ["2 mm short of full depth", "at full depth", "0.068687 mm beyond full depth", "at full depth"];
-        assert_eq!(words, expected);
-    }
-
-    #[test]
-    fn given_numbers_look_as_given() {
-        assert_eq!(
-            [3.0, 0.5, 61.11, -1e-9, 100.0, 1.0 / 3.0].map(plain),
-            ["3", "0.5", "61.11", "0", "100", "0.333333"]
-        );
-    }
-
-    #[test]
-    fn numbers_keep_the_digits_that_matter() {
-        let texts = [0.094_23, 14.948, 4200.0, -0.001, 123_456.7, 0.0, 1e-30].map(|value| significant(value, 4));
-        assert_eq!(texts, ["0.09423", "14.95", "4200", "-0.001000", "123457", "0", "0"]);
     }
 
     #[test]

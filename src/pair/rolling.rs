@@ -69,7 +69,7 @@ pub fn enough(count: [u32; 2], positions: usize) -> Result<(), Refusal> {
     Err(Refusal::new(
         "positions",
         format!("{positions} positions are too few for the {teeth} teeth that pass in the {turns} turns of a period"),
-        format!("ask for {least} or more: {LEAST_POSITIONS_PER_TOOTH} per tooth"),
+        format!("take {least} or more: {LEAST_POSITIONS_PER_TOOTH} per tooth"),
     ))
 }
 

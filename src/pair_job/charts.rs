@@ -172,7 +172,7 @@ fn double_flank(rolled: &RolledPair) -> Option<LineChart> {
 pub fn waves(found: &Findings) -> Option<BarChart> {
     let tables: Vec<_> = SIDES
         .iter()
-        .map(|side| found.group(&TRANSMISSION_ERROR)?.find(side.name())?.table_of(WAVES.key))
+        .map(|side| found.group(&TRANSMISSION_ERROR)?.side(*side)?.table_of(&WAVES))
         .collect::<Option<_>>()?;
     let categories = tables[0].names().collect();
     let series = SIDES.iter().zip(&tables).map(|(side, table)| BarSeries {

@@ -17,10 +17,10 @@ use super::options::PairOptions;
 use super::quantities::{
     BACKLASH, CENTER_DISTANCE, CHANGE_OF_ERROR, CLOSING_DISTANCE, CONTACT, COUNT_OF_POSITIONS, DEEPEST_TIP, DISTANCE,
     DISTANCE_ERROR, DOUBLE_FLANK, ECCENTRICITY_A, ECCENTRICITY_ANGLE_A, ECCENTRICITY_ANGLE_B, ECCENTRICITY_B,
-    FLANKS_ROLLED, GEAR_A, GEAR_B, IN_PLANE, INTERFERENCE, KIND, LEAST_MORE_PLAY, MARKING, MESH_RANGE, MISFIT, MODULE,
-    MOST_MORE_PLAY, OUT_OF_PLANE, PAIR, PEAK_TO_PEAK, PRESSURE_ANGLE, RANGE_AT_PITCH_POINT, RANGE_OF_CHANGE, RATIO,
-    RATIO_DEVIATION, SECTIONS, SMALLEST_BACKLASH, SMALLEST_CONTACT_RATIO, TEETH_A, TEETH_B, TIGHT_RANGE, TIP_CLEARANCE,
-    TRANSMISSION_ERROR, TURNS, WORKING_PRESSURE_ANGLE,
+    FLANKS_ROLLED, GEAR_A, GEAR_B, IN_PLANE, INTERFERENCE, KIND, LEAST_MORE_PLAY, MARKING, MATE, MESH_RANGE, MISFIT,
+    MODULE, MOST_MORE_PLAY, OUT_OF_PLANE, PAIR, PEAK_TO_PEAK, PRESSURE_ANGLE, RANGE_AT_PITCH_POINT, RANGE_OF_CHANGE,
+    RATIO, RATIO_DEVIATION, SECTIONS, SMALLEST_BACKLASH, SMALLEST_CONTACT_RATIO, TEETH_A, TEETH_B, TIGHT_RANGE,
+    TIP_CLEARANCE, TRANSMISSION_ERROR, TURNS, WORKING_PRESSURE_ANGLE,
 };
 use super::rolled::RolledPair;
 use crate::findings::{Entry, Findings, Notice, Place, QuantityGroup, QuantityRow, Section};
@@ -54,33 +54,35 @@ pub fn findings(name: &str, scenes: [&Scene; 2], options: &PairOptions, rolled: 
 }
 
 /// Section, part of it if there is one, row and title of the numbers that come first.
-type First = (&'static QuantityGroup, &'static str, &'static QuantityRow, &'static str);
+type First = (&'static QuantityGroup, Option<&'static QuantityGroup>, &'static QuantityRow, &'static str);
+/// The part of the flanks that drive.
+static RIGHT: QuantityGroup = QuantityGroup::of_parts("right", "Right flanks");
 /// Numbers of the sections that come first.
 static HEADLINE: [First; 10] = [
-    (&TRANSMISSION_ERROR, "right", &PEAK_TO_PEAK, "transmission error, range"),
-    (&TRANSMISSION_ERROR, "right", &MESH_RANGE, "its tooth-mesh part, range"),
-    (&TRANSMISSION_ERROR, "right", &RANGE_AT_PITCH_POINT, "at the pitch point"),
-    (&RATIO, "", &RATIO_DEVIATION, "ratio off by at most"),
-    (&BACKLASH, "", &SMALLEST_BACKLASH, "smallest backlash"),
-    (&CONTACT, "right", &SMALLEST_CONTACT_RATIO, "smallest contact ratio"),
-    (&INTERFERENCE, "", &DEEPEST_TIP, "deepest tip in the mate"),
-    (&INTERFERENCE, "", &TIP_CLEARANCE, "tips clear the mate by"),
-    (&DOUBLE_FLANK, "mate", &TIGHT_RANGE, "tight centre distance, range"),
-    (&CENTER_DISTANCE, "", &CHANGE_OF_ERROR, "10 um of centre distance do"),
+    (&TRANSMISSION_ERROR, Some(&RIGHT), &PEAK_TO_PEAK, "transmission error, range"),
+    (&TRANSMISSION_ERROR, Some(&RIGHT), &MESH_RANGE, "its tooth-mesh part, range"),
+    (&TRANSMISSION_ERROR, Some(&RIGHT), &RANGE_AT_PITCH_POINT, "at the pitch point"),
+    (&RATIO, None, &RATIO_DEVIATION, "ratio off by at most"),
+    (&BACKLASH, None, &SMALLEST_BACKLASH, "smallest backlash"),
+    (&CONTACT, Some(&RIGHT), &SMALLEST_CONTACT_RATIO, "smallest contact ratio"),
+    (&INTERFERENCE, None, &DEEPEST_TIP, "deepest tip in the mate"),
+    (&INTERFERENCE, None, &TIP_CLEARANCE, "tips clear the mate by"),
+    (&DOUBLE_FLANK, Some(&MATE), &TIGHT_RANGE, "tight centre distance, range"),
+    (&CENTER_DISTANCE, None, &CHANGE_OF_ERROR, "10 um of centre distance do"),
 ];
 
 fn headline(sections: &[Section]) -> Vec<Entry> {
     let entry = |(group, part, row, title): &First| {
         let section = sections.iter().find(|section| section.key == group.key)?;
-        let of = if part.is_empty() { section } else { section.find(part)? };
+        let of = part.map_or(Some(section), |part| section.group(part))?;
         let entry = of.entry_of(row)?.clone();
         // Depth and clearance exclude each other; nominal flanks have neither, and say so once.
         let is_silent = group.key == INTERFERENCE.key && entry.quantity.value().is_none();
         if is_silent && (row.key == TIP_CLEARANCE.key || section.value(&TIP_CLEARANCE).is_some()) {
             return None;
         }
-        let path = if part.is_empty() { group.key.to_owned() } else { format!("{}_{part}", group.key) };
-        Some(entry.keyed(format!("{path}_{}", row.key)).titled(*title))
+        let path = [Some(group.key), part.map(|part| part.key), Some(row.key)];
+        Some(entry.keyed(path.into_iter().flatten().collect::<Vec<_>>().join("_")).titled(*title))
     };
     HEADLINE.iter().filter_map(entry).collect()
 }

@@ -9,12 +9,12 @@ notices! {
         + "thin the teeth with gear.tooth_thickness_allowance_mm, or move the axes"
     /// The pair cannot turn through this position.
     Interference: Fault "pair.interference", "pair.md", (other, depth_um, place, own, angle_deg),
-        "a tip of gear {other} stands {depth_um} um deep in a {place} of gear {own} where the pitch curves want it, at \
+        "a tip of gear {other} is {depth_um} um deep in a {place} of gear {own} at the ratio of the pitch curves, at \
          {angle_deg} deg of gear A";
         "Use a lower addendum, more clearance, or a cutter that cuts deeper fillets."
     /// The gears do not roll at the ratio of gear A's curve.
     Misfit: Warning "pair.misfit", "pair.md", (misfit_um),
-        "gear B's pitch curve stands up to {misfit_um} um away from the mate's of gear A";
+        "gear B's pitch curve is up to {misfit_um} um away from that of gear A's mate";
         "Let gearcut mate write the scene of gear B."
     /// The parts cannot be put together.
     NoClearance: Fault "pair.no_clearance", "pair.md", (missing_um, place),

@@ -13,15 +13,16 @@ use super::rolled::RolledPair;
 use super::teeth::ToothContact;
 use super::view;
 use crate::findings::{Findings, QuantityGroup};
+use crate::number_text::plain;
 use crate::output::folder::OutputFolder;
 use crate::output::range_chart::{RangeChart, RangeSeries};
 use crate::output::report::{Block, Page, PageSection};
-use crate::output::text::plain;
 use crate::scene::Scene;
 use crate::steps;
 use crate::steps::report::facts::gear_words;
 use crate::steps::report::{page_of, quantities};
 use gearcut_core::error::Result;
+use gearcut_core::terms::Side;
 
 /// What the page shows beside numbers and charts: pictures with their PNG, and its end.
 pub struct PageParts {
@@ -57,33 +58,34 @@ pub fn page(
         found.map(|(_, chart)| Block::Lines(chart.clone()))
     };
     let table = |group: &QuantityGroup| found.group(group).map(|section| Block::Table(quantities::table(section)));
-    let part_of = |group: &QuantityGroup, key: &str| {
-        found.group(group).and_then(|section| section.find(key)).map(|part| Block::Table(quantities::table(part)))
+    let part_of = |group: &QuantityGroup, side| {
+        found.group(group).and_then(|section| section.side(side)).map(|part| Block::Table(quantities::table(part)))
     };
+    let double_flank = found.parts(&DOUBLE_FLANK).iter().map(|part| Some(Block::Table(quantities::table(part))));
     let part = |blocks: Vec<Option<Block>>| blocks.into_iter().flatten().collect::<Vec<_>>();
     let rolling = Block::Picture("The gears in mesh, first pitches; contacts are marked".to_owned(), parts.animation);
     let patterns = parts.patterns.into_iter().map(|(words, png)| Some(Block::Picture(words, png)));
     let mut contact = part(vec![chart("contact_ratio"), Some(Block::Ranges(by_tooth(rolled)))]);
     contact.extend(patterns.flatten());
-    contact.extend(part(vec![part_of(&CONTACT, "right"), part_of(&CONTACT, "left")]));
+    contact.extend(part(vec![part_of(&CONTACT, Side::Right), part_of(&CONTACT, Side::Left)]));
     let sections = vec![
         PageSection::new(
             "ratio",
             "Ratio",
-            "What the pair is for: the ratio of the speeds that the pitch curves ask for, and the one that the flanks \
+            "What the pair is for: the ratio of the speeds by the pitch curves, and the one that the flanks \
             achieve.",
             part(vec![chart("ratio"), table(&RATIO), Some(rolling)]),
         ),
         PageSection::new(
             "transmission-error",
             "Transmission error",
-            "Rotation of B less the one asked for, without load. Long waves are longer than two teeth; the rest comes \
-            with the teeth.",
+            "Rotation of B less that of the pitch curves, without load. Long waves are longer than two teeth; the rest \
+            comes with the teeth.",
             part(vec![
                 chart("transmission_error"),
                 charts::waves(found).map(Block::Bars),
-                part_of(&TRANSMISSION_ERROR, "right"),
-                part_of(&TRANSMISSION_ERROR, "left"),
+                part_of(&TRANSMISSION_ERROR, Side::Right),
+                part_of(&TRANSMISSION_ERROR, Side::Left),
             ]),
         ),
         PageSection::new(
@@ -110,12 +112,7 @@ pub fn page(
             "double-flank",
             "Double-flank rolling",
             "The centre distance at which both flanks touch, less the nominal one.",
-            part(vec![
-                chart("double_flank"),
-                part_of(&DOUBLE_FLANK, "mate"),
-                part_of(&DOUBLE_FLANK, "master_A"),
-                part_of(&DOUBLE_FLANK, "master_B"),
-            ]),
+            part(std::iter::once(chart("double_flank")).chain(double_flank).collect()),
         ),
         PageSection::new(
             "center-distance",

@@ -89,6 +89,12 @@ rows! {
     VARIATION: "variation", "um", "tight less nominal centre distance";
 }
 
+/// Gear A with gear B in tight mesh.
+pub static MATE: QuantityGroup = QuantityGroup::of_parts("mate", "A with B");
+/// Either gear with a master.
+pub static MASTERS: [QuantityGroup; 2] =
+    [QuantityGroup::of_parts("master_A", "A with a master"), QuantityGroup::of_parts("master_B", "B with a master")];
+
 rows! {
     /// Ten micrometres of centre distance.
     CENTER_DISTANCE: "center_distance", "What the centre distance does", "center_distance";

@@ -15,8 +15,8 @@ use std::path::Path;
 
 use super::watch::Watch;
 use crate::interrupt::Interrupt;
-use crate::output::progress::{Progress, ProgressMode};
 use crate::process;
+use crate::progress::{Progress, ProgressMode};
 use crate::scene::LoadedScene;
 
 fn data(name: &str) -> Value {

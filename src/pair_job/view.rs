@@ -8,9 +8,9 @@
 use super::pictures::pattern;
 use super::rolled::RolledPair;
 use crate::colormap::ColourScale;
+use crate::number_text::plain;
 use crate::output::grid::MapGrid;
 use crate::output::report::viewer::{Thinning, Viewer, ViewerMate, ViewerQuantity};
-use crate::output::text::plain;
 use crate::pair::pitch_pair::Member;
 use crate::steps::report::maps::viewer_flank;
 use crate::steps::view_mesh::ViewMesh;

@@ -6,7 +6,7 @@
 //! A pair keeps nothing of what Ctrl-C ends: half a period has no transmission error.
 
 use crate::interrupt::Interrupt;
-use crate::output::progress::{Progress, ProgressStep};
+use crate::progress::{Progress, ProgressStep};
 use gearcut_core::error::Result;
 
 /// Names of the stages, in their order.

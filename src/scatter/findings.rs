@@ -5,8 +5,8 @@ use super::layers::{ALL, all_but, alone};
 use super::notices::{Missing, NotRandom};
 use super::numbers::NUMBERS;
 use super::quantities::{
-    COUNT, FIRST_CAUSE, GEARS, HIGH, KEPT, KEY, LAYERS, LOW, SA, SEED, SHARE, SIDE_TOTAL_PITCH, TOLERANCES, UNEVENNESS,
-    VALUE,
+    CASES, COUNT, FIRST_CAUSE, GEARS, HIGH, KEPT, KEY, LAYERS, LOW, SA, SEED, SHARE, SIDE_TOTAL_PITCH, SPREAD,
+    TOLERANCES, UNEVENNESS, VALUE,
 };
 use super::statistics::{INTERVAL, Spread};
 use crate::findings::quantities::flanks::F_ALPHA;
@@ -80,7 +80,7 @@ fn with_numbers<T>(table: Columns<T>, values: impl Fn(&T) -> &[Option<f64>]) -> 
 
 /// A row for each case.
 fn layers(found: &Scatter) -> Section {
-    let table = Table::over("cases", LAYERS.title, &found.cases).column(&KEPT, |(case, _)| case.name.as_str());
+    let table = CASES.table(&found.cases).column(&KEPT, |(case, _)| case.name.as_str());
     let table = with_numbers(table, |(_, values)| values).at("layers");
     LAYERS.section([TOOTH.of(found.flank.tooth), FLANK.of(found.flank.side.name())]).table(table)
 }
@@ -90,8 +90,7 @@ fn scatter(found: &Scatter) -> Section {
     let spreads = found.spreads();
     let of = |value: fn(&Spread) -> f64| spreads.iter().map(|of| of.as_ref().map(value)).collect::<Vec<_>>();
     let shares = [(INTERVAL[0], of(|s| s.low)), (0.5, of(|s| s.median)), (INTERVAL[1], of(|s| s.high))];
-    let spread =
-        Table::over("spread", "Median and interval of the gears", shares).column(&SHARE, |(share, _)| 100.0 * share);
+    let spread = SPREAD.table(shares).column(&SHARE, |(share, _)| 100.0 * share);
     let seeds = Table::over("seeds", "Gears", &found.rows).column(&SEED, |(seed, _)| **seed);
     let section = GEARS
         .section([COUNT.of(found.gears.unwrap_or(0))])

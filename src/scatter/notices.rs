@@ -8,6 +8,6 @@ notices! {
         "nothing in the scene is random: every seed makes the same gear"; "Give an axis noise, or name a --tolerance."
     /// Median and interval are those of the other gears.
     Missing: Note "scatter.missing", "errors.md", (numbers),
-        "some gears do not have these numbers, and their spread leaves them out: {numbers}";
+        "some gears do not have these numbers and are not in their spread: {numbers}";
         "Look at single seeds: some gears may be damaged."
 }

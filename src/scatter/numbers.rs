@@ -64,8 +64,8 @@ pub type Values = RowValues;
 /// A tooth that the gear does not have; geometry; the backend.
 pub fn measure(scene: &Scene, like: &dyn ProcessJob, flank: FlankWish, backend: &dyn Backend) -> Result<Values> {
     if !(1..=scene.gear.teeth).contains(&flank.tooth) {
-        let problem = format!("tooth {} is asked for, the gear has {}", flank.tooth, scene.gear.teeth);
-        return Err(Refusal::new("gear.teeth", problem, "ask for a tooth from 1 to the number of teeth").into());
+        let problem = format!("there is no tooth {}, the gear has {}", flank.tooth, scene.gear.teeth);
+        return Err(Refusal::new("gear.teeth", problem, "take a tooth from 1 to the number of teeth").into());
     }
     let mut scene = scene.clone();
     scene.textures = vec![TextureWindow {

@@ -4,10 +4,13 @@ use super::Scatter;
 use super::findings::place_of;
 use super::layers::{ALL, IDEAL, all_but, alone};
 use super::numbers::NUMBERS;
-use super::quantities::{GEARS, LAYERS, SA, SHARE, SIDE_SINGLE_PITCH, SIDE_TOTAL_PITCH, SK, SPK, SVK, UNEVENNESS};
+use super::quantities::{
+    CASES, GEARS, LAYERS, SA, SHARE, SIDE_SINGLE_PITCH, SIDE_TOTAL_PITCH, SK, SPK, SPREAD, SVK, UNEVENNESS,
+};
 use crate::findings::quantities::flanks::{F_ALPHA, F_BETA, F_H_ALPHA};
 use crate::findings::{Findings, QuantityGroup, QuantityRow, RESULTS_FILE, Table, unit};
 use crate::machine_errors::ErrorLayer;
+use crate::number_text::{plain, significant};
 use crate::output::bar_chart::BarSeries;
 use crate::output::bar_panels::{BarPanel, BarPanels};
 use crate::output::folder::OutputFolder;
@@ -15,7 +18,6 @@ use crate::output::line_chart::Limit;
 use crate::output::report::{Block, FileLinks, Page, PageSection, PageTable, REPORT_FILE};
 use crate::output::strip_chart::{Strip, StripChart};
 use crate::output::table::write_tables;
-use crate::output::text::{plain, significant};
 use crate::scene::Scene;
 use crate::steps::report::facts::gear_words;
 use crate::steps::report::page_of;
@@ -120,22 +122,21 @@ fn gears_chart(scatter: &Scatter) -> Option<StripChart> {
 /// The page.
 fn page(scene: &Scene, scatter: &Scatter, found: &Findings, files: Vec<String>) -> Page {
     let charts = CHARTS.iter().filter_map(|(file, ..)| layers_chart(scatter, file)).map(Block::Panels);
-    let table =
-        |group: &QuantityGroup, key: &str| found.group(group).and_then(|section| section.table_of(key)).map(page_table);
+    let table = |section: &QuantityGroup, table: &QuantityGroup| found.group(section)?.table_of(table).map(page_table);
     let mut sections = vec![PageSection::new(
         "layers",
         "Layers of errors",
         "Predicted by simulation: the same gear with each layer of errors alone, with all of them, and with all \
             but one. Layers do not add up: a flank keeps what cuts deepest. What is left without a layer shows what \
             working on it would bring.",
-        charts.chain(table(&LAYERS, "cases").map(Block::Table)).collect(),
+        charts.chain(table(&LAYERS, &CASES).map(Block::Table)).collect(),
     )];
     if let Some(chart) = gears_chart(scatter) {
         sections.push(PageSection::new(
             "gears",
             "Gears of many seeds",
             gears_lead(scatter),
-            std::iter::once(Block::Strips(chart)).chain(table(&GEARS, "spread").map(Block::Table)).collect(),
+            std::iter::once(Block::Strips(chart)).chain(table(&GEARS, &SPREAD).map(Block::Table)).collect(),
         ));
     }
     sections.push(PageSection::new(

@@ -6,7 +6,7 @@ use crate::findings::{QuantityGroup, rows};
 pub static QUANTITIES: &[&QuantityGroup] = &[&NUMBERS_OF_GEARS, &LAYERS, &GEARS, &TOLERANCES];
 
 /// No number of a gear.
-pub const NONE: &str = "no pass came to a place that it needs, or no operation leaves stock for another one";
+pub const NONE: &str = "no pass came to a place that it needs, or a single operation cuts the gear";
 
 const ISO_25178: &str = "ISO 25178-2";
 
@@ -47,6 +47,11 @@ rows! {
     SHARE: "share", "%", "share of the gears whose number is smaller (Hyndman and Fan, type 7)";
     SEED: "seed", "1", "seed of the gear; those beyond the number of gears are of an earlier run";
 }
+
+/// The gear with some layers on.
+pub static CASES: QuantityGroup = QuantityGroup::of_parts("cases", "Layers of errors");
+/// Median and interval of all gears.
+pub static SPREAD: QuantityGroup = QuantityGroup::of_parts("spread", "Median and interval of the gears");
 
 rows! {
     /// What differs from gear to gear.

@@ -1,12 +1,13 @@
 //! Rows of finished seeds on disk, kept while others are still being cut ([`crate::output::growing`]).
 
 use super::numbers::NUMBERS;
+use crate::findings::table::table_file;
 use crate::output::growing::{KeyedRows, RowFile, RowKind};
 use gearcut_core::error::Result;
 use std::path::Path;
 
-/// Name of the file in its folder.
-pub const FILE: &str = "seeds.csv";
+/// The file in its folder, without its ending.
+const FILE: &str = "seeds";
 
 /// Rows by seed.
 pub type Rows = KeyedRows<u32>;
@@ -20,18 +21,18 @@ fn kind() -> RowKind {
     RowKind { header, numbers: Some(NUMBERS.len()) }
 }
 
-/// Opens a file with the rows that it has; makes it where there is none.
+/// Opens the file of a folder with the rows that it has; makes it where there is none.
 ///
 /// # Errors
 /// A file that cannot be read or written, or is another one.
-pub fn open(path: &Path) -> Result<(SeedFile, Rows)> {
-    RowFile::open(path, &kind())
+pub fn open(folder: &Path) -> Result<(SeedFile, Rows)> {
+    RowFile::open(&folder.join(table_file(FILE)), &kind())
 }
 
-/// Writes all rows in the order of their seeds.
+/// Writes all rows of a folder in the order of their seeds.
 ///
 /// # Errors
 /// The file cannot be written.
-pub fn write(path: &Path, rows: &Rows) -> Result<()> {
-    kind().write(path, rows)
+pub fn write(folder: &Path, rows: &Rows) -> Result<()> {
+    kind().write(&folder.join(table_file(FILE)), rows)
 }

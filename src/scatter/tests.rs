@@ -26,7 +26,7 @@ fn a_line_that_was_broken_off_is_cut_away_and_the_others_stay() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("seeds.csv");
     let values = |of: f64| (0..NUMBERS.len()).map(|i| (i != 3).then_some(of + i as f64 / 3.0)).collect::<Vec<_>>();
-    let (file, rows) = rows::open(&path).expect("made");
+    let (file, rows) = rows::open(folder.path()).expect("made");
     assert!(rows.is_empty());
     for seed in [5, 2, 9] {
         file.add(&seed, &values(f64::from(seed))).expect("written");
@@ -36,13 +36,13 @@ fn a_line_that_was_broken_off_is_cut_away_and_the_others_stay() {
     let last_line = whole.trim_end().rfind('\n').expect("lines") + 1;
     for end in last_line..whole.len() {
         fs::write(&path, &whole[..end]).expect("written");
-        let (file, rows) = rows::open(&path).expect("read");
+        let (file, rows) = rows::open(folder.path()).expect("read");
         assert_eq!(rows, Rows::from([(2, values(2.0)), (5, values(5.0))]), "broken off at {end}");
         file.add(&7, &values(7.0)).expect("written");
-        assert_eq!(rows::open(&path).expect("read").1.len(), 3);
+        assert_eq!(rows::open(folder.path()).expect("read").1.len(), 3);
     }
     fs::write(&path, "seed,other\n1,2\n").expect("written");
-    assert!(rows::open(&path).is_err(), "another table is no table of these");
+    assert!(rows::open(folder.path()).is_err(), "another table is no table of these");
 }
 
 #[test]

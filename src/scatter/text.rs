@@ -3,7 +3,7 @@
 use super::numbers::NUMBERS;
 use super::statistics::Spread;
 use super::{FlankWish, Scatter};
-use crate::output::text::significant;
+use crate::number_text::significant;
 use crate::scene::Scene;
 
 /// Digits in tables on the terminal.

@@ -34,7 +34,7 @@ fn gear_bore(found: &mut Found) -> Option<()> {
     let bore_mm = gear.number("bore_diameter_mm")?;
     let root_mm = module_mm * (teeth - 2.5);
     let message = || {
-        format!("`gear.bore_diameter_mm`: {bore_mm} leaves no ring under the teeth: mean root diameter {root_mm:.3} mm")
+        format!("`gear.bore_diameter_mm`: {bore_mm} takes the rim under the teeth: mean root diameter {root_mm:.3} mm")
     };
     found.blame(bore_mm >= root_mm, "gear.bore_diameter_mm", message, "make the bore smaller, or leave it out");
     Some(())
@@ -46,7 +46,7 @@ fn gear_kind(found: &mut Found) -> Option<()> {
     let internal = gear.text("kind")? == "internal";
     let bore_mm = gear.number("bore_diameter_mm")?;
     let message =
-        || format!("`gear.bore_diameter_mm`: {bore_mm} on an internal gear, whose teeth stand where a bore is");
+        || format!("`gear.bore_diameter_mm`: {bore_mm} on an internal gear, whose teeth are where a bore would be");
     let way_out = "leave the bore out; rim_mm says how much material lies outside the pitch curve";
     found.blame(internal && bore_mm > 0.0, "gear.bore_diameter_mm", message, way_out);
     let written = found.values.is_written("gear", "rim_mm");

@@ -65,7 +65,7 @@ impl LoadedScene {
             return Err(Refusal::new(
                 "gear.kind",
                 "the driver of a pair is an external gear, and this scene's is internal",
-                "give the scene of the external gear, and ask for the mate with --internal",
+                "give the scene of the external gear, and make the mate with --internal",
             ));
         }
         if matches!(gear.pitch_curve, PitchCurveShape::Mate { .. }) {

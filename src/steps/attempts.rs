@@ -10,7 +10,7 @@
 
 use crate::findings::Notice;
 use crate::findings::notices::PartFailed;
-use crate::output::progress::Progress;
+use crate::progress::Progress;
 use gearcut_core::error::{Error, Result};
 
 /// Parts of a run that follow its cut, with what is to be told of them.
@@ -64,7 +64,7 @@ impl<'a> Attempts<'a> {
 mod tests {
     use super::*;
     use crate::findings::Severity;
-    use crate::output::progress::ProgressMode;
+    use crate::progress::ProgressMode;
     use gearcut_core::error::Refusal;
 
     #[test]

@@ -10,7 +10,7 @@
 use crate::backend::Choice;
 use crate::interrupt::Interrupt;
 use crate::job::{GearJob, rows_z_mm};
-use crate::output::text::significant;
+use crate::number_text::significant;
 use gearcut_core::cut::Backend;
 use gearcut_core::cut::cpu::Cpu;
 use gearcut_core::error::Result;

@@ -2,7 +2,8 @@
 
 use crate::findings::Notice;
 use crate::findings::notices::{CurveClosure, CurveScaled};
-use crate::output::text::{Sheet, plain, significant};
+use crate::number_text::{plain, significant};
+use crate::output::text::Sheet;
 use crate::scene::model::Gear;
 use gearcut_core::gear::{FormulaMeaning, GearKind, PitchCurve, PitchCurveShape, TableScaling};
 use gearcut_core::units::UM_PER_MM;

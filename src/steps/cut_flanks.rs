@@ -12,7 +12,7 @@ use crate::interrupt::Interrupt;
 use crate::job::GearJob;
 use crate::measure::last_chips::LastChips;
 use crate::output::flank_maps::FlankMaps;
-use crate::output::progress::Progress;
+use crate::progress::Progress;
 use crate::surface::SurfaceGrid;
 use gearcut_core::cut::CutStats;
 use gearcut_core::dexel::{Layer, RayGrid};

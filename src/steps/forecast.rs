@@ -11,8 +11,9 @@
 
 use super::stages::{self, Costs};
 use crate::job::{GearJob, rows_z_mm};
-use crate::output::progress::duration_text;
-use crate::output::text::{Sheet, plain, significant};
+use crate::number_text::{plain, significant};
+use crate::output::text::Sheet;
+use crate::progress::duration_text;
 use gearcut_core::cut::CutStats;
 use gearcut_core::error::Result;
 use gearcut_core::terms::Side;

@@ -23,8 +23,9 @@ use crate::measure::flank_tolerance::{InspectionFigure, ToleranceSizes};
 use crate::measure::inspection::{GearInspection, InspectedFlank};
 use crate::measure::round_gear::{RoundGear, is_round};
 use crate::measure::verdict::{ClassReached, GearVerdict, JudgedFigure, no_class};
+use crate::number_text::significant;
 use crate::output::summary;
-use crate::output::text::{Sheet, significant};
+use crate::output::text::Sheet;
 use crate::scene::model::{DrawnLimits, Measure};
 use gearcut_core::error::Result;
 

@@ -8,7 +8,7 @@ use crate::findings::Section;
 use crate::findings::quantities::program::{LAYER, MACHINE_ERRORS};
 use crate::machine::{Axis, AxisKind};
 use crate::machine_errors::{AxisErrors, ErrorLayer, Guide, MachineErrors, NoiseLaw, ToolMounting, WorkMounting};
-use crate::output::text::{number, size, um};
+use crate::number_text::{number, size, um};
 use gearcut_core::units::UM_PER_MM;
 
 /// mm per mm as um in 100 mm.

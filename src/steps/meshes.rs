@@ -7,7 +7,7 @@ use crate::output::mesh_file::MeshFile;
 use crate::output::mesh_glb::write_glb;
 use crate::output::mesh_ply::write_ply;
 use crate::output::mesh_stl::write_stl;
-use crate::output::progress::Progress;
+use crate::progress::Progress;
 use crate::scene::model::{Picture, PictureColour, PictureView};
 use crate::steps::gear_surfaces;
 use crate::surface::decimated::decimated;

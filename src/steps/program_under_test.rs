@@ -10,7 +10,7 @@ use crate::findings::quantities::program::{
 };
 use crate::findings::{Notice, Place, Section};
 use crate::measure::damage::gouge_mm;
-use crate::output::text::significant;
+use crate::number_text::significant;
 use gearcut_core::units::UM_PER_MM;
 
 /// What the digits of a program leave of a displacement, mm.

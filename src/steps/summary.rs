@@ -3,8 +3,9 @@
 use super::Work;
 use crate::findings::Findings;
 use crate::findings::notice::count_words;
+use crate::number_text::{plain, significant};
 use crate::output::summary;
-use crate::output::text::{Sheet, plain, significant};
+use crate::output::text::Sheet;
 use crate::scene::model::Gear;
 use std::path::Path;
 

@@ -12,12 +12,13 @@ use super::page;
 use super::plan::{Shard, StudyCommand, StudyPlan};
 use super::rows::StudyRows;
 use crate::backend::Choice;
+use crate::findings::table::table_file;
 use crate::findings::{Findings, TableColumn};
 use crate::interrupt::Interrupt;
 use crate::output::growing::LineFile;
 use crate::output::growing_folder::GrowingFolder;
-use crate::output::progress::Progress;
 use crate::process::{self, ProcessJob};
+use crate::progress::Progress;
 use crate::run::Run;
 use crate::scene::{LoadedScene, Scene, SceneErrors};
 use crate::steps::parts::Stages;
@@ -28,10 +29,8 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
-/// Rows in the folder.
-const ROWS: &str = "rows.csv";
-/// What their columns are.
-const COLUMNS: &str = "columns.csv";
+/// Tables in the folder: rows, and what their columns are.
+const TABLES: [&str; 2] = ["rows", "columns"];
 /// Cases that may fail one after the other before the study itself is refused.
 const MOST_FAILURES: usize = 100;
 
@@ -83,12 +82,13 @@ impl Study<'_> {
             return Err(Refusal::new("--shard", problem, "take no more shares than there are cases").into());
         }
         // What is wrong with all cases is said before there is a folder that would go on with it.
-        let begun = if out.join(ROWS).exists() { None } else { self.begin(&cases, interrupt)? };
-        if begun.is_none() && !out.join(ROWS).exists() {
+        let is_begun = rows_in(out).exists();
+        let begun = if is_begun { None } else { self.begin(&cases, interrupt)? };
+        if begun.is_none() && !is_begun {
             return Ok(outcome(out, &Lines::new(), cases.len()));
         }
         let folder = GrowingFolder::open(out, self.record())?;
-        let [rows, about] = [ROWS, COLUMNS].map(|name| folder.path().join(name));
+        let [rows, about] = TABLES.map(|name| folder.path().join(table_file(name)));
         let (mut lines, heads) = match (LineFile::read(&rows)?, begun) {
             (Some((heads, lines)), _) => (lines.iter().filter_map(|line| self.known(&heads, line)).collect(), heads),
             (None, Some((lines, kept))) => {
@@ -119,8 +119,8 @@ impl Study<'_> {
             return Ok(outcome);
         }
         let finished = folder.finish(|new| {
-            for (name, path) in [(ROWS, &rows), (COLUMNS, &about)] {
-                let place = new.path(name)?;
+            for (name, path) in TABLES.into_iter().zip([&rows, &about]) {
+                let place = new.path(table_file(name))?;
                 std::fs::copy(path, &place).map_err(Error::writing(place))?;
             }
             if self.shard != Shard::WHOLE {
@@ -257,10 +257,22 @@ impl Study<'_> {
     }
 }
 
+impl StudyOutcome {
+    /// The file of its rows.
+    pub fn table(&self) -> PathBuf {
+        rows_in(&self.path)
+    }
+}
+
+/// The file of rows of a folder.
+fn rows_in(folder: &Path) -> PathBuf {
+    folder.join(table_file(TABLES[0]))
+}
+
 /// What there is.
-fn outcome(path: &Path, lines: &Lines, cases: usize) -> StudyOutcome {
+fn outcome(folder: &Path, lines: &Lines, cases: usize) -> StudyOutcome {
     let failed = lines.values().filter(|line| !line.trim_end().ends_with(',')).count() as u64;
-    StudyOutcome { path: path.to_owned(), rows: lines.len() as u64, cases: cases as u64, failed }
+    StudyOutcome { path: folder.to_owned(), rows: lines.len() as u64, cases: cases as u64, failed }
 }
 
 /// Problems of a scene in one line.
@@ -278,7 +290,7 @@ fn csv_reader(text: &str) -> csv::Reader<&[u8]> {
 /// Cells as a line, its end included.
 fn csv_line(cells: impl IntoIterator<Item = String>) -> Result<String> {
     let mut writer = csv::WriterBuilder::new().from_writer(Vec::new());
-    let failed = |reason: String| Error::Output { path: ROWS.into(), reason };
+    let failed = |reason: String| Error::Output { path: table_file(TABLES[0]).into(), reason };
     writer.write_record(cells).map_err(|reason| failed(reason.to_string()))?;
     let line = writer.into_inner().map_err(|reason| failed(reason.to_string()))?;
     String::from_utf8(line).map_err(|reason| failed(reason.to_string()))

@@ -14,7 +14,7 @@ pub const LAST_HEADS: [&str; 4] = ["faults", "warnings", "notices", "error"];
 fn quantity<'a>(found: &'a Findings, path: &str) -> Option<&'a Quantity> {
     match path.rsplit_once('.') {
         None => found.headline(path),
-        Some((section, key)) => found.find(section)?.quantity(key),
+        Some((section, key)) => found.at_path(section)?.quantity(key),
     }
 }
 

@@ -98,18 +98,43 @@ fn shaping_follows_the_path_of_its_data() {
     assert!(up.len() == 1 && up[0].starts_with("linkage -> cut"), "{up:?}");
 }
 
-/// What a scene says is known before any step, and chips before any map shows them.
+/// Parts of a process that show what the others have found.
+const SHOWING: [&str; 8] = ["axes_report", "check", "findings", "foreseen", "pair", "prepared", "report", "run"];
+
+/// What a scene says is known before any step; and physics (tools, linkages, targets, cuts, measures) before any file,
+/// page or terminal shows it.
 #[test]
-fn scenes_and_chips_stay_below_steps_and_maps() {
+fn scenes_stay_below_steps_and_physics_below_output() {
     let all = imports(&read("src"));
     let arrows = all.iter().flat_map(|(from, others)| others.iter().map(move |to| [from.join("::"), to.join("::")]));
     let up = arrows.filter(|[from, to]| {
         let scene = from.starts_with("process::") && from.split("::").nth(2) == Some("scene");
-        let chips = from.starts_with("process::shaping::cut::chips");
-        scene && to.starts_with("steps") || chips && to.starts_with("output")
+        let process = from.strip_prefix("process::").and_then(|of| of.split("::").nth(1));
+        let physics = process.is_some_and(|part| !SHOWING.contains(&part)) || from.starts_with("pair::");
+        scene && to.starts_with("steps") || physics && to.starts_with("output")
     });
     let up: Vec<String> = up.map(|[from, to]| format!("{from} -> {to}")).collect();
     assert!(up.is_empty(), "arrows that point up:\n{}", up.join("\n"));
+}
+
+/// Outside `findings` quantities, sections and tables are taken by their rows and groups, so that a missing one does
+/// not compile. Paths come from users and files alone: what a study keeps, what a comparison has found in its results.
+#[test]
+fn results_are_looked_up_by_row() {
+    let by_name = [".at_path(", ".table_at(", ".headline(", ".quantity(", ".entry(\"", ".number(\""];
+    let looked_up = |module: &ModulePath, text: &str| {
+        let place = module.join("::");
+        let known = ["findings", "study::kept", "compare::charts"].iter().any(|home| place.starts_with(home))
+            || place.split("::").any(|name| name == "scene" || name.ends_with("tests"));
+        let lines = text.lines().take_while(|line| !line.starts_with("#[cfg(test)]")).filter(|_| !known);
+        lines.filter(|line| by_name.iter().any(|of| line.contains(of))).map(str::to_owned).collect::<Vec<_>>()
+    };
+    let sources = read("src");
+    let all: Vec<String> = sources.iter().flat_map(|(module, text)| looked_up(module, text)).collect();
+    assert!(all.is_empty(), "looked up by name:\n{}", all.join("\n"));
+    let planted = planted(&sources, "scatter::page", "fn f() { found.at_path(\"layers\"); }");
+    let page = ["scatter", "page"].map(str::to_owned).to_vec();
+    assert_eq!(looked_up(&page, &planted[&page]).len(), 1);
 }
 
 #[test]

@@ -1,4 +1,4 @@
-//! `docs/notices.md` and `results.schema.json` against the table of notices; every table is in it.
+//! `docs/notices.md` against the table of notices; every table of the sources is in it.
 
 use crate::fixtures::printed::stale;
 use gearcut::notices;

@@ -70,7 +70,7 @@ pub enum TextureError {
         most_um: f64,
     },
     /// A margin as wide as the surface.
-    #[error("cropping {margin_um} um on every side leaves nothing of {:.3} x {:.3} mm", size_mm[0], size_mm[1])]
+    #[error("cropping {margin_um} um on every side takes all of {:.3} x {:.3} mm", size_mm[0], size_mm[1])]
     NothingLeft {
         /// What is cropped on every side, um.
         margin_um: f64,

@@ -8,7 +8,8 @@ use crate::measure::topography::line_form::LineForm;
 use crate::measure::topography::parameters::{ParameterRange, of_profiles};
 use crate::measure::topography::profile_chain::{CutOff, ProfileChain, ProfileKind, Profiles, ShortFilter};
 use crate::measure::topography::{ProfileTrace, Surface, TextureError};
-use crate::output::text::{Sheet, plain};
+use crate::number_text::plain;
+use crate::output::text::Sheet;
 use gearcut_core::Refusal;
 use serde_json::{Value, json};
 
@@ -47,11 +48,7 @@ pub(super) fn check(arguments: &TextureArguments) -> Result<(), Refusal> {
     }
     let needless = |name: &str, problem: &str, way_out: &str| Err(Refusal::new(name, problem.to_owned(), way_out));
     if arguments.robust && arguments.filters.l_filter_um.is_none() && !any {
-        return needless(
-            "--robust",
-            "there is no L-filter that it could be of",
-            "give --l-filter-um, or ask for lines",
-        );
+        return needless("--robust", "there is no L-filter that it could be of", "give --l-filter-um or --lines");
     }
     if arguments.lines.profile != ProfileChoice::R && (ra_limit_um.is_some() || rz_limit_um.is_some()) {
         return needless("--profile", "limits of Ra and Rz are judged on roughness", "use --profile r, or no limit");

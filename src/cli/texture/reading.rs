@@ -70,7 +70,7 @@ fn unsuited(path: &Path, reason: &str) -> Refusal {
 fn preparation(reading: &ReadingArguments) -> Result<Preparation, Refusal> {
     if let Some(sigmas) = reading.outliers.filter(|sigmas| !(sigmas.is_finite() && *sigmas > 0.0)) {
         let problem = format!("{sigmas} is no number of standard deviations");
-        return Err(Refusal::new("--outliers", problem, "give a number above 0; 6 takes spikes and leaves textures"));
+        return Err(Refusal::new("--outliers", problem, "give a number above 0; 6 removes spikes and keeps textures"));
     }
     let rotate = reading.rotate.as_deref().map(|wish| match (wish, wish.parse::<f64>()) {
         ("lay", _) => Ok(Turn::Lay),

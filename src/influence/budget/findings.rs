@@ -13,7 +13,7 @@ use crate::influence::quantities::budget::{
     SHIFTED, SINGLE_PITCH, STEP, THICKNESS, TOTAL_PITCH, U, UNIT_OF_NUMBER, UPWARDS_OF, V, VALUE, WHOLE_FLANKS,
 };
 use crate::influence::quantities::{ERROR, PARAMETER, UNIT};
-use crate::output::text::{plain, significant};
+use crate::number_text::{plain, significant};
 use crate::scene::Scene;
 use crate::scene::error_parameters::ErrorParameter;
 

@@ -3,11 +3,11 @@
 use super::Budget;
 use super::maps::{self, InfluenceSheet};
 use crate::findings::{Findings, RESULTS_FILE, unit};
+use crate::number_text::{plain, significant};
 use crate::output::bar_chart::{BarChart, BarSeries};
 use crate::output::folder::OutputFolder;
 use crate::output::report::{Block, Page, PageSection, PageTable, REPORT_FILE};
 use crate::output::table::write_tables;
-use crate::output::text::{plain, significant};
 use crate::scene::{LoadedScene, Scene};
 use crate::steps::report::facts::gear_words;
 use crate::steps::report::{SCENE, ending, page_of};
@@ -91,7 +91,7 @@ fn page(scene: &Scene, budget: &Budget, found: &Findings, maps: Vec<InfluenceShe
     ];
     if !maps.is_empty() {
         let lead = "Predicted by simulation: what one unit of each of the dearest errors adds to whole flanks. Blue \
-                    takes away, red adds. Place by place it stands in tables/influence_maps.csv.";
+                    takes away, red adds. tables/influence_maps.csv has it place by place.";
         let pictures = maps.into_iter().map(|map| Block::Picture(map.title, map.png)).collect();
         sections.push(PageSection::new("maps", "Influence maps", lead, pictures));
     }

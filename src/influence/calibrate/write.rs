@@ -15,10 +15,10 @@ use crate::influence::quantities::calibration::{
     OFF_PREDICTED, PREDICTED, QUANTITY, RMS, SHIFT, UNCERTAINTY, UNIDENTIFIED, VALUE,
 };
 use crate::influence::quantities::{KIND, PARAMETER, UNIT};
+use crate::number_text::significant;
 use crate::output::folder::OutputFolder;
 use crate::output::report::{Block, Page, PageSection, PageTable, REPORT_FILE};
 use crate::output::table::write_tables;
-use crate::output::text::significant;
 use crate::scene::error_parameters::ErrorParameter;
 use crate::scene::{LoadedScene, Scene};
 use crate::steps::report::facts::gear_words;
@@ -200,7 +200,7 @@ fn page(scene: &Scene, found: &Calibration, measured: &MeasuredGear, tree: &Find
         }));
     }
     let section = tree.group(&CALIBRATION);
-    if let Some(table) = section.and_then(|section| section.table_of(MEASURED_LINES.key)) {
+    if let Some(table) = section.and_then(|section| section.table_of(&MEASURED_LINES)) {
         let um = |row| table.values(row).map(|um| um.map_or_else(String::new, shown));
         let values = um(&RMS).zip(um(&OFF_PREDICTED)).zip(um(&OFF_FITTED));
         let rows =

@@ -15,8 +15,9 @@ use crate::influence::quantities::diagnosis::{
     SAME_AS, SHAPE, SIZE, SOURCES, STANDING_OUT, SURE, TURN, TURN_HIGH, TURN_LOW, UNEXPLAINED,
 };
 use crate::influence::quantities::{ERROR, KIND, PARAMETER, UNIT};
+use crate::number_text::significant;
 use crate::output::summary;
-use crate::output::text::{Sheet, significant};
+use crate::output::text::Sheet;
 use crate::scene::Scene;
 
 /// What every fitted number is.
@@ -227,7 +228,7 @@ pub fn sheet(model: &ErrorModel, found: &Diagnosis, tree: &Findings, sheet: &mut
     let rows = |named: &NamedSource| {
         let source = &model.sources[named.source];
         let cells = |(parameter, fitted): (&crate::scene::error_parameters::ErrorParameter, &Option<FittedSize>)| {
-            let apart = if named.same_as.is_empty() { String::new() } else { "not told apart".to_owned() };
+            let apart = if named.same_as.is_empty() { String::new() } else { "or another".to_owned() };
             vec![parameter.title.clone(), sized(found, *fitted, parameter.unit), apart]
         };
         source.parameters.iter().zip(&named.fitted).map(cells).collect::<Vec<_>>()

@@ -9,7 +9,7 @@ use super::shapes::StandingOut;
 use crate::influence::budget::chosen;
 use crate::influence::derivative::{Influence, read};
 use crate::interrupt::Interrupt;
-use crate::output::progress::Progress;
+use crate::progress::Progress;
 use crate::scene::error_parameters::{ErrorParameter, Shifted};
 use crate::scene::{LoadedScene, Scene};
 use gearcut_core::error::{Error, Refusal, Result};

@@ -4,11 +4,11 @@ use super::findings::sized;
 use super::{Diagnosis, ErrorModel};
 use crate::findings::{Findings, RESULTS_FILE, unit};
 use crate::influence::quantities::diagnosis::DIAGNOSIS;
+use crate::number_text::significant;
 use crate::output::bar_chart::{BarChart, BarSeries};
 use crate::output::folder::OutputFolder;
 use crate::output::report::{Block, Page, PageSection, PageTable, REPORT_FILE};
 use crate::output::table::write_tables;
-use crate::output::text::significant;
 use crate::scene::{LoadedScene, Scene};
 use crate::steps::report::facts::gear_words;
 use crate::steps::report::quantities;
@@ -93,7 +93,7 @@ fn sources(model: &ErrorModel, found: &Diagnosis) -> PageTable {
     }
     PageTable {
         caption: "Named errors".to_owned(),
-        columns: ["Error", "", "Size", "Alone", "Sure", "Not told apart from"].map(str::to_owned).into(),
+        columns: ["Error", "", "Size", "Alone", "Sure", "Alternatives"].map(str::to_owned).into(),
         rows,
     }
 }

@@ -21,7 +21,7 @@
 
 use super::{Diagnosis, ErrorModel, LinearFit, MeasuredCuts, Without, standing_out};
 use crate::interrupt::Interrupt;
-use crate::output::progress::Progress;
+use crate::progress::Progress;
 use gearcut_core::error::{Error, Result};
 
 /// Most rounds of cuts; two or three are usual. A choice that goes round in a circle ends here.

@@ -32,7 +32,7 @@ rows! {
     TURN_HIGH: "turn_high", "arcsec", "fitted: upper end of the turn's 95 % interval" => or(&[NO_TURN, NO_INTERVAL]);
     FREEDOM: "freedom", "1", "measured values less fitted numbers";
     CHANCE: "chance", "1",
-        "chance that noise alone leaves as much: chi-square of the residuals over the stated noise" => symbol("p");
+        "chance of as much by noise alone: chi-square of the residuals over the stated noise" => symbol("p");
     ROUNDS: "rounds", "1", "fitted: how often the gear was cut with the sizes found so far, until they moved no more";
     BENT: "bent", "places",
         "measured places that the first fit went without, where the heights bend by more than the noise within a \
@@ -58,10 +58,10 @@ rows! {
 }
 
 rows! {
-    /// What stands out.
-    STANDING_OUT: "standing_out", "What stands out of the gear", "columns of diagnosis.standing_out";
+    /// What differs from the rest.
+    STANDING_OUT: "standing_out", "What differs from the rest of the gear", "columns of diagnosis.standing_out";
 
-    SHAPE: "shape", "", "what stands out: a tooth, bent profiles, a step along the face";
+    SHAPE: "shape", "", "what differs: a tooth, bent profiles, a step along the face";
     KIND_OF_SHAPE: "kind", "", "fitted: beside the errors of the machine";
     ON_LEFT: "left", "um", "size on left flanks: normal deviation, crown or rise" => or(&[NO_SIZE]);
     ON_RIGHT: "right", "um", "size on right flanks: normal deviation, crown or rise" => or(&[NO_SIZE]);

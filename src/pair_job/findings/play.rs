@@ -3,10 +3,10 @@
 use super::{ARCSEC_PER_RAD, at_moment, largest_at, tables};
 use crate::findings::{Entry, Place, QuantityRow, Section};
 use crate::pair::backlash::Backlash;
-use crate::pair_job::double_flank::{DoubleFlank, MASTER_TEETH};
+use crate::pair_job::double_flank::DoubleFlank;
 use crate::pair_job::quantities::{
-    BACKLASH, DOUBLE_FLANK, LARGEST_BACKLASH, MEAN_BACKLASH, SMALLEST_ANGLE, SMALLEST_BACKLASH, SMALLEST_NORMAL,
-    SMALLEST_TANGENTIAL, TIGHT_LARGEST, TIGHT_MEAN, TIGHT_RANGE, TIGHT_STEP,
+    BACKLASH, DOUBLE_FLANK, LARGEST_BACKLASH, MASTERS, MATE, MEAN_BACKLASH, SMALLEST_ANGLE, SMALLEST_BACKLASH,
+    SMALLEST_NORMAL, SMALLEST_TANGENTIAL, TIGHT_LARGEST, TIGHT_MEAN, TIGHT_RANGE, TIGHT_STEP,
 };
 use crate::pair_job::rolled::RolledPair;
 use gearcut_core::units::UM_PER_MM;
@@ -31,17 +31,10 @@ pub(super) fn backlash(rolled: &RolledPair) -> Section {
 }
 
 pub(super) fn double_flank(rolled: &RolledPair) -> Section {
-    let found = [
-        ("mate", "A with B".to_owned(), &rolled.tight),
-        ("master_A", format!("A with a master of {MASTER_TEETH} teeth"), &rolled.masters[0]),
-        ("master_B", format!("B with a master of {MASTER_TEETH} teeth"), &rolled.masters[1]),
-    ];
-    let parts = found.into_iter().map(|(key, title, found)| {
-        let section = Section::new(key, title);
-        match found {
-            Ok(found) => section.entries(entries(found)).table(tables::double_flank(key, found)),
-            Err(why) => section.entries([TIGHT_RANGE.none(why.clone())]),
-        }
+    let masters = MASTERS.iter().zip(&rolled.masters);
+    let parts = [(&MATE, &rolled.tight)].into_iter().chain(masters).map(|(group, found)| match found {
+        Ok(found) => group.section(entries(found)).table(tables::double_flank(group.key, found)),
+        Err(why) => group.section([TIGHT_RANGE.none(why.clone())]),
     });
     DOUBLE_FLANK.section([]).parts(parts)
 }

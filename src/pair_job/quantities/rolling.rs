@@ -12,9 +12,9 @@ rows! {
     RATIO: "ratio", "Ratio", "ratio";
 
     SMALLEST_RATIO: "smallest", "1",
-        "smallest ratio r2 / r1 of the speeds of A and B that the pitch curves ask for" => symbol("i");
+        "smallest ratio r2 / r1 of the speeds of A and B by the pitch curves" => symbol("i");
     LARGEST_RATIO: "largest", "1",
-        "largest ratio r2 / r1 of the speeds of A and B that the pitch curves ask for" => symbol("i");
+        "largest ratio r2 / r1 of the speeds of A and B by the pitch curves" => symbol("i");
     RATIO_DEVIATION: "largest_deviation", "%",
         "largest deviation of the ratio that the driving flanks achieve, mean between neighbouring positions, from \
          that of the pitch curves";

@@ -2,11 +2,11 @@
 
 use super::{SplineFit, ToothInSpace};
 use crate::findings::{Entry, Findings, Notice, Place, QuantityRow, RESULTS_FILE, Section, Table};
+use crate::number_text::significant;
 use crate::output::bar_chart::{BarChart, BarSeries};
 use crate::output::folder::OutputFolder;
 use crate::output::report::{Block, Page, PageSection, REPORT_FILE};
 use crate::output::table::write_tables;
-use crate::output::text::significant;
 use crate::pair_job::findings::PROCESS;
 use crate::pair_job::notices::NoClearance;
 use crate::pair_job::page::{PairRecord, ending};

@@ -24,7 +24,7 @@
 
 use super::job::{BevelJob, index};
 use crate::interrupt::Interrupt;
-use crate::output::progress::Progress;
+use crate::progress::Progress;
 use gearcut_core::bevel::clearance::HeadInSlot;
 use gearcut_core::cut::{Backend, CutLayers, CutStats, SweptBy, SweptField};
 use gearcut_core::dexel::{Layer, NO_PASS, Ray, SpatialField};

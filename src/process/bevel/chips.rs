@@ -25,7 +25,7 @@
 use super::blank::CellGrid;
 use super::job::BevelJob;
 use crate::interrupt::Interrupt;
-use crate::output::progress::Progress;
+use crate::progress::Progress;
 use gearcut_core::cut::cpu::Cpu;
 use gearcut_core::cut::{Backend, LEAST_CHIP_MM};
 use gearcut_core::dexel::intervals::{End, Span, subtract};

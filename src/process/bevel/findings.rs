@@ -20,10 +20,11 @@ use super::quantities::{
     SETTINGS, SLIDING_BASE, SLOT_DEPTH, SLOT_TIME, SLOT_WIDTH, SPIRAL, THICKNESS, UNEXPLAINED, WHOLE_DEPTH,
 };
 use super::scene::model::SlotFeed;
+use crate::findings::quantities::OPERATIONS;
 use crate::findings::quantities::cutting::{CYCLE_TIME, IDLE, LINKAGE, NO_MATERIAL, OFFSET, PASSES, STOPPED};
 use crate::findings::{Entry, Findings, Notice, QuantityRow, Section, Table};
 use crate::machine_errors::ErrorLayer;
-use crate::output::text::{significant, size};
+use crate::number_text::{significant, size};
 use crate::steps::axes::{self, AxesOfOperation as _};
 use crate::steps::foreseen::{Foreseen, windows};
 use crate::steps::inspection::headline::{self, Cutting, Placed, candidates};
@@ -149,7 +150,7 @@ fn settings(job: &BevelJob) -> Section {
 }
 
 fn operations(job: &BevelJob, motion: &[BevelAxesReport]) -> Result<Section> {
-    let mut section = Section::new("operations", "Operations");
+    let mut section = OPERATIONS.section([]);
     for (index, report) in motion.iter().enumerate() {
         let operation = report.operation();
         let ids = job.slots.ids(index);

@@ -26,7 +26,7 @@ use super::operation::PreparedBevel;
 use crate::findings::Notice;
 use crate::gcode::{AxisColumn, Script, StraightLine};
 use crate::machine::Axis;
-use crate::output::text::{plain, significant};
+use crate::number_text::{plain, significant};
 use gearcut_core::units::{TURN_RAD, UM_PER_MM};
 
 /// The program of an operation, `warnings` in its head; an error is the reason why there is none, `None`: none is
@@ -69,7 +69,7 @@ fn linear(job: &BevelJob, operation: &PreparedBevel, warnings: &[Notice]) -> Res
         the axis of the work at right angles to that of the head"
             .to_owned(),
         format!(
-            "ZERO X0 Y0 Z0: the swing axis; the apex of the work stands {} mm from it along the axis of the work, \
+            "ZERO X0 Y0 Z0: the swing axis; the apex of the work is {} mm from it along the axis of the work, \
              towards the head",
             plain(job.machine.mounting_mm)
         ),

@@ -3,7 +3,7 @@
 use super::job::BevelJob;
 use super::measure::{self, BevelReport, SlotRow};
 use crate::interrupt::Interrupt;
-use crate::output::progress::Progress;
+use crate::progress::Progress;
 use crate::steps::cut_flanks::{CutFlank, FlankQueue, cut_flanks, dexels_of};
 use crate::steps::gear_maps::GearMaps;
 use crate::steps::pictures::flank::PicturedFlanks;

@@ -9,7 +9,7 @@
 //! that inspection prints.
 
 use super::measure::BevelReport;
-use crate::output::text::significant;
+use crate::number_text::significant;
 use gearcut_core::units::UM_PER_MM;
 use glam::DVec2;
 use std::fmt::Write as _;

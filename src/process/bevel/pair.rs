@@ -21,7 +21,7 @@ pub mod page;
 
 use super::BevelJob;
 use crate::interrupt::Interrupt;
-use crate::output::progress::Progress;
+use crate::progress::Progress;
 use gearcut_core::bevel::contact::{BevelPair, Contact, Mounting};
 use gearcut_core::bevel::face_mill::BladeKind;
 use gearcut_core::error::{Refusal, Result};

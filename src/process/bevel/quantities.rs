@@ -224,7 +224,7 @@ rows! {
     /// What the tables of the axes add.
     AXIS_COLUMNS: "axis_columns", "Tables of the axes of bevel cutting", "columns of axes/<operation>.csv";
 
-    CRADLE_ANGLE: "cradle_angle", "deg", "angle of the cradle that the axes stand for";
+    CRADLE_ANGLE: "cradle_angle", "deg", "angle of the cradle that the axes make";
 }
 
 rows! {

@@ -1,7 +1,8 @@
 //! What a hobbing scene means: hob, teeth, operations.
 
 use crate::findings::Notice;
-use crate::output::text::{Sheet, plain, significant};
+use crate::number_text::{plain, significant};
+use crate::output::text::Sheet;
 use crate::process::hobbing::axes_report::HobbingAxesReport;
 use crate::process::hobbing::measure::hoffmeister;
 use crate::process::hobbing::stage_costs::STAGE_COSTS;

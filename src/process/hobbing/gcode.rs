@@ -32,7 +32,7 @@ pub use program::Gearbox;
 pub use text::program_numbers;
 
 use crate::findings::Notice;
-use crate::output::text::{plain, significant};
+use crate::number_text::{plain, significant};
 use crate::process::hobbing::HobbingJob;
 use crate::process::hobbing::job::PreparedHobbing;
 use gearcut_core::units::UM_PER_MM;

@@ -3,11 +3,11 @@
 use crate::interrupt::Interrupt;
 use crate::measure::crossing::Crossing;
 use crate::measure::inspection::GearInspection;
-use crate::output::progress::Progress;
 use crate::process::hobbing::HobCutter;
 use crate::process::hobbing::cutter::HobbedFlank;
 use crate::process::hobbing::measure::flank_report::{self, HobbedReport};
 use crate::process::hobbing::measure::offset_curves::{self, CurvePoint};
+use crate::progress::Progress;
 use crate::steps::cut_flanks::{CutFlank, FlankQueue, cut_flanks, dexels_of};
 use crate::steps::gear_maps::GearMaps;
 use crate::steps::pictures::flank::PicturedFlanks;

@@ -10,7 +10,7 @@ notices! {
         "Take a number of starts that shares no divisor with the teeth."
     /// The helix of the gear comes out wrong.
     HeadAngle: Warning "hob.head_angle", "hobbing.md", (operation, head_deg, right_deg),
-        "operation {operation}: the head stands at {head_deg} deg, hob and gear ask for {right_deg} deg: the flanks \
+        "operation {operation}: the head is set to {head_deg} deg, hob and gear need {right_deg} deg: the flanks \
          will be off";
         "Leave the head's angle out: it follows from hob and gear."
     /// Cycle by cycle the gear turns on, and flanks no longer meet.
@@ -24,9 +24,9 @@ notices! {
         "Take another feed_of."
     /// The tip diameter is that of the hob and no longer that of the blank.
     Tops: Note "hob.tops", "hobbing.md", (tip_mm, under_mm),
-        "the hob tops the gear: its roots leave the tips {tip_mm} mm over the pitch curve, {under_mm} mm under the \
+        "the hob tops the gear: its roots end the tips {tip_mm} mm over the pitch curve, {under_mm} mm under the \
          blank's outline; "
-        + "a larger tool.hob.dedendum_coefficient leaves the blank's own tips"
+        + "a larger tool.hob.dedendum_coefficient keeps the blank's own tips"
     /// Undercut weakens the root and shortens the active flank.
     Undercut: Warning "flank.undercut", "hobbing.md", (count, teeth),
         "the hob's tip corner undercuts {count} teeth ({teeth}), where the pitch curve is sharp: "
@@ -37,7 +37,7 @@ notices! {
         "Name ends that all flanks reach."
     /// What the hob is made to take off counts as damage.
     Protuberance: Note "hob.protuberance", "hobbing.md", (),
-        "the target knows no protuberance: the relief that it leaves at the roots is reported as a cut below the \
+        "the target knows no protuberance: its relief at the roots is reported as a cut below the \
          target and as gouges";
         "Read cuts below the target near the roots as the protuberance's relief."
     /// What the hob is made to take off counts as a deviation.
@@ -47,7 +47,7 @@ notices! {
         + "measure.profile_end_height_mm ends the evaluation below it"
     /// The dexels end above the surface: its true depth is not known.
     BeyondRecord: Warning "flank.beyond_record", "dexels.md", (reach_mm),
-        "cuts go deeper than rays record: {reach_mm} mm under the target stands for that and more";
+        "cuts go deeper than rays record: {reach_mm} mm under the target means that and more";
         "Look for what cuts so deep: damage in results.json names it."
     /// Teeth of the hob that take thicker chips wear fast or break out.
     ThickChip: Warning "hob.thick_chip", "hobbing.md", (operation, tooth, chip, usual_mm),
@@ -55,7 +55,7 @@ notices! {
         + "lower the feed, take more gashes or fewer starts, or divide the cut"
     /// The flank is rougher than the scene allows.
     FeedMarks: Warning "hob.feed_marks", "hobbing.md", (operation, height_um, allowed_um, feed_mm),
-        "operation {operation}: the feed leaves marks up to {height_um} um high, {allowed_um} um are allowed \
+        "operation {operation}: the feed makes marks up to {height_um} um high, {allowed_um} um are allowed \
          (ridge_tolerance_um): "
         + "feed at most {feed_mm} mm per revolution"
     /// Only the paper's own gear is meant to be cut with it.

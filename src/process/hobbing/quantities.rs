@@ -170,6 +170,14 @@ rows! {
     STEP: "step", "1", "number of the step: 1 the shortest, 2 the next one";
 }
 
+/// Steps from the machine's motion.
+pub static KINEMATIC: QuantityGroup = QuantityGroup::of_parts("kinematic", "from the machine's motion");
+/// Steps on the surface as cut.
+pub static SURFACE: QuantityGroup =
+    QuantityGroup::of_parts("surface", "from the autocorrelation of the heights as cut");
+/// Steps on the surface less those of the motion.
+pub static DIFFERENCE: QuantityGroup = QuantityGroup::of_parts("difference", "surface less kinematics");
+
 rows! {
     /// What the tables of the axes add.
     AXIS_COLUMNS: "axis_columns", "Tables of a hobbing machine's axes", "columns of axes/<operation>.csv";

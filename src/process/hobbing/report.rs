@@ -6,15 +6,15 @@ mod facts;
 use crate::findings::quantities::cutting::{LARGEST_FORCE, LINKAGE, OFFSET, THICKEST_CHIP};
 use crate::findings::{self, Findings, QuantityRow};
 use crate::measure::verdict::GearVerdict;
+use crate::number_text::{from_full_depth, plain, significant};
 use crate::output::bar_chart::BarChart;
 use crate::output::folder::OutputFolder;
 use crate::output::line_chart::LineChart;
 use crate::output::report::{Block, Page, PageSection, PageTable, Tone};
-use crate::output::text::{from_full_depth, plain, significant};
 use crate::process::hobbing::axes_report::HobbingAxesReport;
 use crate::process::hobbing::quantities::{
-    ACCURACY, ASSUMPTION, AXIAL_FEED, FEED_MARK, FORCE, GENERATING_MARK, LAW, LENGTH, LOAD, MARKS, PEAK_TO_MEAN,
-    TO_AXIS, TO_TRACE,
+    ACCURACY, ASSUMPTION, AXIAL_FEED, DIFFERENCE, FEED_MARK, FORCE, GENERATING_MARK, KINEMATIC, LAW, LENGTH, LOAD,
+    MARKS, PEAK_TO_MEAN, SURFACE, TO_AXIS, TO_TRACE,
 };
 use crate::process::hobbing::{HobCutter, HobbedGear, HobbingJob};
 use crate::steps;
@@ -131,12 +131,12 @@ fn marks_section(found: &Findings) -> PageSection {
     let rows = found.group(&MARKS).map_or(&[][..], |marks| &marks.sections).iter().flat_map(|flank| {
         flank.sections.iter().map(move |step| {
             let mut row = vec![format!("{}, {}", flank.title, step.title)];
-            for source in ["kinematic", "surface"] {
-                let number = |row: &QuantityRow| step.find(source).and_then(|of| of.value(row));
+            for source in [&KINEMATIC, &SURFACE] {
+                let number = |row: &QuantityRow| step.group(source).and_then(|of| of.value(row));
                 row.push(text(number(&LENGTH), &mm));
                 row.extend([&TO_TRACE, &TO_AXIS].map(|of| text(number(of), &degrees)));
             }
-            let difference = step.find("difference");
+            let difference = step.group(&DIFFERENCE);
             row.extend([&LENGTH, &TO_TRACE].map(|of| text(difference.and_then(|step| step.value(of)), &apart)));
             row
         })

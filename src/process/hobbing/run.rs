@@ -119,7 +119,7 @@ pub(super) fn run(job: &HobbingJob, tools: &Tools) -> Result<CutDone> {
 fn bodies(cutter: &HobCutter, flanks: Vec<SurfaceGrid>, tools: &Tools) -> Result<Option<ClosedBodies>> {
     let Tools { backend, progress, .. } = *tools;
     if cutter.job.operations.iter().any(|operation| operation.linkage.law().is_as_printed()) {
-        progress.note(&format!("{NO_BODY}: what the linkage as printed leaves has no flanks to join"));
+        progress.note(&format!("{NO_BODY}: by the linkage as printed there are no flanks to join"));
         return Ok(None);
     }
     let roots = cut_roots(cutter, tools)?;

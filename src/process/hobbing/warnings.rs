@@ -19,7 +19,7 @@ use crate::findings::notice::ranked;
 use crate::findings::{Notice, damage};
 use crate::job::RAY_DEPTH_MODULES;
 use crate::measure::damage::{Damage, gouge_mm};
-use crate::output::text::significant;
+use crate::number_text::significant;
 use crate::steps::{axes, check_curve, flanks_of, untouched_dexels};
 use gearcut_core::error::Result;
 use rayon::prelude::*;

@@ -6,8 +6,9 @@ mod ring;
 mod teeth;
 
 use crate::findings::Notice;
+use crate::number_text::plain;
 use crate::output::flank_maps::FlankMaps;
-use crate::output::text::{Sheet, plain};
+use crate::output::text::Sheet;
 use crate::process::shaping::ShapingJob;
 use crate::process::shaping::axes_report::OperationAxes;
 use crate::process::shaping::cut::chips::{ChipLedger, last_chips_on_map};

@@ -21,6 +21,7 @@ pub mod warnings;
 pub use headline::headline;
 
 use crate::findings::Section;
+use crate::findings::quantities::OPERATIONS;
 use crate::process::shaping::ShapingJob;
 use crate::process::shaping::axes_report::OperationAxes;
 use crate::process::shaping::cut::chips::ChipLedger;
@@ -46,7 +47,7 @@ pub fn sections(
     let teeth: Vec<Section> = (1..=job.scene.gear.teeth).map(tooth).collect();
     let earlier = job.operations.iter().rev().skip(1).rev().map(|operation| operation.spec.name.as_str());
     let sections = [
-        Section::new("operations", "Operations").parts(operations),
+        OPERATIONS.section([]).parts(operations),
         Section::new("teeth", "Finished teeth")
             .entries([PERIOD_TEETH.of(report.period_teeth)])
             .table(tables::flanks(&report.flanks, earlier, &teeth))

@@ -6,13 +6,12 @@ mod surfaces;
 pub mod tooth_facts;
 
 use crate::interrupt::Interrupt;
-use crate::output::flank_maps::FlankMaps;
-use crate::output::progress::Progress;
 use crate::process::shaping::ShapingJob;
 use crate::process::shaping::cut::chips::{ChipLedger, last_chips_on_map};
 use crate::process::shaping::gear::measure::flank_report::FlankReport;
 use crate::process::shaping::gear::measure::gear_report::{RootReport, root_stock};
 use crate::process::shaping::gear::measure::{GearReport, flank_report, gear_report};
+use crate::progress::Progress;
 use crate::steps::cut_flanks::{CutFlank, FlankQueue, cut_flanks};
 use crate::steps::gear_maps::GearMaps;
 use crate::steps::parts::{Parts, Stage, Stages};
@@ -21,8 +20,8 @@ use crate::steps::planar::{CutField, cut_fields};
 use crate::steps::{FlankFiles, Work, needs_maps, needs_surfaces};
 use crate::surface::SurfaceGrid;
 use gearcut_core::cut::Backend;
+use gearcut_core::dexel::Field;
 use gearcut_core::dexel::figures::LinesAt;
-use gearcut_core::dexel::{Field, Layer};
 use gearcut_core::error::{Error, Result};
 use std::sync::{Mutex, PoisonError};
 use web_time::Instant;
@@ -82,10 +81,9 @@ pub fn cut_gear(
         };
         cut_fields(backend, flanks.list.len(), make, take)
     };
-    let chips_of = |field: &Field, layers: &[Layer], maps: &FlankMaps| {
+    let cut = cut_flanks(job, progress, interrupt, folder, cut_all, |field: &Field, layers, maps| {
         last_chips_on_map(job, field, &maps.chip_places(layers, field.rows()))
-    };
-    let cut = cut_flanks(job, progress, interrupt, folder, cut_all, chips_of)?;
+    })?;
     let root_surfaces = needs_surfaces(job, parts) && !cut.work.interrupted;
     let (root_reports, roots) = if root_surfaces || wanted.has(Stage::Roots) {
         cut_roots(job, backend, root_surfaces)?

@@ -19,16 +19,16 @@ notices! {
     /// The edge wears and scores the flank where relief is small.
     ReturnTight: Warning "return.tight", "shaping.md", (operation, place, clearance_um, way_out),
         "operation {operation}: by the surfaces that it generates, the returning cutter clears the teeth near {place} \
-         by {clearance_um} um only: {way_out}";
+         by {clearance_um} um only. {way_out}";
         "Draw back another way or further, as the notice says."
     /// The returning cutter scores flanks that it has cut.
     ReturnEnters: Warning "return.enters", "shaping.md", (operation, depth_um, place, overlap_mm2, way_out),
-        "operation {operation}: by the surfaces that it generates, the returning cutter stands {depth_um} um deep in \
-         the teeth near {place}, over {overlap_mm2} mm^2 of their section: {way_out}";
+        "operation {operation}: by the surfaces that it generates, the returning cutter is {depth_um} um deep in \
+         the teeth near {place}, over {overlap_mm2} mm^2 of their section. {way_out}";
         "Draw back another way or further, as the notice says."
     /// The returning cutter scores flanks of the gear as it was cut.
     ReturnRubs: Warning "return.rubs", "blank.md", (operation, stroke, depth_um, tooth, side, volume_mm3, way_out),
-        "operation {operation}: in the gear as cut, the returning cutter stands after stroke {stroke} {depth_um} um \
+        "operation {operation}: in the gear as cut, the returning cutter is after stroke {stroke} {depth_um} um \
          deep in tooth {tooth} {side}, and in {volume_mm3} mm^3 in all: {way_out}; gearcut check says where it clears";
         "Set another machine.retraction or machine.back_off_mm."
     /// The cutter is still in the way when the ram comes back through the face.
@@ -37,7 +37,8 @@ notices! {
         "Give machine.approach_mm and machine.overrun_mm."
     /// At this stroke rate the axes lag behind, and the cutter rubs.
     ReturnSlow: Warning "return.slow", "shaping.md", (operation, needed_ms, free_ms, most_per_minute),
-        "operation {operation}: drawing the cutter back takes the axes {needed_ms} ms and the ram leaves {free_ms} ms: "
+        "operation {operation}: drawing the cutter back takes the axes {needed_ms} ms, and the ram gives them \
+         {free_ms} ms: "
         + "run at most {most_per_minute} double strokes per minute, give more machine.approach_mm and \
            machine.overrun_mm, or back off by less"
     /// One tilt of the retraction cannot serve all strokes.
@@ -112,12 +113,12 @@ notices! {
     /// The cutter damages teeth beside the space that it cuts.
     TipCorners: Warning or Fault where "the cut is deeper than a gouge" "ring.tip_corners", "internal.md",
         (depth_mm, place, way_out),
-        "the tip corners of the cutter cut {depth_mm} mm into teeth beside their space ({place}): {way_out}";
+        "the tip corners of the cutter cut {depth_mm} mm into teeth beside their space ({place}). {way_out}";
         "Use a cutter with fewer teeth."
     /// The cutter takes off part of the ring's tips on its way in.
     Trimmed: Warning or Fault where "the cut is deeper than a gouge" "ring.trimmed", "internal.md",
         (depth_um, place, way_out),
-        "going in, the cutter trims the ring's teeth by {depth_um} um ({place}): {way_out}";
+        "going in, the cutter trims the ring's teeth by {depth_um} um ({place}). {way_out}";
         "Use a cutter with fewer teeth."
 
     /// The cutter comes too close to a flank on its way from stroke to stroke.

@@ -160,6 +160,11 @@ rows! {
         => or(&[NO_CROSSING, OTHER_STROKES]);
 }
 
+/// Unevenness of an operation by each definition.
+pub static SPREADS: QuantityGroup = QuantityGroup::of_parts("unevenness", "Unevenness of the allowance");
+/// Stock of each tooth after an operation.
+pub static STOCK_OF_TEETH: QuantityGroup = QuantityGroup::of_parts("teeth", "Stock of each tooth");
+
 rows! {
     /// What an operation of shaping adds.
     OPERATION: "operation", "An operation of shaping", "operations.<operation> and its unevenness";

@@ -54,7 +54,7 @@ pub(super) static SECTIONS: &[KeySection] = &[KeySection {
             unit: "modules",
             default: Default::Number(1.0),
             example: "1.0",
-            teach: "How far the blank's outline stands over the pitch curve, towards the tips of the teeth, less the \
+            teach: "Height of the blank's outline over the pitch curve, towards the tips of the teeth, less the \
                     profile shift.",
         },
         Key::number(
@@ -63,7 +63,7 @@ pub(super) static SECTIONS: &[KeySection] = &[KeySection {
             Range::closed(-1.5, 1.5),
             0.0,
             "0.3",
-            "Profile shift x: teeth are 2 x m tan(alpha) thicker on the pitch curve, tips and roots stand x modules \
+            "Profile shift x: teeth are 2 x m tan(alpha) thicker on the pitch curve, tips and roots lie x modules \
              further towards the tips. Every operation gets it. In a ring that is the sign of DIN 3960, whose rings \
              have negative numbers of teeth; tables that count a ring's teeth as positive (JIS, KHK) have the other \
              one: their +0.3 is -0.3 here.",

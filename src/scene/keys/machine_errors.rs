@@ -178,7 +178,7 @@ pub const GUIDE: KeySection = KeySection {
             "um",
             1000.0,
             "2.0",
-            "How much further it stands from the gear's axis at both ends of the face than in the middle; a parabola.",
+            "How much further it is from the gear's axis at both ends of the face than in the middle; a parabola.",
         ),
         number("tangential_bow_um", "um", 1000.0, "2.0", "The same sideways."),
     ],

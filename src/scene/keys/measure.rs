@@ -5,7 +5,7 @@ use super::{Default, Key, KeySection, Kind, Range, Role};
 impl Key {
     /// What a drawing allows a figure of inspection.
     const fn drawn_limit(name: &'static str, teach: &'static str) -> Self {
-        Self::optional(name, "um", Range::above(0.0, 10_000.0), "that of the class, if one is asked for", "12.0", teach)
+        Self::optional(name, "um", Range::above(0.0, 10_000.0), "that of the class, if there is one", "12.0", teach)
     }
 }
 
@@ -35,7 +35,7 @@ pub(super) static SECTIONS: &[KeySection] = &[
                 name: "iso_1328_class",
                 kind: Kind::Whole { min: 1, max: 11 },
                 unit: "",
-                default: Default::LeftOut("no class is asked for"),
+                default: Default::LeftOut("no class"),
                 example: "6",
                 teach: "Flank tolerance class of ISO 1328-1:2013 that a round gear must keep.",
             },
@@ -83,6 +83,6 @@ pub(super) static SECTIONS: &[KeySection] = &[
         ],
         groups: &[],
         teach: "Limits of the drawing. On a round gear they go before those of the class; other gears have no class, \
-            and their limits stand here.",
+            and only these limits.",
     },
 ];

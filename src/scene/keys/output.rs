@@ -64,7 +64,7 @@ pub(super) static SECTIONS: &[KeySection] = &[
                 example: "2.5",
                 teach: "Largest distance of transverse slices of hobbed gears, and of shaped ones where the feed goes \
                     on during a stroke, the guide leads the cutter aside or the work wobbles; else all sections are \
-                    equal and one slice stands for the face. While the axes rest, one slice in the middle from twice \
+                    equal and one slice is enough. While the axes rest, one slice in the middle from twice \
                     the face on: the default where sections lie within a tenth of spacing_mm of the middle one; \
                     else the face, or half of it where the guide is bent.",
             },

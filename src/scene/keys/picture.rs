@@ -55,7 +55,7 @@ pub(super) static SECTIONS: &[KeySection] = &[KeySection {
             unit: "deg",
             default: Default::LeftOut("-60 for the gear, -25 for a tooth, 0 for a flank"),
             example: "-60.0",
-            teach: "Where the viewer stands: counter-clockwise from phi = 0 (gear), from the tooth's own direction \
+            teach: "Azimuth of the view: counter-clockwise from phi = 0 (gear), from the tooth's own direction \
                 (tooth), or from the root towards larger leads (flank).",
         },
         Key {
@@ -64,7 +64,7 @@ pub(super) static SECTIONS: &[KeySection] = &[KeySection {
             unit: "deg",
             default: Default::LeftOut("40 for the gear, 35 for a tooth, 60 for a flank"),
             example: "40.0",
-            teach: "How high the viewer stands over the transverse plane, or over the rolled-out flank.",
+            teach: "Elevation of the view over the transverse plane, or over the rolled-out flank.",
         },
         Key {
             name: "extent_mm",

@@ -29,7 +29,7 @@ pub(super) static SECTIONS: &[KeySection] = &[KeySection {
             unit: "",
             default: Default::LeftOut("the last one"),
             example: "\"rough\"",
-            teach: "Operation after which the window is looked at; a window for each where several are asked for.",
+            teach: "Operation after which the window is looked at; several operations get a window each.",
         },
         Key {
             name: "center_profile_mm",

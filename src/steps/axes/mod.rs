@@ -18,7 +18,7 @@ pub use table::{positions, rates};
 use crate::findings::notices::NoProgram;
 use crate::findings::quantities::OPERATIONS;
 use crate::findings::quantities::cutting::{AXIS_MARGIN, NO_LIMITS};
-use crate::findings::table::CSV;
+use crate::findings::table::table_file;
 use crate::findings::{Findings, Notice, Section, Severity, Table};
 use crate::interrupt::Interrupt;
 use crate::machine::{Peak, smallest_margin};
@@ -116,7 +116,7 @@ pub fn found<O: AxesOfOperation>(scene: &Scene, operations: &[O]) -> Findings {
 /// Files that cannot be written.
 pub fn write(operation: &impl AxesOfOperation, folder: &OutputFolder) -> Result<()> {
     let name = operation.name();
-    write_table(&folder.path(format!("axes/{name}.{CSV}"))?, &operation.table())?;
+    write_table(&folder.path(table_file(&format!("axes/{name}")))?, &operation.table())?;
     for (what, chart) in operation.charts() {
         chart.write_svg(&folder.path(format!("axes/{name}_{what}.svg"))?)?;
     }
@@ -182,7 +182,7 @@ pub fn command<O: AxesOfOperation>(
 /// The page's section: peaks and first chart of every operation, the other charts folded under their name.
 pub fn section<O: AxesOfOperation>(operations: &[O], found: &Findings, lead: &str, folded: &str) -> PageSection {
     let mut blocks = Vec::new();
-    for (operation, found) in operations.iter().zip(found.parts(OPERATIONS.key)) {
+    for (operation, found) in operations.iter().zip(found.parts(&OPERATIONS)) {
         blocks.push(Block::Heading(format!("{}: {}", operation.name(), operation.linkage_words())));
         blocks.push(Block::Table(peak_table(found)));
         let mut charts = operation.charts().iter().map(|(_, chart)| Block::Lines(chart.clone()));

@@ -5,7 +5,7 @@ use crate::findings::notices::AxisLimit;
 use crate::findings::quantities::cutting::{AXES, LIMIT, MARGIN, PEAK};
 use crate::findings::{Notice, Place, Section};
 use crate::machine::{Peak, smallest_margin};
-use crate::output::text::significant;
+use crate::number_text::significant;
 
 /// Speeds and accelerations below this, in deg or mm per s or s^2, are what rounding leaves of a standing axis.
 pub const STEADY: f64 = 1e-9;

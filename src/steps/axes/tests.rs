@@ -154,14 +154,14 @@ fn findings_carry_units_limits_and_places() {
     let made = made(&limits);
     let found = findings(&made);
     assert_eq!(found.sections.len(), 19);
-    let cradle = found.find("cradle_acceleration").expect("a part of every peak");
+    let cradle = found.at_path("cradle_acceleration").expect("a part of every peak");
     // 1.1 rad times (3 per s)^2 = 9.9 rad/s^2.
     let peak = cradle.quantity("peak").expect("a peak");
     assert_eq!(peak.unit(), Some("deg/s^2"));
     assert!((peak.value().expect("a number") - 9.9 * 180.0 / PI).abs() < 1e-9 && peak.place().is_some());
     assert!((cradle.number("limit").expect("given") - 20.0 * 180.0 / PI).abs() < 1e-9);
     assert!((cradle.number("margin").expect("given") - (1.0 - 9.9 / 20.0)).abs() < 1e-12);
-    let free = found.find("cradle_speed").and_then(|part| part.quantity("limit")).expect("a limit");
+    let free = found.at_path("cradle_speed").and_then(|part| part.quantity("limit")).expect("a limit");
     assert_eq!((free.value(), free.why()), (None, Some("no limit")));
     assert!((margin(&[made]).expect("a limit") - (1.0 - 9.9 / 20.0)).abs() < 1e-12);
 }

@@ -48,7 +48,7 @@ pub fn section(found: &Findings) -> Option<PageSection> {
             "blank",
             "The whole gear",
             "Rays through the whole blank: what was taken, what is left, and where the tool took what should have \
-            stayed (tables/damage.csv has every place; results.json how the rays stand).",
+            stayed (tables/damage.csv has every place; results.json the directions of the rays).",
             std::iter::once(Block::Table(volumes)).chain(damage).collect(),
         )
         .judged(tone, words),

@@ -6,17 +6,18 @@ mod charts;
 use super::facts::gear_words;
 use crate::findings::Findings;
 use crate::findings::quantities::sizes::SIZES;
+use crate::findings::table::table_file;
 use crate::measure::deviation::{Trace, TraceDeviation};
 use crate::measure::flank_tolerance::InspectionFigure;
 use crate::measure::inspection::{GearInspection, InspectedFlank, TracedLines};
 use crate::measure::verdict::{GearVerdict, JudgedFigure, LimitSource};
+use crate::number_text::significant;
 use crate::output::bar_chart::{BarChart, BarSeries};
 use crate::output::folder::OutputFolder;
 use crate::output::inspection_sheet::{InspectionSheet, SheetFigure};
 use crate::output::line_chart::{Limit, LineChart, LineSeries, Panel};
 use crate::output::report::traces::{TraceColumn, TraceFigure, TraceSheet};
 use crate::output::report::{Block, PageSection, PageTable, Tone};
-use crate::output::text::significant;
 use crate::output::vector_page::VectorPage;
 use crate::scene::Scene;
 use crate::steps::inspection::{NO_SIZE, class_words, size_rows, verdict_words};
@@ -159,7 +160,7 @@ pub fn write_charts(inspection: &Inspection, folder: &OutputFolder) -> Result<()
     if folder.is_nowhere() {
         return Ok(());
     }
-    charts::write(inspection, &folder.path("inspection_charts.csv")?)
+    charts::write(inspection, &folder.path(table_file("inspection_charts"))?)
 }
 
 /// The inspector's sheet.

@@ -1,6 +1,6 @@
 //! Numbers as the page shows them.
 
-use crate::output::text::significant;
+use crate::number_text::significant;
 
 /// A number with so many digits; as a power of ten where a plain number would be mostly zeros.
 pub(super) fn digits(value: f64, count: u32) -> String {

@@ -3,8 +3,8 @@
 use crate::findings::Findings;
 use crate::findings::quantities::sizes::SIZES;
 use crate::machine::{Axis, Limits, Order};
+use crate::number_text::plain;
 use crate::output::report::{Block, PageTable};
-use crate::output::text::plain;
 use crate::scene::model::Gear;
 use crate::steps::inspection;
 use gearcut_core::gear::{GearKind, PitchCurve};

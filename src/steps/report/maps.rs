@@ -1,10 +1,10 @@
 //! The gear and its maps for the page's viewer.
 
 use crate::job::GearJob;
+use crate::number_text::significant;
 use crate::output::flank_maps::FlankMaps;
 use crate::output::grid::MapGrid;
 use crate::output::report::viewer::{Thinning, Viewer, ViewerFlank, ViewerQuantity};
-use crate::output::text::significant;
 use crate::steps::gear_maps::{GearMaps, finished_heights_um, um};
 use crate::steps::operation_names;
 use crate::steps::report::averaged::averaged;
@@ -61,7 +61,7 @@ fn quantities(job: &dyn GearJob, maps: &GearMaps) -> Vec<ViewerQuantity> {
         .map(|(index, operation)| ViewerQuantity {
             name: format!("Stock of {operation} for {finishing}"),
             definition: format!(
-                "What {operation} leaves over the finished surface, along the target's normal, mean of each cell. \
+                "Stock of {operation} over the finished surface, along the target's normal, mean of each cell. \
                  {COLOURS} {GREY}"
             ),
             unit: "mm".to_owned(),

@@ -55,8 +55,8 @@ pub(super) fn blocks(window: &Section, folder: &OutputFolder) -> Result<Vec<Bloc
             Err(reason) => return Err(Error::reading(&path)(reason)),
         }
     }
-    blocks.extend(section.table_of(CURVES.key).map(|table| Block::Lines(curves(table))));
-    blocks.extend(section.table_of(PARAMETERS.key).map(|table| Block::Table(parameters(table))));
+    blocks.extend(section.table_of(&CURVES).map(|table| Block::Lines(curves(table))));
+    blocks.extend(section.table_of(&PARAMETERS).map(|table| Block::Table(parameters(table))));
     Ok(blocks)
 }
 

@@ -17,9 +17,9 @@ use crate::findings::quantities::OPERATIONS;
 use crate::findings::quantities::cutting::{AXES, LIMIT, MARGIN, PEAK};
 use crate::findings::{self, Findings, Notice, Place, Quantity, QuantityRow, Severity, unit};
 use crate::job::GearJob;
+use crate::number_text::significant;
 use crate::output::folder::OutputFolder;
 use crate::output::report::{Block, KeyNumber, Page, PageSection, PageTable, Tone};
-use crate::output::text::significant;
 use crate::steps::Work;
 use crate::steps::gear_maps::GearMaps;
 use crate::steps::view_mesh::ViewMesh;
@@ -57,7 +57,7 @@ pub fn page(
         what: "cutting report",
         done: "all flanks cut",
         subtitle: gear.words,
-        operations: found.parts(OPERATIONS.key).iter().map(operation).collect(),
+        operations: found.parts(&OPERATIONS).iter().map(operation).collect(),
         key_numbers: known_first(found.headline.iter().map(quantities::key_number).collect()),
         viewer: Some(maps::viewer(job, gear.mesh, maps)),
         sections: sections.into_iter().map(|section| warned_open(section, found)).collect(),

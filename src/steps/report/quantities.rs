@@ -1,9 +1,9 @@
 //! Quantities of findings on a page, whatever they are: of pairs of gears, which no process knows.
 
 use crate::findings::{Entry, Place, Quantity, Section, unit};
-use crate::output::progress::duration_text;
+use crate::number_text::{plain, significant};
 use crate::output::report::{KeyNumber, PageTable};
-use crate::output::text::{plain, significant};
+use crate::progress::duration_text;
 use gearcut_core::cut::KERNEL_UM;
 
 /// Shares below this are rounding, per cent.

@@ -24,7 +24,7 @@ use gearcut_core::error::Result;
 /// # Errors
 /// A picture cannot be read back.
 pub fn section(found: &Findings, folder: &OutputFolder) -> Result<Option<PageSection>> {
-    let operations = found.parts(TEXTURE.key);
+    let operations = found.parts(&TEXTURE);
     let Some((last, earlier)) = operations.split_last() else { return Ok(None) };
     let mut blocks = vec![overview(last, earlier)];
     blocks.extend(profiles(found, last));
@@ -51,7 +51,7 @@ pub fn section(found: &Findings, folder: &OutputFolder) -> Result<Option<PageSec
         "texture",
         "Surface texture",
         format!(
-            "Areal parameters by ISO 25178-2 of windows on flanks after {}: what the tool's motion leaves. Chips, wear \
+            "Areal parameters by ISO 25178-2 of windows on flanks after {}: marks of the tool's motion. Chips, wear \
             and vibration of a real cut come on top. The window with the largest Sa is shown in full. All parameters \
             are in results.json, the surfaces as X3P beside it.",
             last.key
@@ -79,7 +79,7 @@ fn mean_height_um(window: &findings::Section) -> f64 {
 
 /// What the drawing's limits of Ra and Rz say, or how rough the windows are.
 fn verdict(found: &Findings, last: &findings::Section) -> (Tone, String) {
-    let lines = found.parts(ROUGHNESS.key).iter().filter(|operation| operation.key == last.key);
+    let lines = found.parts(&ROUGHNESS).iter().filter(|operation| operation.key == last.key);
     let lines = lines.flat_map(|operation| &operation.sections);
     let judged: Vec<&str> = lines.flat_map(|of| [&RA_LIMIT, &RZ_LIMIT].map(|row| of.text(row))).collect();
     if judged.contains(&"exceeded") {
@@ -203,7 +203,7 @@ fn overview(last: &findings::Section, earlier: &[findings::Section]) -> Block {
 
 /// Ra and Rz of the finished windows along both directions, with their cut-offs, beside Sa.
 fn profiles(found: &Findings, finished: &findings::Section) -> Option<Block> {
-    let operation = found.parts(ROUGHNESS.key).iter().find(|operation| operation.key == finished.key)?;
+    let operation = found.parts(&ROUGHNESS).iter().find(|operation| operation.key == finished.key)?;
     let row = |lines: &findings::Section| {
         let number = |row: &QuantityRow| shown(lines.value(row), 3);
         let window = finished.sections.iter().find(|window| window.key == lines.text(&WINDOW_OF_LINES));

@@ -3,7 +3,7 @@
 
 use gearcut::findings::quantities::flanks::SMALLEST_STOCK;
 use gearcut::interrupt::Interrupt;
-use gearcut::output::progress::{Event, Progress};
+use gearcut::progress::{Event, Progress};
 use gearcut::{Error, Job, Parts, Side};
 use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};

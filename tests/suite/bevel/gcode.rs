@@ -51,7 +51,7 @@ fn programs_with_faults_are_refused_by_line_and_word() {
         ("N30 G93 G1 X1.0\nM30\n", "word `F` is missing"),
         ("N30 G1 X1.0 F2.0\nM30\n", "without G93"),
         ("N30 G2 X1.0 F2.0\nM30\n", "arcs are not read"),
-        ("N30 G93 G1 X1.0 X2.0 F2.0\nM30\n", "line 3: word `X2.0`: this letter stands twice"),
+        ("N30 G93 G1 X1.0 X2.0 F2.0\nM30\n", "line 3: word `X2.0`: this letter is twice"),
         ("N30 G0 X1.0\nM30\n", "rapid travel"),
         ("N30 G93 G1 X1.0 F2.0\n", "without M30"),
     ] {

@@ -99,7 +99,7 @@ fn keys_of_cylindrical_gears_are_refused_at_their_place() {
     let scene = format!("scenes/bevel/{PRINTED}.toml");
     for (setting, words) in [
         ("gear.helix_angle_deg=10", "this scene is for bevel, where the machine's settings make the spiral"),
-        ("gear.kind=internal", "where the pitch angle says where teeth stand"),
+        ("gear.kind=internal", "where the pitch angle says where the teeth are"),
         ("gear.pitch_curve.ellipse={order=2, eccentricity=0.1}", "where gears roll on cones"),
         ("material.normal_force_n_per_mm2=1000", "the cutting force alone is computed"),
         ("tool.face_mill.runouts_um=[1.0]", "has 1 entries for 16 blades"),

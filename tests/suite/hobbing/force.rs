@@ -130,7 +130,7 @@ fn findings_say_force_power_and_place() {
     assert!(number("mean_force") < force_n && number("mean_power") > 0.0);
     let place = found.quantity("operations.finish.largest_cutting_force").and_then(|q| q.place()).expect("a place");
     assert!(place.get("hob_tooth").is_some() && place.get("time_s").is_some());
-    let table = found.table_of("over_time").expect("a table");
+    let table = found.table_at("over_time").expect("a table");
     assert_eq!(table.len(), forces[0].passes.len());
     assert_eq!(force::bars(&job, &forces).len() + force::over_time(&job, &forces).len(), 2);
 }

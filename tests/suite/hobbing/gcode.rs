@@ -137,7 +137,7 @@ fn malformed_programs_are_refused_by_line_and_word() {
         ("G21 G90 G0 X1 Y1\n", "line 1: axes move before axis B has a position"),
         (&format!("{start}G1 X2 F3\n"), "line 3: axes move without G93"),
         ("G0 X1 Y2 Z3 B4 C5\n", "line 1: axes move before `G21`"),
-        (&format!("{start}G93 G94 G1 X2 F3\n"), "line 3: word `G94`: `G93` stands in the same block"),
+        (&format!("{start}G93 G94 G1 X2 F3\n"), "line 3: word `G94`: `G93` is in the same block"),
         (&format!("{start}G93 G1 X2\n"), "line 3: word `F` is missing"),
         (&format!("{start}G0 X2\n"), "line 3: word `G0`: rapid travel"),
         (&format!("{start}M30\nG0 X2\n"), "line 4: a block after the end"),

@@ -9,7 +9,7 @@ use gearcut::influence::calibrate::{Calibration, MeasuredGear, MeasuredNumber};
 use gearcut::influence::known_cuts::KnownCuts;
 use gearcut::influence::numbers::numbers;
 use gearcut::interrupt::Interrupt;
-use gearcut::output::progress::{Progress, ProgressMode};
+use gearcut::progress::{Progress, ProgressMode};
 
 /// A gear that is cut in a fraction of a second.
 const COARSE: [&str; 5] = [

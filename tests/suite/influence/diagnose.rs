@@ -7,7 +7,7 @@ use gearcut::influence::diagnose::{Diagnosis, ErrorModel, FittedSize, MeasuredCu
 use gearcut::influence::known_cuts::KnownCuts;
 use gearcut::influence::measured::MeasuredPoint;
 use gearcut::interrupt::Interrupt;
-use gearcut::output::progress::{Progress, ProgressMode};
+use gearcut::progress::{Progress, ProgressMode};
 use gearcut::scene::LoadedScene;
 use gearcut::terms::Side;
 use std::f64::consts::PI;

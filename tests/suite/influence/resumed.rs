@@ -9,7 +9,7 @@ use gearcut::influence::charts::MeasuredLine;
 use gearcut::influence::known_cuts::KnownCuts;
 use gearcut::influence::measured::{Chart, MeasuredPoint};
 use gearcut::interrupt::Interrupt;
-use gearcut::output::progress::{Progress, ProgressMode};
+use gearcut::progress::{Progress, ProgressMode};
 use gearcut::terms::Side;
 use serde_json::{Map, json};
 use std::fs;

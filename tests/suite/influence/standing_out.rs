@@ -7,9 +7,9 @@ use gearcut::influence::gear_grid::evenly;
 use gearcut::influence::known_cuts::KnownCuts;
 use gearcut::influence::measured::MeasuredPoint;
 use gearcut::interrupt::Interrupt;
-use gearcut::output::progress::{Progress, ProgressMode};
 use gearcut::output::text::Sheet;
 use gearcut::process;
+use gearcut::progress::{Progress, ProgressMode};
 use gearcut::scene::LoadedScene;
 use gearcut::terms::Side;
 
@@ -130,11 +130,11 @@ fn nothing_is_sure_while_deviations_are_unexplained() {
     assert!(warnings[0].starts_with("unexplained"), "{warnings:?}");
     assert!(printed.contains("no interval holds") && !printed.contains(" to "), "{printed}");
     let tree = findings(&room.loaded.scene, &model, &room.points, NOISE_UM, &found);
-    let table = tree.find("diagnosis").and_then(|section| section.table_of("sources")).expect("a table");
+    let table = tree.at_path("diagnosis").and_then(|section| section.table_at("sources")).expect("a table");
     for column in ["low", "high", "half_if_right", "sure"] {
         assert!(table.numbers(column).all(|cell| cell.is_none()), "{column} is withheld");
     }
     assert!(table.numbers("size").any(|cell| cell.is_some()));
-    let turn = tree.find("diagnosis").and_then(|of| of.entries.iter().find(|entry| entry.key == "turn_low"));
+    let turn = tree.at_path("diagnosis").and_then(|of| of.entries.iter().find(|entry| entry.key == "turn_low"));
     assert_eq!(turn.expect("an entry").quantity.value(), None);
 }

@@ -4,7 +4,7 @@ use std::io::{self, Write};
 use std::sync::{Arc, Mutex};
 
 use gearcut::interrupt::Interrupt;
-use gearcut::output::progress::{Progress, ProgressMode};
+use gearcut::progress::{Progress, ProgressMode};
 
 /// Writer whose text can be read afterwards.
 #[derive(Clone, Default)]
@@ -98,7 +98,7 @@ fn the_second_ctrl_c_ends_the_process_at_once() {
     use std::process::{Command, Stdio};
     let this = std::env::current_exe().expect("the running test");
     let mut child = Command::new(this)
-        .args(["output::progress::child_that_is_interrupted", "--exact", "--nocapture"])
+        .args(["progress::child_that_is_interrupted", "--exact", "--nocapture"])
         .env("GEARCUT_TEST_INTERRUPT", "1")
         .stdout(Stdio::null())
         .stderr(Stdio::piped())

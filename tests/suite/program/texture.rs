@@ -87,7 +87,7 @@ fn what_cannot_be_done_is_refused_with_a_way_out() {
     gearcut(&["texture", "no_such_file.x3p"]).failed(1, &["no_such_file.x3p"]);
     gearcut(&["texture", "README.md"]).failed(1, &["README.md", "not an X3P"]);
     gearcut(&["texture", &x3p, "--spacing-um", "9"]).failed(1, &["2 x 3 um apart"]);
-    with(&["--crop-um", "200"]).failed(1, &["leaves nothing"]);
+    with(&["--crop-um", "200"]).failed(1, &["takes all of"]);
     with(&["--l-filter-um", "0"]).failed(1, &["--l-filter-um", "positive"]);
     with(&["--s-filter-um", "1"]).failed(1, &["two points"]);
     with(&["--s-filter-um", "50", "--l-filter-um", "20"]).failed(1, &["must be shorter"]);

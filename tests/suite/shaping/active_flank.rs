@@ -2,9 +2,9 @@
 
 use gearcut::cut::cpu::Cpu;
 use gearcut::interrupt::Interrupt;
-use gearcut::output::progress::{Progress, ProgressMode};
 use gearcut::process::load;
 use gearcut::process::shaping::{ShapingJob, cut_gear};
+use gearcut::progress::{Progress, ProgressMode};
 use gearcut::steps::parts::Stages;
 use gearcut::texture::windows;
 use std::path::Path;

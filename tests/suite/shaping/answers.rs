@@ -18,7 +18,7 @@ fn shipped(name: &str) -> ShapingJob {
 fn check_answers_what_is_asked_of_a_ring() {
     let job = shipped("internal_pair_ring");
     let section = ring::of_job(&job, None).expect("a ring");
-    let table = section.table_of("teeth").expect("a table");
+    let table = section.table_at("teeth").expect("a table");
     assert_eq!(table.len(), 34, "the curve repeats after 34 teeth");
     for (key, column) in [
         ("rolling_teeth", "rolling_share"),
@@ -32,7 +32,8 @@ fn check_answers_what_is_asked_of_a_ring() {
     ] {
         let answer = section.quantity(key).unwrap_or_else(|| panic!("no {key}"));
         assert!(answer.value().is_some() && answer.place().is_some(), "{key}: {answer:?}");
-        assert!(!section.words(&format!("{key}_advice")).is_empty(), "{key} says nothing to change");
+        let entry = section.entry(key).expect("the same");
+        assert!(entry.advice.as_ref().is_some_and(|advice| !advice.text.is_empty()), "{key} has no advice");
         assert!(table.numbers(column).all(|value| value.is_some()), "{key}: no chart");
     }
     // The module's limit is where 13 teeth no longer roll on the oracle's smallest radius of curvature.
@@ -80,7 +81,9 @@ fn a_cut_offers_the_direction_that_clears_stock() {
         value("clearing_tilt"),
         value("clearing_strokes_per_minute")
     );
-    assert!(found["depth_in_stock_advice"]["value"].as_str().expect("words").starts_with(told));
+    let advice = &found["depth_in_stock"]["advice"];
+    assert!(advice["change"] == true && advice["text"].as_str().expect("words").starts_with(told), "{advice}");
+    assert_eq!(found["retraction_angle"]["advice"]["change"], false, "6 deg are less than the pressure angle");
     // docs/shaping.md: the whole blank finds 0.077 mm, with all strokes and not at six places to a pitch alone; -18.9
     // to -11.3 deg clear.
     assert!((value("depth_in_stock") - 0.077).abs() < 0.01 && (value("clearing_tilt") + 15.1).abs() < 0.1);

@@ -3,13 +3,13 @@
 use gearcut::cut::cpu::Cpu;
 use gearcut::findings::Severity;
 use gearcut::interrupt::Interrupt;
-use gearcut::output::progress::{Progress, ProgressMode};
 use gearcut::process::load;
 use gearcut::process::shaping::axes_report::OperationAxes;
 use gearcut::process::shaping::findings::warnings;
 use gearcut::process::shaping::gear::measure::below_finished::below_finished;
 use gearcut::process::shaping::gear::measure::unevenness::{CrossedSurface, allowances, crossings};
 use gearcut::process::shaping::{ShapingJob, cut_gear};
+use gearcut::progress::{Progress, ProgressMode};
 use gearcut::steps::parts::Stages;
 use std::path::Path;
 

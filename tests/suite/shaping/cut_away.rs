@@ -5,11 +5,11 @@ use crate::fixtures::own_program::{own_program, renumbered};
 use gearcut::cut::cpu::Cpu;
 use gearcut::findings::Section;
 use gearcut::interrupt::Interrupt;
-use gearcut::output::progress::{Progress, ProgressMode};
 use gearcut::process::load;
 use gearcut::process::shaping::axes_report::OperationAxes;
 use gearcut::process::shaping::motion::gcode::{AxisProgram, Knot};
 use gearcut::process::shaping::{ShapingJob, cut_gear, findings};
+use gearcut::progress::{Progress, ProgressMode};
 use gearcut::steps::parts::Stages;
 use std::path::Path;
 

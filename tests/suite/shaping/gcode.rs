@@ -261,7 +261,7 @@ fn malformed_programs_are_refused_by_line_and_word() {
         ("Y1\n", "line 1: word `Y1`: this letter is not read"),
         ("X\n", "line 1: word `X`: no number"),
         ("X1..2\n", "line 1: word `X1..2`: no number"),
-        ("X1 X2\n", "line 1: word `X2`: this letter stands twice"),
+        ("X1 X2\n", "line 1: word `X2`: this letter is twice"),
         ("#1=3\n", "line 1: `#1=3` does not begin with a letter"),
         ("(open\n", "line 1: the comment `(open` is not closed"),
         ("G21 G90 X1 C1 B1\n", "line 1: axes move, but neither G0 nor G1"),

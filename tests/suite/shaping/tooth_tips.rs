@@ -5,11 +5,11 @@ use crate::fixtures::command::gearcut;
 use gearcut::cut::cpu::Cpu;
 use gearcut::findings::{Notice, Severity};
 use gearcut::interrupt::Interrupt;
-use gearcut::output::progress::{Progress, ProgressMode};
 use gearcut::process::load;
 use gearcut::process::shaping::findings::warnings;
 use gearcut::process::shaping::gear::measure::GearReport;
 use gearcut::process::shaping::{ShapingJob, cut_gear};
+use gearcut::progress::{Progress, ProgressMode};
 use gearcut::steps::parts::Stages;
 
 /// A scene, cut; what its flanks, not its blank, say.

@@ -122,7 +122,7 @@ impl BevelFlank {
                 parameter::SLIDING_BASE,
                 format!(
                     "at a cone distance of {cone_distance_mm:.3} mm the {} blades reach down to {form_height_mm:.3} mm \
-                     over the pitch cone, and the tips stand at {tip_height_mm:.3} mm",
+                     over the pitch cone, and the tips are at {tip_height_mm:.3} mm",
                     envelope.surface.kind.name()
                 ),
                 "bring the head deeper by the sliding base, or check the blank's addendum",

@@ -262,8 +262,8 @@ pub fn page_words(job: &BevelJob) -> String {
     let plunge = if job.finishing().settings.plunges() {
         "The head plunges from clear of the blank to full depth and stays there."
     } else {
-        "The head stands at full depth when a roll begins; what its first revolution takes stands for the plunge and \
-         is left out of the charts."
+        "The head is at full depth when a roll begins; its first revolution takes what a plunge would and is \
+         left out of the charts."
     };
     format!("The body is the toothed ring: it ends {RIM_MODULES} outer module under the root cone. {plunge}")
 }

@@ -6,7 +6,7 @@
 
 use super::RolledSide;
 use super::findings::words;
-use crate::output::text::significant;
+use crate::number_text::significant;
 use gearcut_core::bevel::contact::Contact;
 use gearcut_core::units::UM_PER_MM;
 use glam::DVec2;

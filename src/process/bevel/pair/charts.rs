@@ -2,8 +2,8 @@
 
 use super::findings::{ARCSEC_PER_RAD, words};
 use super::{RolledBevels, RolledSide};
+use crate::number_text::significant;
 use crate::output::line_chart::{LineChart, LineSeries, Panel};
-use crate::output::text::significant;
 use std::f64::consts::TAU;
 
 /// Smallest distance of two ticks of motion errors, arc seconds: less is rounding, not a fault.

@@ -20,10 +20,10 @@ pub const PROCESS: &str = "bevel pair";
 pub const ARCSEC_PER_RAD: f64 = 180.0 * 3600.0 / std::f64::consts::PI;
 
 /// Everything that was found.
-pub fn findings(name: &str, [gear, pinion]: [&BevelJob; 2], rolled: &RolledBevels) -> Findings {
+pub fn findings(name: &str, jobs: [&BevelJob; 2], rolled: &RolledBevels) -> Findings {
     let headline = rolled.sides.iter().flat_map(headline);
     let warnings = rolled.sides.iter().filter_map(at_edge);
-    let sections = std::iter::once(mounted(gear, pinion, rolled)).chain(rolled.sides.iter().map(side));
+    let sections = std::iter::once(mounted(jobs, rolled)).chain(rolled.sides.iter().map(side));
     Findings::new(PROCESS, name, true, headline, warnings, sections.collect())
 }
 
@@ -65,7 +65,8 @@ fn at_edge(side: &RolledSide) -> Option<Notice> {
     (at_edge > 0).then(|| EdgeContact { flanks: words(side), percent }.notice())
 }
 
-fn mounted(gear: &BevelJob, pinion: &BevelJob, rolled: &RolledBevels) -> Section {
+/// The pair as it is mounted.
+pub fn mounted([gear, pinion]: [&BevelJob; 2], rolled: &RolledBevels) -> Section {
     let MountingErrors { offset_mm, pinion_axial_mm, gear_axial_mm, shaft_angle_rad } = rolled.errors;
     PAIR.section([
         GEAR.of(gear.scene.name.as_str()),
@@ -83,7 +84,8 @@ fn mounted(gear: &BevelJob, pinion: &BevelJob, rolled: &RolledBevels) -> Section
     ])
 }
 
-fn side(side: &RolledSide) -> Section {
+/// Contact on a side.
+pub fn side(side: &RolledSide) -> Section {
     let name = words(side);
     let parabola = side.running.parabola().map(|parabola| ARCSEC_PER_RAD * parabola.over_pitch_rad());
     Section::new(name, format!("{}{} flanks of the gear", name[..1].to_uppercase(), &name[1..]))
@@ -114,7 +116,8 @@ fn path(side: &RolledSide) -> Table {
         .in_file(&format!("contact_{}", words(side)))
 }
 
-fn trends(side: &RolledSide) -> Table {
+/// What errors of the mounting do on a side.
+pub fn trends(side: &RolledSide) -> Table {
     let from_mm = side.running.center_mm();
     let is_angle = |of: &Trend| matches!(of.error, MountingError::ShaftAngle);
     let moved_mm = |of: &Trend, k: usize| of.found.map(|(_, center_mm)| center_mm[k] - from_mm[k]);

@@ -1,15 +1,14 @@
 //! The page of a bevel pair: `report.html`.
 
-use super::findings::words;
+use super::findings::{self, words};
 use super::{RolledBevels, bearing};
 use crate::findings::{Datum, Findings, Table, TableColumn, unit};
+use crate::number_text::{plain, significant};
 use crate::output::folder::OutputFolder;
 use crate::output::line_chart::LineChart;
 use crate::output::report::{Block, Page, PageSection, PageTable};
-use crate::output::text::{plain, significant};
 use crate::process::bevel::BevelJob;
 use crate::process::bevel::check::gear_words;
-use crate::process::bevel::quantities::pair::{PAIR, TRENDS};
 use crate::steps;
 use crate::steps::report::{page_of, quantities};
 use gearcut_core::error::Result;
@@ -33,37 +32,31 @@ pub fn page(
     motion_error: LineChart,
     end: [PageSection; 2],
 ) -> Page {
-    let quantities_of = |path: &str| found.find(path).map(|section| Block::Table(quantities::table(section)));
-    let section = |id: &'static str, title: &str, lead: String, blocks: Vec<Option<Block>>| {
-        PageSection::new(id, title, lead, blocks.into_iter().flatten().collect())
-    };
-    let mut sections = vec![section(
+    let mut sections = vec![PageSection::new(
         "motion-error",
         "Motion error",
         "How unevenly the gear turns without load while the pinion turns evenly. At every moment the pair of teeth \
-        carries that is ahead."
-            .to_owned(),
-        vec![Some(Block::Lines(motion_error))],
+        carries that is ahead.",
+        vec![Block::Lines(motion_error)],
     )];
     for (side, id) in rolled.sides.iter().zip(["concave", "convex"]) {
         let name = words(side);
-        let trends = found.find(name).and_then(|section| section.table_of(TRENDS.key));
-        sections.push(section(
+        sections.push(PageSection::new(
             id,
-            &format!("Contact on {name} flanks of the gear"),
+            format!("Contact on {name} flanks of the gear"),
             format!("Marking: {} µm.", plain(UM_PER_MM * rolled.marking_mm)),
             vec![
-                Some(Block::Drawing(format!("Bearing on {name} flanks"), bearing::svg(side, rolled.marking_mm))),
-                quantities_of(name),
-                trends.map(|table| Block::Table(rows(table))),
+                Block::Drawing(format!("Bearing on {name} flanks"), bearing::svg(side, rolled.marking_mm)),
+                Block::Table(quantities::table(&findings::side(side))),
+                Block::Table(rows(&findings::trends(side))),
             ],
         ));
     }
-    sections.push(section(
+    sections.push(PageSection::new(
         "pair",
         "Pair and mounting",
-        "Gleason's letters and the names of ISO 23509.".to_owned(),
-        vec![quantities_of(PAIR.key)],
+        "Gleason's letters and the names of ISO 23509.",
+        vec![Block::Table(quantities::table(&findings::mounted(jobs, rolled)))],
     ));
     sections.extend(end);
     let roles = jobs.into_iter().zip(["gear", "pinion"]);

@@ -40,7 +40,7 @@ rows! {
 
     MOTION_ERROR: "motion_error", "arcsec",
         "range over a pitch of the gear's angle less that of a constant ratio, by the teeth that carry; 0 where it is \
-         below two millionths of an arc second, which the search leaves";
+         below two millionths of an arc second, the tolerance of the search";
     PARABOLA: "motion_error_parabola", "arcsec",
         "parabola through the motion error of one pair of teeth while it carries: how far it falls from its top to \
          half a pitch beside it, negative where the gear runs behind there"

@@ -76,7 +76,7 @@ pub static SCENE: SceneProcess = SceneProcess {
     on_demand: &["material"],
     cuts_rings: false,
     senseless: &[
-        without("gear.kind", "the pitch angle says where teeth stand", "remove it"),
+        without("gear.kind", "the pitch angle says where the teeth are", "remove it"),
         without("gear.helix_angle_deg", "the machine's settings make the spiral", "remove it"),
         without("gear.hand", "the sign of machine.cradle.cradle_angle_deg chooses the hand", "remove it"),
         without("gear.addendum_coefficient", "the addendum is a key of [gear.bevel]", "write gear.bevel.addendum_mm"),

@@ -1,10 +1,11 @@
 //! What a gear engineer reads on the terminal about feeds, travel, times and marks of an operation.
 
 use super::HobbingAxesReport;
-use crate::output::progress::duration_text;
-use crate::output::text::{Sheet, from_full_depth, significant};
+use crate::number_text::{from_full_depth, significant};
+use crate::output::text::Sheet;
 use crate::process::hobbing::job::PreparedHobbing;
 use crate::process::hobbing::scene::model::HobbingKind;
+use crate::progress::duration_text;
 use crate::steps::axes::AxesOfOperation;
 use gearcut_core::units::{TURN_RAD, UM_PER_MM};
 

@@ -4,7 +4,7 @@ use super::program::{Gearbox, digits};
 use crate::findings::Notice;
 use crate::gcode::{AxisColumn, Script, StraightLine};
 use crate::machine::Axis;
-use crate::output::text::{plain, significant};
+use crate::number_text::{plain, significant};
 use crate::process::hobbing::HobbingJob;
 use crate::process::hobbing::commanded::{HobbingKnot, HobbingProgram};
 use crate::process::hobbing::job::PreparedHobbing;

@@ -108,10 +108,7 @@ pub(super) fn tooth_edge(
     {
         return Err(Refusal::new(
             "tool.hob.protuberance_height_mm",
-            format!(
-                "a protuberance beginning {:.3} mm below the tip does not stand out of the flank",
-                tip_mm - start_mm
-            ),
+            format!("a protuberance beginning {:.3} mm below the tip does not rise over the flank", tip_mm - start_mm),
             "use a height below the whole tooth depth and a protuberance_angle_deg smaller than the pressure angle",
         ));
     }

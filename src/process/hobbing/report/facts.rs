@@ -1,8 +1,8 @@
 //! What was hobbed, with what, on which machine.
 
 use crate::findings::Findings;
+use crate::number_text::plain;
 use crate::output::report::{PageSection, Tone};
-use crate::output::text::plain;
 use crate::process::hobbing::HobbingJob;
 use crate::process::hobbing::linkage::dynamics::{self, AXES};
 use crate::process::hobbing::scene::model::{GashForm, Worm};

@@ -10,9 +10,9 @@ use gearcut_core::cut::Backend;
 use gearcut_core::error::Result;
 
 use crate::interrupt::Interrupt;
-use crate::output::progress::Progress;
 use crate::process::hobbing::measure::blank_report;
 use crate::process::hobbing::measure::blank_report::HobbedBlankReport;
+use crate::progress::Progress;
 use crate::steps::whole_blank::{self, mean};
 
 /// The cut blank and what it says.

@@ -3,6 +3,7 @@
 mod headline;
 
 use super::{blank, force, load, marks, points};
+use crate::findings::quantities::OPERATIONS;
 use crate::findings::quantities::cutting::{CYCLE_TIME, LINKAGE, OFFSET, PASSES};
 use crate::findings::quantities::flanks::{MEAN_DEVIATION, PROFILE_LENGTH, SQ, START_OF_INVOLUTE};
 use crate::findings::{Findings, Notice, Section, Table};
@@ -56,8 +57,7 @@ pub fn findings(cutter: &HobCutter, gear: &HobbedGear, measured: &Measured) -> R
     let operations = job.operations.iter().zip(measured.motion).zip(&gear.passes);
     let earlier = &job.operations[..job.operations.len() - 1];
     let mut sections = vec![
-        Section::new("operations", "Operations")
-            .parts(operations.map(|((of, motion), &passes)| operation(of, motion, passes))),
+        OPERATIONS.section([]).parts(operations.map(|((of, motion), &passes)| operation(of, motion, passes))),
         points::findings(gear),
         marks::findings(measured.lattices),
         Section::new("teeth", "Finished teeth")

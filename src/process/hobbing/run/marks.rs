@@ -1,12 +1,14 @@
 //! The lattice of cutting marks of the texture windows' flanks, and all its steps side by side in `tables/marks.csv`.
 
 use crate::findings::quantities::teeth::{FLANK, TOOTH};
-use crate::findings::{Quantity, QuantityRow, Section, Table};
+use crate::findings::{Quantity, QuantityGroup, QuantityRow, Section, Table};
 use crate::process::hobbing::HobCutter;
 use crate::process::hobbing::linkage::marks::MarkStep;
 use crate::process::hobbing::measure::marks;
 use crate::process::hobbing::measure::marks::{MarkLattice, between_rad};
-use crate::process::hobbing::quantities::{AXIAL_STEP, LENGTH, MARKS, ROLL, STEP, TO_AXIS, TO_TRACE};
+use crate::process::hobbing::quantities::{
+    AXIAL_STEP, DIFFERENCE, KINEMATIC, LENGTH, MARKS, ROLL, STEP, SURFACE, TO_AXIS, TO_TRACE,
+};
 use crate::steps::Tools;
 use crate::texture::SampledWindow;
 use gearcut_core::error::Result;
@@ -53,18 +55,18 @@ pub fn findings(lattices: &[MarkLattice]) -> Section {
 }
 
 /// Columns of the table of all steps: what begins their keys, the section of a step, the row.
-static COLUMNS: [(&str, &QuantityRow); 11] = [
-    ("kinematic", &ROLL),
-    ("kinematic", &AXIAL_STEP),
-    ("kinematic", &LENGTH),
-    ("kinematic", &TO_TRACE),
-    ("kinematic", &TO_AXIS),
-    ("surface", &LENGTH),
-    ("surface", &TO_TRACE),
-    ("surface", &TO_AXIS),
-    ("difference", &LENGTH),
-    ("difference", &TO_TRACE),
-    ("difference", &TO_AXIS),
+static COLUMNS: [(&QuantityGroup, &QuantityRow); 11] = [
+    (&KINEMATIC, &ROLL),
+    (&KINEMATIC, &AXIAL_STEP),
+    (&KINEMATIC, &LENGTH),
+    (&KINEMATIC, &TO_TRACE),
+    (&KINEMATIC, &TO_AXIS),
+    (&SURFACE, &LENGTH),
+    (&SURFACE, &TO_TRACE),
+    (&SURFACE, &TO_AXIS),
+    (&DIFFERENCE, &LENGTH),
+    (&DIFFERENCE, &TO_TRACE),
+    (&DIFFERENCE, &TO_AXIS),
 ];
 
 /// All steps side by side; the rows are in the file alone, since their values have sections.
@@ -75,8 +77,8 @@ fn steps(flanks: &[Section]) -> Table {
         .column(&FLANK, |(flank, _)| flank.text(&FLANK))
         .column(&STEP, |&(_, (number, _))| number);
     let table = COLUMNS.iter().fold(table, |table, &(source, row)| {
-        let column = row.as_column().keyed(format!("{source}_{}", row.key));
-        table.column(column, move |(_, (_, step))| step.find(source).and_then(|of| of.value(row)))
+        let column = row.as_column().keyed(format!("{}_{}", source.key, row.key));
+        table.column(column, move |(_, (_, step))| step.group(source).and_then(|of| of.value(row)))
     });
     table.rows_in_file("marks")
 }
@@ -90,12 +92,9 @@ fn lattice(lattice: &MarkLattice) -> Section {
         let apart = seen.map(|seen| difference(&seen, &known));
         let [roll_mm, axial_mm] = [known.step_mm.x, known.step_mm.y];
         Section::new(format!("step_{}", i + 1), format!("step {}", i + 1))
-            .part(
-                step("kinematic", "from the machine's motion", Some(values(&known)), "")
-                    .entries([ROLL.of(roll_mm), AXIAL_STEP.of(axial_mm)]),
-            )
-            .part(step("surface", "from the autocorrelation of the heights as cut", seen.as_ref().map(values), why))
-            .part(step("difference", "surface less kinematics", apart, why))
+            .part(step(&KINEMATIC, Some(values(&known)), "").entries([ROLL.of(roll_mm), AXIAL_STEP.of(axial_mm)]))
+            .part(step(&SURFACE, seen.as_ref().map(values), why))
+            .part(step(&DIFFERENCE, apart, why))
     });
     Section::new(format!("tooth_{tooth:02}_{side}"), format!("tooth {tooth} {side}"))
         .entries([TOOTH.of(tooth), FLANK.of(side)])
@@ -107,7 +106,7 @@ fn values(step: &MarkStep) -> [f64; 3] {
     [step.length_mm(), step.to_trace_rad().to_degrees(), step.to_axis_rad.to_degrees()]
 }
 
-fn step(key: &str, source: &str, values: Option<[f64; 3]>, why: &str) -> Section {
+fn step(source: &QuantityGroup, values: Option<[f64; 3]>, why: &str) -> Section {
     let entry = |row: &QuantityRow, index: usize| row.of_or(values.map(|of| of[index]), why.to_owned());
-    Section::new(key, source).entries([entry(&LENGTH, 0), entry(&TO_TRACE, 1), entry(&TO_AXIS, 2)])
+    source.section([entry(&LENGTH, 0), entry(&TO_TRACE, 1), entry(&TO_AXIS, 2)])
 }

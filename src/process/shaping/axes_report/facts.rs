@@ -1,9 +1,10 @@
 //! What a gear engineer reads on the terminal about the strokes of an operation and their relief.
 
 use super::OperationAxes;
-use crate::output::progress::duration_text;
-use crate::output::text::{Sheet, from_full_depth, plain, significant};
+use crate::number_text::{from_full_depth, plain, significant};
+use crate::output::text::Sheet;
 use crate::process::shaping::linkage::relief::ReliefFlank;
+use crate::progress::duration_text;
 use crate::steps::axes::AxesOfOperation;
 use gearcut_core::units::UM_PER_MM;
 

@@ -34,7 +34,7 @@ pub fn print(sheet: &mut Sheet, job: &ShapingJob, motion: &[OperationAxes]) -> R
 }
 
 fn along(sheet: &mut Sheet, section: &Section) {
-    let Some(table) = section.table_of(RETURN_PLACES.key) else { return };
+    let Some(table) = section.table_of(&RETURN_PLACES) else { return };
     let columns = [
         values(&PHI, "polar angle", 2),
         values(&ANGLE_AT, "retraction angle", 2),

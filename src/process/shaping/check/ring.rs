@@ -19,7 +19,7 @@ pub fn print(sheet: &mut Sheet, ring: &Section, addendum_mm: f64) {
         return;
     }
     answers::print(sheet, ring);
-    let Some(table) = ring.table_of(RING_TEETH.key) else { return };
+    let Some(table) = ring.table_of(&RING_TEETH) else { return };
     let place = || [values(&TOOTH, "tooth", 0), values(&PHI, "polar angle", 2)];
     sheet.heading("Along the curve: largest cutter, radius of curvature, limit of the module");
     let rolling = [

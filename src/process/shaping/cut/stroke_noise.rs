@@ -18,7 +18,7 @@
 
 use crate::findings::Notice;
 use crate::machine_errors::NoiseLaw;
-use crate::output::text::significant;
+use crate::number_text::significant;
 use crate::process::shaping::ShapingJob;
 use crate::process::shaping::linkage::dynamics::AXES;
 use crate::process::shaping::notices::FastNoise;

@@ -10,7 +10,7 @@ use crate::process::shaping::axes_report::OperationAxes;
 use crate::process::shaping::cut::chips::ChipLedger;
 use crate::process::shaping::gear::measure::unevenness::{ToothAllowance, Unevenness as Percent, summarise};
 use crate::process::shaping::gear::measure::{FlankReport, GearReport};
-use crate::process::shaping::quantities::{CIRCULAR_FEED, SPREAD_MAX, SPREAD_MEAN, STROKES};
+use crate::process::shaping::quantities::{CIRCULAR_FEED, SPREAD_MAX, SPREAD_MEAN, SPREADS, STOCK_OF_TEETH, STROKES};
 use crate::steps::axes;
 use gearcut_core::error::Refusal;
 use teeth::stock_range;
@@ -55,7 +55,8 @@ pub fn operation(
             SPREAD_MEAN.of_or(found.map(|u| u.mean_percent), no_stock),
         ])
     };
-    let unevenness = Section::new("unevenness", "Unevenness of the allowance")
+    let unevenness = SPREADS
+        .section([])
         .part(spread("mean_denominator", [mean, cut], allowance.and_then(|a| by_mean(&a.strokes))))
         .part(withheld(
             spread("rack_denominator", [rack, cut], allowance.and_then(|a| by_rack(&a.strokes, a.rack_mm))),
@@ -97,9 +98,6 @@ pub fn operation(
         ))
         .part(stock_range("root_stock", "Stock in all roots, on rays that do not end before it", &over_roots, no_stock))
         .part(unevenness)
-        .part(
-            Section::new("teeth", "Stock of each tooth")
-                .parts(stock_of_teeth.map(|of| teeth::tooth_stock(report, index, of.tooth))),
-        );
+        .part(STOCK_OF_TEETH.section([]).parts(stock_of_teeth.map(|of| teeth::tooth_stock(report, index, of.tooth))));
     Ok(section)
 }

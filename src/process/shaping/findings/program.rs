@@ -7,7 +7,7 @@ use crate::findings::notices::ProgramOff;
 use crate::findings::quantities::program::{LARGEST_DISTANCE, PROGRAM};
 use crate::findings::{Notice, Place, QuantityRow, Section};
 use crate::measure::damage::gouge_mm;
-use crate::output::text::significant;
+use crate::number_text::significant;
 use crate::process::shaping::ShapingJob;
 use crate::process::shaping::axes_report::OperationAxes;
 use crate::process::shaping::gear::measure::GearReport;

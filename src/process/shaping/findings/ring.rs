@@ -1,15 +1,14 @@
 //! What the cutter can do in a ring, as findings: how large it may be, how far its involute reaches, how deep its base
 //! relieves the tips, whether it undercuts, whether its tip corners come clear, how large the module may be; each with
-//! its place and with what to change.
+//! its place and advice.
 //!
 //! In: [`RingFacts`], known before cutting. Out: a section, with a row for every tooth of a period in
 //! `tables/ring.csv`.
 
-use super::answers::{advice, answered};
 use crate::findings::quantities::teeth::TOOTH;
 use crate::findings::{Entry, Notice, Place, QuantityRow, Section, Table};
 use crate::measure::damage::LEAST_DEPTH_MM;
-use crate::output::text::significant;
+use crate::number_text::significant;
 use crate::process::shaping::ShapingJob;
 use crate::process::shaping::gear::ring::{
     CornerPath, RingFacts, RingTooth, ToothPlace, rolling_module_mm, rolling_teeth,
@@ -24,6 +23,9 @@ use crate::process::shaping::quantities::ring::{
 };
 use gearcut_core::gear::GearKind;
 use gearcut_core::units::UM_PER_MM;
+
+/// Advice where nothing is known of the target's outline.
+const SEE_BLANK: &str = "See the whole blank of a run";
 
 /// The section; none of an external gear. Where a program cuts another ring, `other` says why nothing of it holds.
 pub fn of_job(job: &ShapingJob, other: Option<&str>) -> Option<Section> {
@@ -46,38 +48,28 @@ fn section(job: &ShapingJob, facts: &RingFacts) -> Section {
     };
     let modules = [rolling_module_mm(radius_mm, z0), facts.printed.module_limit_mm(radius_mm)];
     let cutters = [
-        answered(
-            sharpest(ROLLING_TEETH.of(facts.rolling_teeth)),
-            format!("this one has {z0}; for more, take a curve with a larger smallest radius of curvature"),
+        sharpest(ROLLING_TEETH.of(facts.rolling_teeth))
+            .fine(format!("This cutter has {z0}. A larger smallest radius of curvature allows more")),
+        sharpest(CLEARING_TEETH.of_or(facts.clearing_teeth, NO_CUTTER))
+            .fine("For a round ring of that radius and sharp corners. A lower addendum of cutter or ring allows more"),
+        sharpest(RADIAL_TEETH.of_or(facts.radial_teeth, NO_CUTTER)).fine(
+            "For the same ring and corners, at depth on every radius. Larger cutters trim the tips while they are fed \
+             in",
         ),
-        answered(
-            sharpest(CLEARING_TEETH.of_or(facts.clearing_teeth, NO_CUTTER)),
-            "of a round ring of that radius, for sharp corners; a lower addendum of cutter or ring allows more",
-        ),
-        answered(
-            sharpest(RADIAL_TEETH.of_or(facts.radial_teeth, NO_CUTTER)),
-            "the same ring and corners, at depth on every radius; larger cutters trim the tips while they are fed in",
-        ),
-        answered(
-            sharpest(SMALLEST_RADIUS.of(radius_mm)),
-            "a rounder curve, or more teeth of the same module, make it larger",
-        ),
+        sharpest(SMALLEST_RADIUS.of(radius_mm))
+            .fine("A rounder curve, or more teeth of the same module, make it larger"),
     ];
-    let limit = answered(
-        sharpest(MODULE_LIMIT.of(modules[0])),
-        format!(
-            "this one is {} mm; fewer cutter teeth allow more on this curve (the printed condition of undercut: {} mm)",
-            significant(module_mm, 3),
-            significant(modules[1], 4)
-        ),
-    );
-    RING.section(cutters.into_iter().flatten())
+    let limit = sharpest(MODULE_LIMIT.of(modules[0])).fine(format!(
+        "This module is {} mm. Fewer cutter teeth allow more on this curve. The printed condition of undercut allows \
+         {} mm",
+        significant(module_mm, 3),
+        significant(modules[1], 4)
+    ));
+    RING.section(cutters)
         .entries(undercut(facts))
         .entries(tips(job, facts))
-        .entries(corners(facts))
-        .entries(trimming(job, facts))
-        .entries(limit)
-        .entries([sharpest(PRINTED_MODULE_LIMIT.of(modules[1]))])
+        .entries([corners(facts), trimming(job, facts)])
+        .entries([limit, sharpest(PRINTED_MODULE_LIMIT.of(modules[1]))])
         .table(table(facts, z0, module_mm))
 }
 
@@ -86,78 +78,80 @@ fn on_tooth(place: ToothPlace) -> Place {
 }
 
 /// Flanks that begin too late, and the condition as it is printed.
-fn undercut(facts: &RingFacts) -> impl Iterator<Item = Entry> {
+fn undercut(facts: &RingFacts) -> [Entry; 4] {
     let start = facts.highest_start;
     let [left_mm2, right_mm2] = facts.printed.sides_mm2(facts.sharpest.0);
-    let told = if facts.undercut_flanks > 0 {
-        "use a smaller tool.shaper_cutter.addendum_coefficient, or a curve that is less hollow towards the ring"
-            .to_owned()
-    } else {
-        format!("nothing: flanks begin where the cutter's tip corner ends, at most at {:.3} mm", start.mm)
-    };
     let sign = if left_mm2 <= right_mm2 { "<=" } else { ">" };
-    let advice =
-        format!("{told}; the printed condition, of an external gear, reads {left_mm2:.0} {sign} {right_mm2:.0} mm^2");
-    answered(UNDERCUT.of(facts.undercut_flanks).at(on_tooth(start)), advice).into_iter().chain([
-        HIGHEST_START.of(start.mm).at(on_tooth(start)),
-        PRINTED_LEFT.of(left_mm2),
-        PRINTED_RIGHT.of(right_mm2),
-    ])
+    let printed = format!("The printed condition, of an external gear, reads {left_mm2:.0} {sign} {right_mm2:.0} mm^2");
+    let undercut = UNDERCUT.of(facts.undercut_flanks).at(on_tooth(start));
+    let undercut = if facts.undercut_flanks > 0 {
+        undercut.change(format!(
+            "Use a smaller tool.shaper_cutter.addendum_coefficient, or a curve that is less hollow towards the ring. \
+             {printed}"
+        ))
+    } else {
+        let mm = start.mm;
+        undercut.fine(format!("Flanks begin where the cutter's tip corner ends, at most at {mm:.3} mm. {printed}"))
+    };
+    [undercut, HIGHEST_START.of(start.mm).at(on_tooth(start)), PRINTED_LEFT.of(left_mm2), PRINTED_RIGHT.of(right_mm2)]
 }
 
 /// What the involute does not reach.
-fn tips(job: &ShapingJob, facts: &RingFacts) -> impl Iterator<Item = Entry> {
+fn tips(job: &ShapingJob, facts: &RingFacts) -> [Entry; 2] {
     let gear = &job.scene.gear;
     let placed = |row: &QuantityRow, found: Option<ToothPlace>, scale: f64, why: &'static str| {
         row.of_or(found.map(|place| scale * place.mm), why).at(found.map(on_tooth))
     };
-    let more_teeth = facts.generating_teeth.map_or("no cutter that rolls generates whole tips".to_owned(), |teeth| {
-        format!("about {teeth} cutter teeth generate whole tips at the sharpest place")
+    let more_teeth = facts.generating_teeth.map_or("No cutter that rolls generates whole tips".to_owned(), |teeth| {
+        format!("About {teeth} cutter teeth generate whole tips at the sharpest place")
     });
-    let advice = match facts.shortest_involute {
-        None => "nothing: the involute reaches the tips".to_owned(),
+    let addendum = format!("The addendum is {} mm", significant(job.blank.addendum_mm, 3));
+    let involute = placed(&INVOLUTE_HEIGHT, facts.shortest_involute, 1.0, REACHED);
+    let involute = match facts.shortest_involute {
+        None => involute.fine(addendum),
         Some(short) => {
             let lower = (100.0 * short.mm / gear.module_mm).floor() / 100.0;
-            format!("{more_teeth}; gear.addendum_coefficient = {lower} ends the teeth below")
+            involute
+                .change(format!("{addendum}. {more_teeth}. gear.addendum_coefficient = {lower} ends the teeth below"))
         }
     };
-    let involute = answered(
-        placed(&INVOLUTE_HEIGHT, facts.shortest_involute, 1.0, REACHED),
-        format!("the addendum is {} mm; {advice}", significant(job.blank.addendum_mm, 3)),
-    );
-    let told = match facts.relief {
-        Some(_) => format!("{more_teeth}; keep the mating tips off that part, or take it as tip relief"),
-        None => "nothing".to_owned(),
+    let relief = placed(&TIP_RELIEF, facts.relief, UM_PER_MM, NO_RELIEF);
+    let relief = match facts.relief {
+        Some(_) => relief.change(format!("{more_teeth}. Keep the mating tips off that part, or take it as tip relief")),
+        None => relief.fine("Nothing to change"),
     };
-    involute.into_iter().chain(answered(placed(&TIP_RELIEF, facts.relief, UM_PER_MM, NO_RELIEF), told))
+    [involute, relief]
 }
 
 /// Tip corners on their way in and out.
-fn corners(facts: &RingFacts) -> [Entry; 2] {
+fn corners(facts: &RingFacts) -> Entry {
     let Some(tightest) = facts.tightest_corner else {
-        return answered(CORNER_CLEARANCE.none(NO_OUTLINE), "see the whole blank of a run");
+        return CORNER_CLEARANCE.none(NO_OUTLINE).fine(SEE_BLANK);
     };
     let CornerPath { clearance_mm, phi_rad } = tightest.path;
     let place = Place::default()
         .and("polar_angle_deg", phi_rad.to_degrees())
         .and("space_after_tooth", tightest.tooth)
         .and("path", if tightest.entering { "in" } else { "out" });
-    let advice = if clearance_mm < 0.0 {
-        "use a cutter with fewer teeth, a smaller tool.shaper_cutter.addendum_coefficient or gear.addendum_coefficient"
+    let clearance = CORNER_CLEARANCE.of(clearance_mm).at(place);
+    if clearance_mm < 0.0 {
+        clearance.change(
+            "Use a cutter with fewer teeth, or a smaller tool.shaper_cutter.addendum_coefficient or \
+             gear.addendum_coefficient",
+        )
     } else {
-        "nothing: they come clear of the teeth beside their space; more cutter teeth bring them nearer"
-    };
-    answered(CORNER_CLEARANCE.of(clearance_mm).at(place), advice)
+        clearance.fine("They come clear of the teeth beside their space. More cutter teeth bring them nearer")
+    }
 }
 
 /// What the strokes of the infeed take off the tips.
-fn trimming(job: &ShapingJob, facts: &RingFacts) -> [Entry; 2] {
+fn trimming(job: &ShapingJob, facts: &RingFacts) -> Entry {
     let Some(deepest) = facts.trimming else {
-        return answered(TRIMMING.none(NO_OUTLINE), "see the whole blank of a run");
+        return TRIMMING.none(NO_OUTLINE).fine(SEE_BLANK);
     };
     let depth = TRIMMING.of(UM_PER_MM * deepest.depth_mm);
     if deepest.depth_mm < LEAST_DEPTH_MM {
-        return answered(depth, "nothing: the corners come clear");
+        return depth.fine("The corners come clear");
     }
     let fewer =
         facts.radial_teeth.map_or("fewer cutter teeth".to_owned(), |teeth| format!("{teeth} cutter teeth or less"));
@@ -165,17 +159,16 @@ fn trimming(job: &ShapingJob, facts: &RingFacts) -> [Entry; 2] {
         .and("operation", job.operations[deepest.operation].spec.name.clone())
         .and("stroke", deepest.stroke as u64)
         .and("tooth", deepest.tooth);
-    let advice = format!(
-        "use {fewer}, a lower addendum of cutter or ring, or a spiral over a larger operation.infeed.spiral.angle_deg"
-    );
-    answered(depth.at(place), advice)
+    depth.at(place).change(format!(
+        "Use {fewer}, a lower addendum of cutter or ring, or a spiral over a larger operation.infeed.spiral.angle_deg"
+    ))
 }
 
 /// What must be known before cutting: a fault where it is deeper than a gouge.
 pub fn warnings(section: &Section, gouge_mm: f64) -> Vec<Notice> {
     let place_and_way_out = |row: &QuantityRow| {
-        let place = section.of(row)?.place().map(Place::words)?;
-        Some((place, advice(section, row)))
+        let entry = section.entry_of(row)?;
+        Some((entry.quantity.place().map(Place::words)?, entry.advice.as_ref()?.text.as_str()))
     };
     let corner = section.value(&CORNER_CLEARANCE).filter(|&mm| mm < 0.0).and_then(|clearance_mm| {
         let (place, way_out) = place_and_way_out(&CORNER_CLEARANCE)?;

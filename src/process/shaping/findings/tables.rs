@@ -14,7 +14,7 @@ use gearcut_core::terms::Side;
 
 /// All flanks that were cut: the stock of `earlier` operations on them, and how they are finished.
 pub fn flanks<'a>(cut: &'a [FlankReport], earlier: impl IntoIterator<Item = &'a str>, teeth: &[Section]) -> Table {
-    let finished = |of: &FlankReport| teeth[of.tooth as usize - 1].find(of.side.name());
+    let finished = |of: &FlankReport| teeth[of.tooth as usize - 1].side(of.side);
     let own = [&START_OF_INVOLUTE, &TIP_HEIGHT, &PROFILE_LENGTH, &SCALLOP];
     let table = own.into_iter().fold(flank_table(cut, earlier), |table, row| {
         table.column(row, |of| finished(of).and_then(|flank| flank.value(row)))
@@ -31,7 +31,7 @@ pub fn teeth(teeth: &[Section]) -> Table {
         [Side::Left, Side::Right].into_iter().flat_map(|side| [(side, &FLANK_PITCH), (side, &CUMULATIVE_PITCH)]);
     let table = sides.fold(table, |table, (side, row)| {
         let column = row.as_column().keyed(format!("{}_{}", side.name(), row.key));
-        table.column(column, |(_, tooth)| tooth.find(side.name()).and_then(|flank| flank.value(row)))
+        table.column(column, |(_, tooth)| tooth.side(side).and_then(|flank| flank.value(row)))
     });
     table.rows_in_file("teeth")
 }

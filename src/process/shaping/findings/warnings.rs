@@ -8,7 +8,7 @@ use crate::findings::notice::ranked;
 use crate::findings::{Notice, Section};
 use crate::measure::damage::gouge_mm;
 use crate::measure::stock::Extreme;
-use crate::output::text::significant;
+use crate::number_text::significant;
 use crate::process::shaping::cut::chips::{ChipLedger, OperationChips, StrokeChips, entries};
 use crate::process::shaping::cut::stroke_noise;
 use crate::process::shaping::findings::{program, returns, ring};

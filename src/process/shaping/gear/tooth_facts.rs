@@ -8,7 +8,7 @@
 
 use crate::findings::Notice;
 use crate::measure::damage::{LEAST_DEPTH_MM, gouge_mm};
-use crate::output::text::significant;
+use crate::number_text::significant;
 use crate::process::shaping::ShapingJob;
 use crate::process::shaping::notices::{CutterBase, NarrowTip, Pointed, Topped, Undercut};
 use crate::process::shaping::target::{FlankEnd, TargetFlank};

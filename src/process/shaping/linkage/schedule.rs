@@ -83,7 +83,7 @@ impl StrokeSchedule {
         let whole_rad = f64::from(operation.revolutions) * TURN_RAD + operation.overlap_rad;
         let [from_rad, to_rad] = operation.window_rad.unwrap_or([0.0, whole_rad]);
         if operation.window_rad.is_some() && whole_rad > TURN_RAD {
-            let problem = "a window of work angles is cut once, but further revolutions or an overlap are asked for";
+            let problem = "a window of work angles is cut once, without further revolutions or an overlap";
             let way_out = "leave out the window, or set revolutions = 1 and overlap_deg = 0";
             return Err(Refusal::new(&key("window_deg"), problem, way_out));
         }

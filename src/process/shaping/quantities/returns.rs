@@ -17,7 +17,7 @@ rows! {
     RETRACTION_ANGLE: "retraction_angle", "deg",
         "largest angle between the line of centres and the normal of the pitch curve at the strokes";
     CLEARANCE: "smallest_clearance", "um",
-        "smallest distance of the returning edge from the surfaces that the operation leaves, negative inside"
+        "smallest distance of the returning edge from the surfaces after the operation, negative inside"
         => or(&[NOWHERE_NEAR]);
     OVERLAP: "overlap", "mm^2",
         "area that the returning cutter has in common with the teeth where it lies deepest in them, in their \
@@ -34,8 +34,7 @@ rows! {
     CLEARING_SLOWDOWN: "clearing_slowdown", "1",
         "factor by which double strokes would have to last longer with the direction that clears" => or(&[NO_COST]);
     CLEARING_STROKES: "clearing_strokes_per_minute", "1/min",
-        "double strokes that leave the axes their time with the direction that clears" => or(&[NO_COST]);
-    ADVICE: "advice", "", "what to change, of the answer whose key is before it";
+        "double strokes that give the axes their time with the direction that clears" => or(&[NO_COST]);
 }
 
 rows! {

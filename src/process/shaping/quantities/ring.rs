@@ -7,16 +7,16 @@ pub const NOT_CURVED: &str = "the pitch curve is not curved towards the axis the
 /// No condition of undercut.
 pub const STRAIGHT: &str = "the pitch curve is straight there";
 /// No depth of the tips.
-pub const NO_RELIEF: &str = "the cutter's base does not shape the tip, or leaves it out of its reach";
+pub const NO_RELIEF: &str = "the cutter's base does not shape the tip, or does not reach it";
 /// Nothing is known of the corners.
 pub const NO_OUTLINE: &str = "the target's outline is not known";
 /// No largest cutter.
-pub const NO_CUTTER: &str = "tips or rolling leave no such cutter, or tips lie inside the base circle";
+pub const NO_CUTTER: &str = "tips or rolling allow no such cutter, or tips lie inside the base circle";
 /// No flank ends early.
 pub const REACHED: &str = "the involute reaches the tip on all flanks";
 
 rows! {
-    /// What the cutter can do in the ring, each with what to change under its key and advice.
+    /// What the cutter can do in the ring, each with its advice.
     RING: "ring", "What the cutter can do in the ring", "ring";
 
     ROLLING_TEETH: "rolling_teeth", "teeth", "most cutter teeth whose pitch circle rolls everywhere"

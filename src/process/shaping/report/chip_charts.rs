@@ -1,7 +1,7 @@
 //! Charts of an operation's chips over the work angle, for files and the page.
 
+use crate::number_text::significant;
 use crate::output::line_chart::{LineChart, LineSeries, Panel};
-use crate::output::text::significant;
 use crate::process::shaping::ShapingJob;
 use crate::process::shaping::cut::chips::{ChipLedger, StrokeChips};
 use crate::process::shaping::findings::deflection::of_stroke;

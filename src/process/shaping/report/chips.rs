@@ -13,7 +13,7 @@ use crate::steps::report::{headline_words, quantities};
 
 /// What the strokes of every operation take, and what that asks of cutter and machine.
 pub fn section(job: &ShapingJob, ledger: &ChipLedger, found: &Findings) -> PageSection {
-    let operations = found.parts(OPERATIONS.key);
+    let operations = found.parts(&OPERATIONS);
     let blocks = operations.iter().enumerate().filter_map(|(index, operation)| {
         let chips = operation.group(&CHIPS)?;
         let mut charts = charts(job, ledger, index).into_iter().map(|(_, chart)| Block::Lines(chart));

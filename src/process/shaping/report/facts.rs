@@ -1,8 +1,8 @@
 //! What was shaped, with what, on which machine.
 
 use crate::findings::{Findings, unit};
+use crate::number_text::plain;
 use crate::output::report::{PageSection, Tone};
-use crate::output::text::plain;
 use crate::process::shaping::ShapingJob;
 use crate::process::shaping::linkage::dynamics::{self, AXES};
 use crate::process::shaping::scene::layers::{built_up_words, edge_words, rounding_words};

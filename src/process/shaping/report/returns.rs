@@ -13,7 +13,7 @@ use crate::steps::axes::charts::panel;
 
 /// The section; none where the cutter is not drawn back.
 pub fn section(job: &ShapingJob, found: &Findings) -> Option<PageSection> {
-    let operations = found.parts(OPERATIONS.key);
+    let operations = found.parts(&OPERATIONS);
     let returns: Vec<(&str, &Section)> =
         operations.iter().filter_map(|of| Some((of.key.as_str(), of.group(&RETURN_STROKES)?))).collect();
     let direction = returns.first()?.1.text(&DIRECTION).to_owned();
@@ -24,15 +24,14 @@ pub fn section(job: &ShapingJob, found: &Findings) -> Option<PageSection> {
         };
         std::iter::once(first).chain(chart(job, name, section).map(Block::Lines))
     });
-    let mut asked: Vec<&str> =
-        returns.iter().flat_map(|(_, section)| answers::that_ask_for_a_change(section)).collect();
-    asked.sort_unstable();
-    asked.dedup();
+    let mut changed: Vec<&str> = returns.iter().flat_map(|(_, section)| answers::changes(section)).collect();
+    changed.sort_unstable();
+    changed.dedup();
     let known = returns.iter().all(|(_, section)| section.value(&RETRACTION_ANGLE).is_some());
-    let (tone, words) = match (known, asked.is_empty()) {
+    let (tone, words) = match (known, changed.is_empty()) {
         (false, _) => (Tone::Aside, "no findings".to_owned()),
         (true, true) => (Tone::Fine, "nothing to change".to_owned()),
-        (true, false) => (Tone::Wrong, format!("a change is advised: {}", asked.join(", "))),
+        (true, false) => (Tone::Wrong, format!("a change is advised: {}", changed.join(", "))),
     };
     Some(PageSection::new(
         "returns",
@@ -48,7 +47,7 @@ pub fn section(job: &ShapingJob, found: &Findings) -> Option<PageSection> {
 
 /// Over one period of the pitch curve.
 fn chart(job: &ShapingJob, name: &str, section: &Section) -> Option<LineChart> {
-    let table = section.table_of(RETURN_PLACES.key).filter(|table| !table.is_empty())?;
+    let table = section.table_of(&RETURN_PLACES).filter(|table| !table.is_empty())?;
     let curve = |row: &QuantityRow| table.points(&PHI, row);
     let pressure_deg = job.scene.gear.pressure_angle_rad.to_degrees();
     Some(LineChart {

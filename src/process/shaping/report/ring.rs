@@ -14,7 +14,7 @@ use crate::steps::axes::charts::panel;
 /// The section; none for an external gear.
 pub fn section(job: &ShapingJob, found: &Findings) -> Option<PageSection> {
     let ring = found.group(&RING)?;
-    let table = ring.table_of(RING_TEETH.key)?;
+    let table = ring.table_of(&RING_TEETH)?;
     let mut blocks = Vec::new();
     let withheld = ring.entries.first().and_then(|entry| entry.quantity.why());
     if withheld.is_none() {

@@ -1,21 +1,24 @@
-//! What earlier operations leave for the last one: normal stock, the allowances AB and CD, their unevenness.
+//! The stock of earlier operations for the last one: normal stock, the allowances AB and CD, their unevenness.
 
 use crate::findings::quantities::OPERATIONS;
 use crate::findings::quantities::flanks::{STOCK_LARGEST, STOCK_MEAN, STOCK_SMALLEST};
-use crate::findings::{self, Findings, QuantityRow};
+use crate::findings::{self, Findings, QuantityRow, unit};
+use crate::number_text::significant;
 use crate::output::bar_chart::{BarChart, BarSeries};
 use crate::output::line_chart::{LineChart, LineSeries, Panel};
 use crate::output::range_chart::{RangeChart, RangeSeries};
 use crate::output::report::{Block, PageSection, PageTable};
-use crate::output::text::significant;
 use crate::process::shaping::ShapingJob;
-use crate::process::shaping::quantities::{AB, ALLOWANCE, CD, SPREAD_MAX, SPREAD_MEAN, UNEVENNESS};
+use crate::process::shaping::quantities::{
+    AB, ALLOWANCE, CD, SPREAD_MAX, SPREAD_MEAN, SPREADS, STOCK_OF_TEETH, UNEVENNESS,
+};
+use gearcut_core::terms::Side;
 
 /// The section; none if the scene has a single operation.
 pub fn section(job: &ShapingJob, found: &Findings) -> Option<PageSection> {
     let finishing = &job.finishing().spec.name;
     let earlier: Vec<&findings::Section> =
-        found.parts(OPERATIONS.key).iter().filter(|operation| !stock_of_teeth(operation).is_empty()).collect();
+        found.parts(&OPERATIONS).iter().filter(|operation| !stock_of_teeth(operation).is_empty()).collect();
     let mut blocks = Vec::new();
     for operation in &earlier {
         if earlier.len() > 1 {
@@ -37,23 +40,23 @@ pub fn section(job: &ShapingJob, found: &Findings) -> Option<PageSection> {
 }
 
 fn stock_of_teeth(operation: &findings::Section) -> &[findings::Section] {
-    operation.find("teeth").map_or(&[], |teeth| &teeth.sections)
+    operation.group(&STOCK_OF_TEETH).map_or(&[], |teeth| &teeth.sections)
 }
 
 /// A column of the table of allowances.
 fn allowance(operation: &findings::Section, column: &QuantityRow) -> Vec<Option<f64>> {
-    operation.table_of(ALLOWANCE.key).map_or_else(Vec::new, |table| table.values(column).collect())
+    operation.table_of(&ALLOWANCE).map_or_else(Vec::new, |table| table.values(column).collect())
 }
 
 fn operation_blocks(operation: &findings::Section, finishing: &str) -> Vec<Block> {
     let teeth = stock_of_teeth(operation);
     let categories: Vec<String> = (1..=teeth.len()).map(|tooth| tooth.to_string()).collect();
-    let range = |name: &str, side: &str| RangeSeries {
-        name: name.to_owned(),
+    let range = |side: Side| RangeSeries {
+        name: format!("{} flanks", side.name()),
         values: teeth
             .iter()
             .map(|tooth| {
-                let stock = tooth.find(side)?;
+                let stock = tooth.side(side)?;
                 Some([stock.value(&STOCK_SMALLEST)?, stock.value(&STOCK_MEAN)?, stock.value(&STOCK_LARGEST)?])
             })
             .collect(),
@@ -66,14 +69,14 @@ fn operation_blocks(operation: &findings::Section, finishing: &str) -> Vec<Block
             .collect(),
     };
     let name = &operation.key;
-    let period = operation.table_of(ALLOWANCE.key).and_then(|table| table.period_rows).unwrap_or(0);
+    let period = operation.table_of(&ALLOWANCE).and_then(|table| table.period_rows).unwrap_or(0);
     vec![
         Block::Ranges(RangeChart {
-            title: format!("Normal stock that {name} leaves for {finishing}, flank by flank"),
+            title: format!("Normal stock after {name} for {finishing}, flank by flank"),
             category_name: "tooth".to_owned(),
             categories: categories.clone(),
             unit: "mm".to_owned(),
-            series: vec![range("left flanks", "left"), range("right flanks", "right")],
+            series: vec![range(Side::Left), range(Side::Right)],
         }),
         // From the chords and not from zero: they differ by a few per cent.
         Block::Lines(LineChart {
@@ -117,20 +120,14 @@ fn percent(value: Option<f64>) -> String {
 }
 
 fn spread_table(operation: &findings::Section) -> PageTable {
-    let row = |name: &str, key: &str| {
-        let spread = operation.find(&format!("unevenness.{key}"));
-        let number = |row: &QuantityRow| percent(spread.and_then(|of| of.value(row)));
-        vec![name.to_owned(), number(&SPREAD_MAX), number(&SPREAD_MEAN)]
+    let row = |of: &findings::Section| {
+        let number = |row: &QuantityRow| percent(of.value(row));
+        vec![unit::sentence_with_signs(&of.title), number(&SPREAD_MAX), number(&SPREAD_MEAN)]
     };
     PageTable {
         caption: "Unevenness by both definitions".to_owned(),
         columns: ["Definition", "Largest [%]", "Mean [%]"].map(str::to_owned).into(),
-        rows: vec![
-            row("|AB − CD| / mean of AB and CD, as cut", "mean_denominator"),
-            row("|AB − CD| / mean of AB and CD, limit of many strokes", "envelope_mean_denominator"),
-            row("|AB − CD| / (δd tan α), as cut", "rack_denominator"),
-            row("|AB − CD| / (δd tan α), limit of many strokes", "envelope_rack_denominator"),
-        ],
+        rows: operation.group(&SPREADS).map_or_else(Vec::new, |spreads| spreads.sections.iter().map(row).collect()),
     }
 }
 
@@ -139,13 +136,13 @@ fn tooth_table(operation: &findings::Section) -> PageTable {
     let [ab, cd, unevenness] = [&AB, &CD, &UNEVENNESS].map(|column| allowance(operation, column));
     let rows = stock_of_teeth(operation).iter().enumerate().map(|(row, tooth)| {
         let of = |values: &[Option<f64>]| values.get(row).copied().flatten();
-        let stock = |side: &str, row: &QuantityRow| mm(tooth.find(side).and_then(|flank| flank.value(row)));
+        let stock = |side: Side, row: &QuantityRow| mm(tooth.side(side).and_then(|flank| flank.value(row)));
         vec![
             (row + 1).to_string(),
-            stock("left", &STOCK_SMALLEST),
-            stock("left", &STOCK_LARGEST),
-            stock("right", &STOCK_SMALLEST),
-            stock("right", &STOCK_LARGEST),
+            stock(Side::Left, &STOCK_SMALLEST),
+            stock(Side::Left, &STOCK_LARGEST),
+            stock(Side::Right, &STOCK_SMALLEST),
+            stock(Side::Right, &STOCK_LARGEST),
             mm(of(&ab)),
             mm(of(&cd)),
             percent(of(&unevenness)),

@@ -1,8 +1,8 @@
 //! The blank field's part of a run: cut and report.
 
 use crate::interrupt::Interrupt;
-use crate::output::progress::Progress;
 use crate::process::shaping::ShapingJob;
+use crate::progress::Progress;
 use crate::steps::planar::blank_report::{self, BlankReport};
 use gearcut_core::cut::Backend;
 use gearcut_core::cut::CutBlank;

@@ -4,12 +4,12 @@
 //! `chips/<operation>_thickness_by_stroke.{png,exr}` and `_thickness_by_space.{png,exr}`.
 
 use crate::colormap::ColourScale;
+use crate::number_text::significant;
 use crate::output::atomic::file_error;
 use crate::output::exr_map::{ExrMap, MapChannel, write_exr_map};
 use crate::output::folder::OutputFolder;
 use crate::output::grid::{MapAxis, MapGrid};
 use crate::output::map_png::{MapPicture, write_map_png};
-use crate::output::text::significant;
 use crate::process::shaping::ShapingJob;
 use crate::process::shaping::cut::chips::{ChipLedger, ThicknessMap};
 use crate::process::shaping::report::chip_charts::{charts, shown_end};
@@ -39,7 +39,7 @@ pub fn write(job: &ShapingJob, ledger: &ChipLedger, folder: &OutputFolder, notes
         let pitch_mm = std::f64::consts::PI * job.scene.gear.module_mm;
         let by_space = MapAxis {
             name: "space".into(),
-            meaning: format!("mean arc of pitch curve; space j stands at j times {} mm", significant(pitch_mm, 4)),
+            meaning: format!("mean arc of pitch curve; space j is at j times {} mm", significant(pitch_mm, 4)),
             start_mm: pitch_mm,
             step_mm: pitch_mm,
             count: chips.by_space.rows,

@@ -8,10 +8,10 @@
 use crate::interrupt::Interrupt;
 use crate::output::apng::{AnimationFrame, write_apng};
 use crate::output::folder::OutputFolder;
-use crate::output::progress::Progress;
 use crate::output::render_png::{RenderPicture, draw_frame, write_frame};
 use crate::process::shaping::ShapingJob;
 use crate::process::shaping::cut::section::{CutSection, cutter_solid};
+use crate::progress::Progress;
 use crate::surface::Mesh;
 use crate::surface::render::{Bodies, CLAY, Camera, Lights, STEEL, Shape, render};
 use gearcut_core::error::{Error, Result};

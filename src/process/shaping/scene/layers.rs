@@ -5,7 +5,7 @@
 
 use super::model::{BuiltUpEdge, EdgeRoughness, EdgeRounding, Shaping};
 use crate::machine_errors::{Compliance, ErrorLayer};
-use crate::output::text::{plain, size, um};
+use crate::number_text::{plain, size, um};
 use gearcut_core::units::UM_PER_MM;
 
 /// A layer of shaping's own.

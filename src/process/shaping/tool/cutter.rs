@@ -117,7 +117,7 @@ impl ShaperCutter {
                 if x0 < 0.0 { PROFILE_SHIFT } else { "tool.shaper_cutter.addendum_coefficient" },
                 format!(
                     "with an addendum of {} and a profile shift of {x0} modules the cutter's tip circle of radius \
-                    {tip_radius_mm:.3} mm leaves nothing of an involute over the base circle of radius \
+                    {tip_radius_mm:.3} mm allows no involute over the base circle of radius \
                     {base_radius_mm:.3} mm",
                     spec.addendum_coefficient
                 ),

@@ -47,7 +47,7 @@ pub(super) static SECTIONS: &[KeySection] = &[KeySection {
             0.0,
             "0.0",
             "Offset a of the pair's axes, the same in both scenes; 0 on spiral bevel gears. Positive where the \
-            pinion's axis stands at the larger y of the gear's machine.",
+            pinion's axis has the larger y of the gear's machine.",
         ),
     ],
     groups: &[],

@@ -16,6 +16,6 @@ pub(super) static SECTIONS: &[KeySection] = &[KeySection {
         points("tooth_points", 9, "9", "Points along the tooth; no more than the flank has rows of dexels."),
     ],
     groups: &[],
-    teach: "The grid on which bevel flanks are inspected, 5 by 9 points as gear inspection takes it unless more are \
-        asked for: nominal points, normals and deviations of all flanks stand in tables/grid.csv.",
+    teach: "The grid on which bevel flanks are inspected, 5 by 9 points by default as gear inspection takes it. \
+        tables/grid.csv has nominal points, normals and deviations of all flanks.",
 }];

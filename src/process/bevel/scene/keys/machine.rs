@@ -47,8 +47,8 @@ pub(super) static SECTIONS: &[KeySection] = &[
             },
             length("blank_offset_mm", "0.0", "Blank offset E_m; 0 on spiral bevel gears."),
             length("cross_shift_mm", "0.0", "X_B as the five-linkage paper draws it, along the machine's x axis."),
-            length("sliding_base_mm", "0.0", "Sliding base: how much deeper the head stands along the cradle's axis."),
-            length("center_to_back_mm", "0.0", "Machine centre to back X_p: how far the work stands back."),
+            length("sliding_base_mm", "0.0", "Sliding base: how much deeper the head is set along the cradle's axis."),
+            length("center_to_back_mm", "0.0", "Machine centre to back X_p: how far the work is set back."),
             Key::optional(
                 "root_angle_deg",
                 "deg",

@@ -71,7 +71,7 @@ pub(super) static SECTIONS: &[KeySection] = &[KeySection {
             unit: "um",
             default: Default::EmptyList,
             example: "[]",
-            teach: "How far each blade stands out in radius, one number for each; empty: none does.",
+            teach: "How far each blade is set out in radius, one number for each; empty: none does.",
         },
         Key::number(
             "start_angle_deg",

@@ -125,7 +125,7 @@ pub(super) static SECTIONS: &[KeySection] = &[
                 &["work", "hob"],
                 "work",
                 "\"work\"",
-                "Spindle that carries the extra rotation which the axial feed of a helical gear asks for.",
+                "Spindle that makes the extra rotation for the axial feed of a helical gear.",
             ),
             FORM,
         ],
@@ -158,7 +158,7 @@ pub(super) static SECTIONS: &[KeySection] = &[
                 &["one_way", "repeating", "reciprocating"],
                 "reciprocating",
                 "\"reciprocating\"",
-                "At the end of the hob: one_way must not reach it; repeating leaves the work and travels back idle; \
+                "At the end of the hob: one_way must not reach it; repeating backs off and travels back idle; \
                 reciprocating turns round.",
             ),
             Key::optional(

@@ -120,7 +120,7 @@ pub(super) static SECTIONS: &[KeySection] = &[KeySection {
             Range::closed(0.0, 1000.0),
             20.0,
             "20.0",
-            "How far the flank stands out of its line, along its normal, at the height of the gear's addendum.",
+            "How far the flank bulges from its line, along its normal, at the height of the gear's addendum.",
         ),
         Key::optional(
             "semi_topping_height_mm",
@@ -165,7 +165,7 @@ pub(super) static SECTIONS: &[KeySection] = &[KeySection {
             unit: "um",
             default: Default::EmptyList,
             example: "[]",
-            teach: "How far the hob's teeth stand off their thread along its axis, towards the end where uncut work \
+            teach: "How far the hob's teeth are off their thread along its axis, towards the end where uncut work \
                 arrives: one value per gash in the order of their cuts, from the gash at the hob's angle 0 on, or one \
                 for each gash of each thread, thread after thread, or none.",
         },

@@ -3,7 +3,7 @@
 use crate::findings::Notice;
 use crate::gcode::{AxisColumn, Ram, Script, StraightLine};
 use crate::machine::Axis;
-use crate::output::text::plain;
+use crate::number_text::plain;
 use crate::process::shaping::job::{PreparedOperation, ShapingJob};
 use crate::process::shaping::linkage::dynamics::AXES;
 use crate::process::shaping::motion::gcode::{AxisProgram, Knot};

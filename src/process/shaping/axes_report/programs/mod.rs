@@ -6,7 +6,7 @@ mod linear;
 mod paper;
 
 use crate::findings::Notice;
-use crate::output::text::{plain, significant};
+use crate::number_text::{plain, significant};
 use crate::process::shaping::job::{PreparedOperation, ShapingJob};
 use crate::process::shaping::motion::gcode::AxisProgram;
 use crate::process::shaping::scene::model::{GcodeDialect, Linkage, NormalReading};

@@ -7,7 +7,7 @@
 
 use crate::findings::Notice;
 use crate::gcode::ascii;
-use crate::output::text::plain;
+use crate::number_text::plain;
 use crate::process::shaping::job::{PreparedOperation, ShapingJob};
 use crate::process::shaping::scene::model::Linkage;
 use gearcut_core::gear::PitchCurveShape;
@@ -21,7 +21,7 @@ pub fn text(job: &ShapingJob, operation: &PreparedOperation, warnings: &[Notice]
         return Err("the one-block form knows elliptical pitch curves only; use gcode = \"linear\"".to_owned());
     };
     let Linkage::ShapingNormal { .. } = operation.spec.linkage else {
-        return Err("the one-block form stands for the normal linkage; use gcode = \"linear\"".to_owned());
+        return Err("the one-block form is that of the normal linkage; use gcode = \"linear\"".to_owned());
     };
     let start_rad = operation.schedule.phi_rad(0.0);
     let comment = |warning: &Notice| format!("({})\n", ascii(&warning.line()));

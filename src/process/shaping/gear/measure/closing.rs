@@ -5,7 +5,7 @@
 
 use super::{FlankReport, GearReport};
 use crate::findings::Notice;
-use crate::output::text::significant;
+use crate::number_text::significant;
 use crate::process::shaping::ShapingJob;
 use crate::process::shaping::notices::{ClosingPitch, ClosingStep};
 use gearcut_core::terms::Side;

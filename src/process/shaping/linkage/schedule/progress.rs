@@ -108,7 +108,7 @@ impl TimeLaw {
         let smallest = times.iter().copied().fold(f64::INFINITY, f64::min);
         let largest = times.iter().copied().fold(0.0, f64::max);
         let refused = |why: String| {
-            let problem = "equal times need an axis with a speed limit that never stands still; the limited ones do";
+            let problem = "equal times need an axis with a speed limit that never stops; the limited ones do";
             Refusal::new(key, format!("{problem}: {why}"), way_out)
         };
         if smallest <= 1e-6 * largest {

@@ -126,7 +126,7 @@ impl RetractionPlan {
 pub fn no_pose(back_off_mm: f64) -> Refusal {
     Refusal::new(
         "machine.back_off_mm",
-        format!("drawn back by {back_off_mm} mm, the cutter's axis stands on no normal of the pitch curve nearby"),
+        format!("drawn back by {back_off_mm} mm, the cutter's axis is on no normal of the pitch curve nearby"),
         "back off by less, a few tenths of a millimetre, or set machine.retraction = \"center_line\"",
     )
 }

@@ -58,7 +58,7 @@ pub(super) static ADDED: Addition = Addition {
             Range::closed(0.0, 1000.0),
             "even stock",
             "15.0",
-            "Standard deviation of the stock that the operation leaves on flanks, normal to them, about \
+            "Standard deviation of the stock on flanks after the operation, normal to them, about \
                 stock_per_flank_mm: its infeed scatters by as much / sin(pressure angle).",
         ),
         Key::optional(
@@ -137,7 +137,7 @@ pub(super) static SECTIONS: &[KeySection] = &[
                 for comparison).",
         }],
         groups: &[],
-        teach: "The angles of the finishing cut, the offset added to the centre distance: simple, and it leaves uneven \
+        teach: "The angles of the finishing cut, the offset added to the centre distance: simple, with uneven \
             stock where the curvature changes.",
     },
     KeySection {
@@ -161,7 +161,7 @@ pub(super) static SECTIONS: &[KeySection] = &[
         keys: &[],
         groups: &[],
         teach: "How the cutter gets to depth. An operation with a window_deg, and one that goes no deeper than those \
-            before it, stands at depth from the first stroke on unless it says otherwise.",
+            before it, is at depth from the first stroke on unless it says otherwise.",
     },
     KeySection {
         path: "operation[].infeed.none",

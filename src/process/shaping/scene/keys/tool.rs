@@ -43,7 +43,7 @@ pub(super) static SECTIONS: &[KeySection] = &[
                 unit: "modules",
                 default: Default::Number(1.25),
                 example: "1.25",
-                teach: "Height of the cutter tooth over its pitch circle; 1.25 leaves the gear a root clearance of a \
+                teach: "Height of the cutter tooth over its pitch circle; 1.25 gives the gear a root clearance of a \
                     quarter module.",
             },
             Key {
@@ -307,7 +307,7 @@ pub(super) static SECTIONS: &[KeySection] = &[
                 unit: "mm",
                 default: Default::Required,
                 example: "0.4",
-                teach: "Where the chamfer leaves the flank, counted down from the tip circle.",
+                teach: "Where the chamfer meets the flank, counted down from the tip circle.",
             },
             Key {
                 name: "angle_deg",
