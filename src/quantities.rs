@@ -5,6 +5,7 @@
 
 use crate::findings::quantities::SHARED;
 use crate::findings::{QuantityGroup, QuantityRow, unit};
+use crate::measure::topography::{Parameter, parameters};
 use crate::process::PROCESSES;
 use crate::wrap::wrapped;
 use crate::{compare, influence, pair_job, scatter, study, texture};
@@ -34,14 +35,33 @@ pub fn markdown() -> String {
         number. This page is printed from the table in the source.";
     let mut page = format!("# Quantities\n\n{}", paragraph(lead));
     for group in groups() {
-        let place = paragraph(&format!("Where: {}.", group.place.replace('<', "\\<")));
-        let _ = write!(page, "\n## {}\n\n{place}\n", group.title);
-        page.push_str("| key | symbol | unit | definition | no value because |\n| --- | --- | --- | --- | --- |\n");
-        for row in group.rows {
-            page.push_str(&line(row));
-        }
+        section(&mut page, group.title, group.place, group.rows.iter().map(|row| line(row)));
+    }
+    for (title, place, list) in parameters() {
+        section(
+            &mut page,
+            title,
+            place,
+            list.iter().map(|of| cells(&of.symbol, &of.symbol, of.unit, &of.definition, "")),
+        );
     }
     page
+}
+
+/// Parameters of surface texture: title, place, and what there is.
+pub fn parameters() -> [(&'static str, &'static str, Vec<Parameter>); 2] {
+    let [areal, profile] = parameters::all().unwrap_or_default();
+    [
+        ("Areal parameters (ISO 25178-2)", "texture.<operation>.<window>.parameters", areal),
+        ("Profile parameters (ISO 21920-2)", "roughness.<operation>.<window and direction>", profile),
+    ]
+}
+
+fn section(page: &mut String, title: &str, place: &str, lines: impl Iterator<Item = String>) {
+    let place = paragraph(&format!("Where: {}.", place.replace('<', "\\<")));
+    let _ = write!(page, "\n## {title}\n\n{place}\n");
+    page.push_str("| key | symbol | unit | definition | no value because |\n| --- | --- | --- | --- | --- |\n");
+    page.extend(lines);
 }
 
 /// Lines of a page.
@@ -50,14 +70,14 @@ fn paragraph(words: &str) -> String {
 }
 
 fn line(row: &QuantityRow) -> String {
-    let unit = if row.unit.is_empty() { "words".to_owned() } else { unit::signs(row.unit) };
     let source = if row.source.is_empty() { String::new() } else { format!(" ({})", row.source) };
-    let cells = [
-        format!("`{}`", row.key),
-        row.symbol.to_owned(),
-        unit,
-        format!("{}{source}", unit::sentence_with_signs(row.definition)),
-        row.reasons.join("; "),
-    ];
+    let definition = format!("{}{source}", row.definition);
+    cells(row.key, row.symbol, row.unit, &definition, &row.reasons.join("; "))
+}
+
+fn cells(key: &str, symbol: &str, unit: &str, definition: &str, reasons: &str) -> String {
+    let unit = if unit.is_empty() { "words".to_owned() } else { unit::signs(unit) };
+    let definition = unit::sentence_with_signs(definition);
+    let cells = [format!("`{key}`"), symbol.to_owned(), unit, definition, reasons.to_owned()];
     format!("| {} |\n", cells.map(|cell| cell.replace('|', "\\|")).join(" | "))
 }

@@ -4,8 +4,10 @@ use super::args::{CasesArguments, StudyArguments, SweepArguments};
 use super::failure::Failure;
 use super::folder::listening;
 use super::{backend, print};
+use crate::findings::table::table_file;
 use crate::interrupt::Interrupt;
 use crate::study::StudyPlan;
+use crate::study::engine::ROWS;
 use crate::study::file::{StudyFile, folder_of, read};
 
 /// Runs `study`.
@@ -42,6 +44,7 @@ fn run(file: StudyFile, stem: &str, arguments: &CasesArguments) -> Result<(), Fa
     if done.rows < done.cases {
         return Err(Failure::to_go_on(&out, [done.rows, done.cases], "cases"));
     }
+    let rows = done.path.join(table_file(ROWS));
     let failed = if done.failed == 0 { String::new() } else { format!(", {} of them failed", done.failed) };
-    Ok(print::sheet(&format!("{} cases{failed}; their rows are in {}\n", done.cases, done.table().display()))?)
+    Ok(print::sheet(&format!("{} cases{failed}; their rows are in {}\n", done.cases, rows.display()))?)
 }

@@ -95,7 +95,7 @@ fn words(line: &str) -> Result<Vec<Word<'_>>, String> {
             break;
         }
         if first == '%' {
-            return Err(format!("`{}`: a `%` is alone in its line", cut(rest)));
+            return Err(format!("`{}`: a `%` must be alone in its line", cut(rest)));
         }
         if first == '(' {
             let Some(end) = rest.find(')') else { return Err(format!("the comment `{}` is not closed", cut(rest))) };

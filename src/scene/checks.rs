@@ -34,7 +34,9 @@ fn gear_bore(found: &mut Found) -> Option<()> {
     let bore_mm = gear.number("bore_diameter_mm")?;
     let root_mm = module_mm * (teeth - 2.5);
     let message = || {
-        format!("`gear.bore_diameter_mm`: {bore_mm} takes the rim under the teeth: mean root diameter {root_mm:.3} mm")
+        format!(
+            "`gear.bore_diameter_mm`: {bore_mm} takes the whole rim of the teeth: mean root diameter {root_mm:.3} mm"
+        )
     };
     found.blame(bore_mm >= root_mm, "gear.bore_diameter_mm", message, "make the bore smaller, or leave it out");
     Some(())

@@ -146,6 +146,13 @@ pub struct KeySection {
     pub teach: &'static str,
 }
 
+impl KeySection {
+    /// A section whose keys do not exclude each other.
+    pub const fn new(path: &'static str, role: Role, keys: &'static [Key], teach: &'static str) -> Self {
+        Self { path, role, keys, groups: &[], teach }
+    }
+}
+
 /// Keys that a process adds to a shared section.
 #[derive(Debug)]
 pub struct Addition {

@@ -17,13 +17,12 @@ static SAWING: SceneProcess = SceneProcess {
     needed: "module and teeth",
     scenes: "| `sawing/log.toml` | A log |\n",
     sections: &[&[
-        KeySection {
-            path: "coolant",
-            role: Role::Plain,
-            keys: &[Key::number("flow_mm", "mm", Range::closed(0.0, 9.0), 1.0, "2.0", "How much.")],
-            groups: &[],
-            teach: "What cools.",
-        },
+        KeySection::new(
+            "coolant",
+            Role::Plain,
+            &[Key::number("flow_mm", "mm", Range::closed(0.0, 9.0), 1.0, "2.0", "How much.")],
+            "What cools.",
+        ),
         KeySection { path: "tool.saw", role: Role::Variant, keys: &[], groups: &[], teach: "A saw." },
     ]],
     added: &[
@@ -78,20 +77,13 @@ static FILING: SceneProcess = SceneProcess {
     scenes: "",
     sections: &[&[
         KeySection { path: "tool.file", role: Role::Variant, keys: &[], groups: &[], teach: "A file." },
-        KeySection {
-            path: "operation[].linkage",
-            role: Role::Choice { default: Some("by_hand"), what: "linkage" },
-            keys: &[],
-            groups: &[],
-            teach: "Who moves it.",
-        },
-        KeySection {
-            path: "operation[].linkage.by_hand",
-            role: Role::Variant,
-            keys: &[],
-            groups: &[],
-            teach: "A hand.",
-        },
+        KeySection::new(
+            "operation[].linkage",
+            Role::Choice { default: Some("by_hand"), what: "linkage" },
+            &[],
+            "Who moves it.",
+        ),
+        KeySection::new("operation[].linkage.by_hand", Role::Variant, &[], "A hand."),
     ]],
     added: &[],
     operations: FINISH_ALONE,
@@ -225,20 +217,13 @@ fn defaults_of_a_choice_are_each_processs_own() {
         tool: "machine_file",
         sections: &[&[
             KeySection { path: "tool.machine_file", role: Role::Variant, keys: &[], groups: &[], teach: "A file." },
-            KeySection {
-                path: "operation[].linkage",
-                role: Role::Choice { default: Some("crank"), what: "linkage" },
-                keys: &[],
-                groups: &[],
-                teach: "Who moves it.",
-            },
-            KeySection {
-                path: "operation[].linkage.crank",
-                role: Role::Variant,
-                keys: &[],
-                groups: &[],
-                teach: "A crank.",
-            },
+            KeySection::new(
+                "operation[].linkage",
+                Role::Choice { default: Some("crank"), what: "linkage" },
+                &[],
+                "Who moves it.",
+            ),
+            KeySection::new("operation[].linkage.crank", Role::Variant, &[], "A crank."),
         ]],
         ..FILING
     };

@@ -29,8 +29,10 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
-/// Tables in the folder: rows, and what their columns are.
-const TABLES: [&str; 2] = ["rows", "columns"];
+/// Table of the rows in the folder.
+pub const ROWS: &str = "rows";
+/// What their columns are.
+const COLUMNS: &str = "columns";
 /// Cases that may fail one after the other before the study itself is refused.
 const MOST_FAILURES: usize = 100;
 
@@ -82,13 +84,13 @@ impl Study<'_> {
             return Err(Refusal::new("--shard", problem, "take no more shares than there are cases").into());
         }
         // What is wrong with all cases is said before there is a folder that would go on with it.
-        let is_begun = rows_in(out).exists();
+        let is_begun = out.join(table_file(ROWS)).exists();
         let begun = if is_begun { None } else { self.begin(&cases, interrupt)? };
         if begun.is_none() && !is_begun {
             return Ok(outcome(out, &Lines::new(), cases.len()));
         }
         let folder = GrowingFolder::open(out, self.record())?;
-        let [rows, about] = TABLES.map(|name| folder.path().join(table_file(name)));
+        let [rows, about] = [ROWS, COLUMNS].map(|name| folder.path().join(table_file(name)));
         let (mut lines, heads) = match (LineFile::read(&rows)?, begun) {
             (Some((heads, lines)), _) => (lines.iter().filter_map(|line| self.known(&heads, line)).collect(), heads),
             (None, Some((lines, kept))) => {
@@ -119,7 +121,7 @@ impl Study<'_> {
             return Ok(outcome);
         }
         let finished = folder.finish(|new| {
-            for (name, path) in TABLES.into_iter().zip([&rows, &about]) {
+            for (name, path) in [(ROWS, &rows), (COLUMNS, &about)] {
                 let place = new.path(table_file(name))?;
                 std::fs::copy(path, &place).map_err(Error::writing(place))?;
             }
@@ -257,22 +259,10 @@ impl Study<'_> {
     }
 }
 
-impl StudyOutcome {
-    /// The file of its rows.
-    pub fn table(&self) -> PathBuf {
-        rows_in(&self.path)
-    }
-}
-
-/// The file of rows of a folder.
-fn rows_in(folder: &Path) -> PathBuf {
-    folder.join(table_file(TABLES[0]))
-}
-
 /// What there is.
-fn outcome(folder: &Path, lines: &Lines, cases: usize) -> StudyOutcome {
+fn outcome(path: &Path, lines: &Lines, cases: usize) -> StudyOutcome {
     let failed = lines.values().filter(|line| !line.trim_end().ends_with(',')).count() as u64;
-    StudyOutcome { path: folder.to_owned(), rows: lines.len() as u64, cases: cases as u64, failed }
+    StudyOutcome { path: path.to_owned(), rows: lines.len() as u64, cases: cases as u64, failed }
 }
 
 /// Problems of a scene in one line.
@@ -290,7 +280,7 @@ fn csv_reader(text: &str) -> csv::Reader<&[u8]> {
 /// Cells as a line, its end included.
 fn csv_line(cells: impl IntoIterator<Item = String>) -> Result<String> {
     let mut writer = csv::WriterBuilder::new().from_writer(Vec::new());
-    let failed = |reason: String| Error::Output { path: table_file(TABLES[0]).into(), reason };
+    let failed = |reason: String| Error::Output { path: table_file(ROWS).into(), reason };
     writer.write_record(cells).map_err(|reason| failed(reason.to_string()))?;
     let line = writer.into_inner().map_err(|reason| failed(reason.to_string()))?;
     String::from_utf8(line).map_err(|reason| failed(reason.to_string()))

@@ -82,6 +82,18 @@ impl Evaluation {
     }
 }
 
+/// All parameters that a surface can have, and those of a line, with the values of a wave.
+///
+/// # Errors
+/// None: the wave is a surface.
+pub fn all() -> Result<[Vec<Parameter>; 2], TextureError> {
+    let heights_um: Vec<f64> =
+        (0..1024).map(|i| (0.7 * f64::from(i % 32)).sin() + (0.3 * f64::from(i / 32)).cos()).collect();
+    let line = of_profile(ProfileKind::Roughness, &Profile::of(&heights_um, 1.0, 5), &[]);
+    let surface = Surface::new(32, 32, 1.0, 1.0, heights_um)?;
+    Ok([Evaluation::of(&surface, &Arguments::default()).parameters, line])
+}
+
 /// The profile set of one line as parameters, with Rmr at the mean line and at further heights over it (um).
 pub fn of_profile(kind: ProfileKind, profile: &Profile, heights_um: &[f64]) -> Vec<Parameter> {
     let mut list = List::default();

@@ -3,10 +3,10 @@
 use super::{Addition, Default, Key, KeySection, Kind, Range, Role};
 
 /// `[gear]`.
-pub(super) static SECTIONS: &[KeySection] = &[KeySection {
-    path: "gear",
-    role: Role::Plain,
-    keys: &[
+pub(super) static SECTIONS: &[KeySection] = &[KeySection::new(
+    "gear",
+    Role::Plain,
+    &[
         Key {
             name: "kind",
             kind: Kind::Word(&["external", "internal"]),
@@ -103,9 +103,8 @@ pub(super) static SECTIONS: &[KeySection] = &[KeySection {
             teach: "Distance of the axes at which `gearcut pair` rolls the gear with another one.",
         },
     ],
-    groups: &[],
-    teach: "The gear to cut and its blank.",
-}];
+    "The gear to cut and its blank.",
+)];
 
 /// Keys of a process that cuts helical gears: it adds them to `[gear]`.
 pub static HELIX: Addition = Addition {

@@ -155,10 +155,10 @@ pub const Y: KeySection =
     linear("machine.errors.y", "Errors of the slide Y: on hobbing machines radial, it sets the centre distance.");
 
 /// Errors of the guide along the gear's axis.
-pub const GUIDE: KeySection = KeySection {
-    path: "machine.errors.guide",
-    role: Role::Plain,
-    keys: &[
+pub const GUIDE: KeySection = KeySection::new(
+    "machine.errors.guide",
+    Role::Plain,
+    &[
         number(
             "radial_um_per_100mm",
             "um/100 mm",
@@ -182,9 +182,8 @@ pub const GUIDE: KeySection = KeySection {
         ),
         number("tangential_bow_um", "um", 1000.0, "2.0", "The same sideways."),
     ],
-    groups: &[],
-    teach: "How the guide along the gear's axis (ram or slide) runs against that axis: out of parallel, not straight.",
-};
+    "How the guide along the gear's axis (ram or slide) runs against that axis: out of parallel, not straight.",
+);
 
 /// How a tool that turns in space sits on its spindle: runout, its direction, wobble, its direction.
 pub const TOOL_RUNOUT: Key =
@@ -212,10 +211,10 @@ pub const TOOL_WOBBLE_ANGLE: Key = Key::optional(
 
 /// `[machine.errors]`, which holds what processes list, and `[mounting]`.
 pub(super) static SECTIONS: &[KeySection] = &[
-    KeySection {
-        path: "machine.errors",
-        role: Role::Plain,
-        keys: &[Key {
+    KeySection::new(
+        "machine.errors",
+        Role::Plain,
+        &[Key {
             name: "seed",
             kind: Kind::Whole { min: 0, max: u32::MAX },
             unit: "",
@@ -223,14 +222,13 @@ pub(super) static SECTIONS: &[KeySection] = &[
             example: "1",
             teach: "Which noise is cut: equal seeds make equal gears, another one makes another gear of the machine.",
         }],
-        groups: &[],
-        teach: "What is wrong with the machine: the cut follows what its axes really do, the target stays the \
+        "What is wrong with the machine: the cut follows what its axes really do, the target stays the \
             ideal one.",
-    },
-    KeySection {
-        path: "mounting",
-        role: Role::Plain,
-        keys: &[
+    ),
+    KeySection::new(
+        "mounting",
+        Role::Plain,
+        &[
             amount(
                 "eccentricity_um",
                 "um",
@@ -269,7 +267,6 @@ pub(super) static SECTIONS: &[KeySection] = &[
                 "How far the gear sits too high along its z axis: in bevel cutting an error of the mounting distance.",
             ),
         ],
-        groups: &[],
-        teach: "How the work sits on its spindle. The gear is measured about its own axis.",
-    },
+        "How the work sits on its spindle. The gear is measured about its own axis.",
+    ),
 ];

@@ -23,10 +23,10 @@ impl Key {
 }
 
 /// `[material]`.
-pub(super) static SECTIONS: &[KeySection] = &[KeySection {
-    path: "material",
-    role: Role::Plain,
-    keys: &[
+pub(super) static SECTIONS: &[KeySection] = &[KeySection::new(
+    "material",
+    Role::Plain,
+    &[
         Key {
             name: "name",
             kind: Kind::Word(&MATERIAL_NAMES),
@@ -49,7 +49,6 @@ pub(super) static SECTIONS: &[KeySection] = &[KeySection {
             "K_ce: cutting force per length of edge that a chip of no thickness would need.",
         ),
     ],
-    groups: &[],
-    teach: "The work's material: cutting force = (K_c h + K_ce) b for a chip of thickness h over a length b of edge. \
+    "The work's material: cutting force = (K_c h + K_ce) b for a chip of thickness h over a length b of edge. \
         Some processes compute forces always, others only where this section is written.",
-}];
+)];

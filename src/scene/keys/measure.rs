@@ -11,10 +11,10 @@ impl Key {
 
 /// `[measure]` and `[measure.limits]`.
 pub(super) static SECTIONS: &[KeySection] = &[
-    KeySection {
-        path: "measure",
-        role: Role::Plain,
-        keys: &[
+    KeySection::new(
+        "measure",
+        Role::Plain,
+        &[
             Key::optional(
                 "profile_start_height_mm",
                 "mm",
@@ -48,13 +48,12 @@ pub(super) static SECTIONS: &[KeySection] = &[
                 "Diameter D_M of the balls or pins over which a round gear is measured.",
             ),
         ],
-        groups: &[],
-        teach: "Where profiles are evaluated, and the limits that the gear must keep.",
-    },
-    KeySection {
-        path: "measure.limits",
-        role: Role::Plain,
-        keys: &[
+        "Where profiles are evaluated, and the limits that the gear must keep.",
+    ),
+    KeySection::new(
+        "measure.limits",
+        Role::Plain,
+        &[
             Key::drawn_limit("profile_total_um", "Largest total profile deviation F_alpha."),
             Key::drawn_limit("profile_form_um", "Largest profile form deviation f_f_alpha."),
             Key::drawn_limit("profile_slope_um", "Largest profile slope deviation f_H_alpha, either sign."),
@@ -81,8 +80,7 @@ pub(super) static SECTIONS: &[KeySection] = &[
                 "Largest Rz of the same lines; gives the cut-off where Ra has no limit.",
             ),
         ],
-        groups: &[],
-        teach: "Limits of the drawing. On a round gear they go before those of the class; other gears have no class, \
+        "Limits of the drawing. On a round gear they go before those of the class; other gears have no class, \
             and only these limits.",
-    },
+    ),
 ];

@@ -12,17 +12,11 @@ const fn field(name: &'static str, empty: &'static str, example: &'static str, t
 
 /// `[fields]`, `[output]` and `[report]`.
 pub(super) static SECTIONS: &[KeySection] = &[
-    KeySection {
-        path: "fields",
-        role: Role::Plain,
-        keys: &[],
-        groups: &[],
-        teach: "The dexel fields on which the cut is computed.",
-    },
-    KeySection {
-        path: "fields.flank",
-        role: Role::Plain,
-        keys: &[
+    KeySection::new("fields", Role::Plain, &[], "The dexel fields on which the cut is computed."),
+    KeySection::new(
+        "fields.flank",
+        Role::Plain,
+        &[
             Key {
                 name: "profile_spacing_um",
                 kind: Kind::Number(Range::closed(0.1, 1000.0)),
@@ -40,14 +34,13 @@ pub(super) static SECTIONS: &[KeySection] = &[
                 teach: "Distance of dexels along the tooth.",
             },
         ],
-        groups: &[],
-        teach: "Rays along the normals of the target flanks: half the spacing along the profile doubles time and \
+        "Rays along the normals of the target flanks: half the spacing along the profile doubles time and \
             memory.",
-    },
-    KeySection {
-        path: "fields.blank",
-        role: Role::Plain,
-        keys: &[
+    ),
+    KeySection::new(
+        "fields.blank",
+        Role::Plain,
+        &[
             Key {
                 name: "spacing_mm",
                 kind: Kind::Number(Range::closed(0.001, 10.0)),
@@ -69,13 +62,12 @@ pub(super) static SECTIONS: &[KeySection] = &[
                     else the face, or half of it where the guide is bent.",
             },
         ],
-        groups: &[],
-        teach: "Rays through the whole blank: material removed, gouges, interference, meshes.",
-    },
-    KeySection {
-        path: "output",
-        role: Role::Plain,
-        keys: &[
+        "Rays through the whole blank: material removed, gouges, interference, meshes.",
+    ),
+    KeySection::new(
+        "output",
+        Role::Plain,
+        &[
             Key {
                 name: "map_spacing_mm",
                 kind: Kind::Number(Range::closed(0.001, 10.0)),
@@ -135,13 +127,12 @@ pub(super) static SECTIONS: &[KeySection] = &[
                 teach: "Largest displacement on the cutter's flanks that the straight lines of a program may cause.",
             },
         ],
-        groups: &[],
-        teach: "What is written.",
-    },
-    KeySection {
-        path: "report",
-        role: Role::Plain,
-        keys: &[
+        "What is written.",
+    ),
+    KeySection::new(
+        "report",
+        Role::Plain,
+        &[
             field("part", "the name of the scene", "\"Pump gear\"", "Name of the part."),
             field("drawing", "an empty field", "\"4711-02 B\"", "Number of the drawing, with its revision."),
             field("customer", "an empty field", "\"Example Ltd\"", "For whom the gear is."),
@@ -154,7 +145,6 @@ pub(super) static SECTIONS: &[KeySection] = &[
             ),
             Key::word("paper", &["a4", "letter"], "a4", "\"letter\"", "Paper of report.pdf: A4, or US Letter."),
         ],
-        groups: &[],
-        teach: "Fields at the head of every page of report.pdf.",
-    },
+        "Fields at the head of every page of report.pdf.",
+    ),
 ];

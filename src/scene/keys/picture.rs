@@ -3,10 +3,10 @@
 use super::{Default, Key, KeySection, Kind, Range, Role};
 
 /// `[[picture]]`.
-pub(super) static SECTIONS: &[KeySection] = &[KeySection {
-    path: "picture[]",
-    role: Role::List { fewest: 0 },
-    keys: &[
+pub(super) static SECTIONS: &[KeySection] = &[KeySection::new(
+    "picture[]",
+    Role::List { fewest: 0 },
+    &[
         Key {
             name: "name",
             kind: Kind::Name,
@@ -107,7 +107,6 @@ pub(super) static SECTIONS: &[KeySection] = &[KeySection {
             teach: "Write depth, normal, value and pass id of every pixel beside the picture, as EXR.",
         },
     ],
-    groups: &[],
-    teach: "Pictures of the cut gear. A scene without this list draws the gear, tooth 1 and its left flank; picture = \
+    "Pictures of the cut gear. A scene without this list draws the gear, tooth 1 and its left flank; picture = \
         [] draws none.",
-}];
+)];

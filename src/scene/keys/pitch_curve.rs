@@ -38,7 +38,7 @@ const MEAN_RADIUS: Key = Key {
 /// A round curve, under the given path.
 const fn circle(path: &'static str) -> KeySection {
     const KEYS: &[Key] = &[];
-    KeySection { path, role: Role::Variant, keys: KEYS, groups: &[], teach: "A round gear: r = module x teeth / 2." }
+    KeySection::new(path, Role::Variant, KEYS, "A round gear: r = module x teeth / 2.")
 }
 
 /// An ellipse of order n, under the given path.
@@ -55,13 +55,12 @@ const fn ellipse(path: &'static str) -> KeySection {
             teach: "a. Leave it out, and the size is solved so that the perimeter is pi x module x teeth.",
         },
     ];
-    KeySection {
+    KeySection::new(
         path,
-        role: Role::Variant,
-        keys: KEYS,
-        groups: &[],
-        teach: "Ellipse of order n turning about its focus: r = a (1 - k^2) / (1 - k cos n phi).",
-    }
+        Role::Variant,
+        KEYS,
+        "Ellipse of order n turning about its focus: r = a (1 - k^2) / (1 - k cos n phi).",
+    )
 }
 
 /// Of every curve by a ratio.
@@ -96,25 +95,18 @@ const fn sinusoidal_ratio(path: &'static str) -> KeySection {
         },
         CENTER_DISTANCE,
     ];
-    KeySection {
+    KeySection::new(
         path,
-        role: Role::Variant,
-        keys: KEYS,
-        groups: &[],
-        teach: "Driver of a pair with the ratio i(phi) = c + b sin n phi: r = C / (1 + i).",
-    }
+        Role::Variant,
+        KEYS,
+        "Driver of a pair with the ratio i(phi) = c + b sin n phi: r = C / (1 + i).",
+    )
 }
 
 /// Pascal's limacon, under the given path.
 const fn pascal(path: &'static str) -> KeySection {
     const KEYS: &[Key] = &[ORDER, ECCENTRICITY, MEAN_RADIUS];
-    KeySection {
-        path,
-        role: Role::Variant,
-        keys: KEYS,
-        groups: &[],
-        teach: "Pascal's limacon: r = R (1 + k cos n phi).",
-    }
+    KeySection::new(path, Role::Variant, KEYS, "Pascal's limacon: r = R (1 + k cos n phi).")
 }
 
 /// A Fourier series, under the given path.
@@ -138,13 +130,12 @@ const fn fourier(path: &'static str) -> KeySection {
         },
         MEAN_RADIUS,
     ];
-    KeySection {
+    KeySection::new(
         path,
-        role: Role::Variant,
-        keys: KEYS,
-        groups: &[],
-        teach: "Any smooth curve by its harmonics: r = R (1 + sum of c_j cos j phi + s_j sin j phi).",
-    }
+        Role::Variant,
+        KEYS,
+        "Any smooth curve by its harmonics: r = R (1 + sum of c_j cos j phi + s_j sin j phi).",
+    )
 }
 
 /// The radius by a formula, under the given path.
@@ -169,13 +160,7 @@ const fn radius_formula(path: &'static str) -> KeySection {
                 that the perimeter is pi x module x teeth.",
         },
     ];
-    KeySection {
-        path,
-        role: Role::Variant,
-        keys: KEYS,
-        groups: &[],
-        teach: "Any smooth curve by a formula of its radius.",
-    }
+    KeySection::new(path, Role::Variant, KEYS, "Any smooth curve by a formula of its radius.")
 }
 
 /// The ratio by a formula, under the given path.
@@ -192,13 +177,12 @@ const fn ratio_formula(path: &'static str) -> KeySection {
         },
         CENTER_DISTANCE,
     ];
-    KeySection {
+    KeySection::new(
         path,
-        role: Role::Variant,
-        keys: KEYS,
-        groups: &[],
-        teach: "Any smooth ratio by a formula: r = C / (1 + i) of an external gear, r = C / (1 - i) of a ring.",
-    }
+        Role::Variant,
+        KEYS,
+        "Any smooth ratio by a formula: r = C / (1 + i) of an external gear, r = C / (1 - i) of a ring.",
+    )
 }
 
 /// A spline through points, under the given path.
@@ -248,14 +232,13 @@ const fn table(path: &'static str) -> KeySection {
 
 /// `[gear.pitch_curve]` and what is inside it.
 pub(super) static SECTIONS: &[KeySection] = &[
-    KeySection {
-        path: "gear.pitch_curve",
-        role: Role::Choice { default: Some("circle"), what: "pitch curve" },
-        keys: &[],
-        groups: &[],
-        teach: "Shape of the closed pitch curve r(phi) on which the tooth spaces are rolled; a space is centred on phi \
+    KeySection::new(
+        "gear.pitch_curve",
+        Role::Choice { default: Some("circle"), what: "pitch curve" },
+        &[],
+        "Shape of the closed pitch curve r(phi) on which the tooth spaces are rolled; a space is centred on phi \
             = 0.",
-    },
+    ),
     circle("gear.pitch_curve.circle"),
     ellipse("gear.pitch_curve.ellipse"),
     sinusoidal_ratio("gear.pitch_curve.sinusoidal_ratio"),
@@ -264,10 +247,10 @@ pub(super) static SECTIONS: &[KeySection] = &[
     radius_formula("gear.pitch_curve.radius_formula"),
     ratio_formula("gear.pitch_curve.ratio_formula"),
     table("gear.pitch_curve.table"),
-    KeySection {
-        path: "gear.pitch_curve.mate",
-        role: Role::Variant,
-        keys: &[
+    KeySection::new(
+        "gear.pitch_curve.mate",
+        Role::Variant,
+        &[
             Key {
                 name: "driver_teeth",
                 kind: Kind::Whole { min: 4, max: 2000 },
@@ -286,17 +269,15 @@ pub(super) static SECTIONS: &[KeySection] = &[
                 teach: "Polar angle of the driver that meets this gear's polar angle 0.",
             },
         ],
-        groups: &[],
-        teach: "The gear that runs with a driver: r2 = a - r1, for an internal gear r2 = a + r1. The distance of the \
+        "The gear that runs with a driver: r2 = a - r1, for an internal gear r2 = a + r1. The distance of the \
             axes a is solved so that the curve closes.",
-    },
-    KeySection {
-        path: "gear.pitch_curve.mate.driver",
-        role: Role::Choice { default: Some("circle"), what: "pitch curve of the driver" },
-        keys: &[],
-        groups: &[],
-        teach: "Shape of the driver's pitch curve.",
-    },
+    ),
+    KeySection::new(
+        "gear.pitch_curve.mate.driver",
+        Role::Choice { default: Some("circle"), what: "pitch curve of the driver" },
+        &[],
+        "Shape of the driver's pitch curve.",
+    ),
     circle("gear.pitch_curve.mate.driver.circle"),
     ellipse("gear.pitch_curve.mate.driver.ellipse"),
     sinusoidal_ratio("gear.pitch_curve.mate.driver.sinusoidal_ratio"),

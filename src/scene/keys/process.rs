@@ -4,13 +4,7 @@ use super::{Default, Group, Key, KeySection, Kind, Range, Role};
 
 /// `[tool]`, `[machine]` and `[[operation]]`, with what all processes read of them.
 pub(super) static SECTIONS: &[KeySection] = &[
-    KeySection {
-        path: "tool",
-        role: Role::Choice { default: None, what: "tool" },
-        keys: &[],
-        groups: &[],
-        teach: "What cuts.",
-    },
+    KeySection::new("tool", Role::Choice { default: None, what: "tool" }, &[], "What cuts."),
     KeySection { path: "machine", role: Role::Plain, keys: &[], groups: &[], teach: "The machine around the cut." },
     KeySection {
         path: "operation[]",

@@ -3,10 +3,10 @@
 use super::{Default, Key, KeySection, Kind, Range, Role};
 
 /// `[[texture]]`.
-pub(super) static SECTIONS: &[KeySection] = &[KeySection {
-    path: "texture[]",
-    role: Role::List { fewest: 0 },
-    keys: &[
+pub(super) static SECTIONS: &[KeySection] = &[KeySection::new(
+    "texture[]",
+    Role::List { fewest: 0 },
+    &[
         Key {
             name: "tooth",
             kind: Kind::Whole { min: 1, max: 2000 },
@@ -127,10 +127,9 @@ pub(super) static SECTIONS: &[KeySection] = &[KeySection {
                 file), laid over what is cut: maps, difference and parameters of both. The window is one flank.",
         },
     ],
-    groups: &[],
-    teach: "A window on a flank whose surface texture is evaluated after an operation. Without any, the active \
+    "A window on a flank whose surface texture is evaluated after an operation. Without any, the active \
         flanks of the teeth with the largest and the smallest pitch-curve radius and of tooth 3 are taken.",
-}];
+)];
 
 const fn length(name: &'static str, left_out: &'static str, example: &'static str, teach: &'static str) -> Key {
     Key {

@@ -1,17 +1,22 @@
 //! The table of quantities: a quantity is said once, its page is fresh, and no table is left out of it.
 
 use crate::fixtures::printed::stale;
-use gearcut::quantities::{groups, markdown};
+use gearcut::quantities::{groups, markdown, parameters};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::Path;
 
 #[test]
 fn no_definition_is_said_twice() {
-    let mut keys: BTreeMap<&str, Vec<&str>> = BTreeMap::new();
-    for row in groups().into_iter().flat_map(|group| group.rows) {
-        assert!(!row.key.is_empty() && !row.definition.is_empty(), "{row:?}");
-        keys.entry(row.definition).or_default().push(row.key);
+    let mut keys: BTreeMap<String, Vec<String>> = BTreeMap::new();
+    let rows = groups().into_iter().flat_map(|group| group.rows);
+    let rows = rows.map(|row| (row.key.to_owned(), row.definition.to_owned()));
+    let lists = parameters().map(|(.., list)| list);
+    assert!(lists[0].len() > 30 && lists[1].len() > 15, "the sets of ISO 25178-2 and ISO 21920-2");
+    let of_texture = lists.into_iter().flatten().map(|of| (of.symbol, of.definition));
+    for (key, definition) in rows.chain(of_texture) {
+        assert!(!key.is_empty() && !definition.is_empty(), "{key}: {definition}");
+        keys.entry(definition).or_default().push(key);
     }
     let twice: Vec<_> = keys.iter().filter(|(_, keys)| keys.len() > 1).collect();
     assert!(twice.is_empty(), "said twice: {twice:?}");

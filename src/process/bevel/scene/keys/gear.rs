@@ -15,10 +15,10 @@ const fn height(name: &'static str, example: &'static str, teach: &'static str) 
 }
 
 /// `[gear.bevel]`.
-pub(super) static SECTIONS: &[KeySection] = &[KeySection {
-    path: "gear.bevel",
-    role: Role::Plain,
-    keys: &[
+pub(super) static SECTIONS: &[KeySection] = &[KeySection::new(
+    "gear.bevel",
+    Role::Plain,
+    &[
         angle("pitch_angle_deg", "62.0", "Pitch angle, between axis and pitch cone."),
         angle("face_angle_deg", "63.5", "Face angle: of the cone of the tips."),
         angle("root_angle_deg", "59.0", "Root angle: of the cone of the roots."),
@@ -50,8 +50,7 @@ pub(super) static SECTIONS: &[KeySection] = &[KeySection {
             pinion's axis has the larger y of the gear's machine.",
         ),
     ],
-    groups: &[],
-    teach: "Cones of a bevel gear; only scenes with a face-mill head have them. gear.module_mm is the outer transverse \
+    "Cones of a bevel gear; only scenes with a face-mill head have them. gear.module_mm is the outer transverse \
         module, so that the outer cone distance is module x teeth / (2 sin pitch angle), and gear.face_width_mm is \
         measured along the pitch cone.",
-}];
+)];

@@ -25,10 +25,10 @@ const fn end(name: &'static str, unit: &'static str, example: &'static str, teac
 
 /// `[machine.cradle]`, `[machine.cradle_errors]`, `[machine.five_axis]`, `[machine.bevel_limits]`.
 pub(super) static SECTIONS: &[KeySection] = &[
-    KeySection {
-        path: "machine.cradle",
-        role: Role::Plain,
-        keys: &[
+    KeySection::new(
+        "machine.cradle",
+        Role::Plain,
+        &[
             Key {
                 name: "radial_setting_mm",
                 kind: Kind::Number(Range::above(0.0, 1000.0)),
@@ -84,13 +84,12 @@ pub(super) static SECTIONS: &[KeySection] = &[
                 "Coefficient D of the modified roll, per rad squared.",
             ),
         ],
-        groups: &[],
-        teach: "Settings of a cradle machine for bevel gears; the six-axis machine follows from them.",
-    },
-    KeySection {
-        path: "machine.cradle_errors",
-        role: Role::Plain,
-        keys: &[
+        "Settings of a cradle machine for bevel gears; the six-axis machine follows from them.",
+    ),
+    KeySection::new(
+        "machine.cradle_errors",
+        Role::Plain,
+        &[
             length("radial_setting_mm", "0.02", "Error of the radial setting."),
             Key::number(
                 "cradle_angle_deg",
@@ -106,14 +105,13 @@ pub(super) static SECTIONS: &[KeySection] = &[
             Key::number("root_angle_deg", "deg", Range::closed(-5.0, 5.0), 0.0, "0.02", "Error of the root angle."),
             Key::number("roll_ratio", "", Range::closed(-0.1, 0.1), 0.0, "0.0005", "Error of the ratio of roll."),
         ],
-        groups: &[],
-        teach: "Errors of a machine that is not set as it should be: it cuts with settings and errors together, and \
+        "Errors of a machine that is not set as it should be: it cuts with settings and errors together, and \
             the target is that of the settings alone.",
-    },
-    KeySection {
-        path: "machine.five_axis",
-        role: Role::Plain,
-        keys: &[Key::number(
+    ),
+    KeySection::new(
+        "machine.five_axis",
+        Role::Plain,
+        &[Key::number(
             "mounting_distance_mm",
             "mm",
             Range::closed(-1000.0, 1000.0),
@@ -121,13 +119,12 @@ pub(super) static SECTIONS: &[KeySection] = &[
             "100.0",
             "Mounting distance x_e from the swing axis B to the apex of the work, fixed on the machine.",
         )],
-        groups: &[],
-        teach: "The six-axis machine of bevel gears: X, Y, Z, A and B are linked, C turns the head.",
-    },
-    KeySection {
-        path: "machine.bevel_limits",
-        role: Role::Plain,
-        keys: &[
+        "The six-axis machine of bevel gears: X, Y, Z, A and B are linked, C turns the head.",
+    ),
+    KeySection::new(
+        "machine.bevel_limits",
+        Role::Plain,
+        &[
             Key::limit("x_speed_mm_per_s", "mm/s", "200.0", "Largest speed of X."),
             Key::limit("y_speed_mm_per_s", "mm/s", "200.0", "Largest speed of Y."),
             Key::limit("z_speed_mm_per_s", "mm/s", "200.0", "Largest speed of Z."),
@@ -147,10 +144,9 @@ pub(super) static SECTIONS: &[KeySection] = &[
             end("b_from_deg", "deg", "-10.0", "Smallest angle of the swing B."),
             end("b_to_deg", "deg", "100.0", "Largest angle of the swing B."),
         ],
-        groups: &[],
-        teach: "Largest speeds and accelerations of the linked axes of a six-axis bevel machine, and how far they \
+        "Largest speeds and accelerations of the linked axes of a six-axis bevel machine, and how far they \
             travel, where known. They hold for a slot's motion; the way back and the indexing are left to the control.",
-    },
+    ),
     X,
     Y,
     linear("machine.errors.z", "Errors of the slide Z, along the head's axis."),

@@ -4,10 +4,10 @@ use crate::scene::keys::machine_errors::{TOOL_WOBBLE, TOOL_WOBBLE_ANGLE};
 use crate::scene::keys::{Default, Key, KeySection, Kind, Range, Role};
 
 /// `[tool.face_mill]`.
-pub(super) static SECTIONS: &[KeySection] = &[KeySection {
-    path: "tool.face_mill",
-    role: Role::Variant,
-    keys: &[
+pub(super) static SECTIONS: &[KeySection] = &[KeySection::new(
+    "tool.face_mill",
+    Role::Variant,
+    &[
         Key::optional(
             "radius_mm",
             "mm",
@@ -84,6 +84,5 @@ pub(super) static SECTIONS: &[KeySection] = &[KeySection {
         TOOL_WOBBLE,
         TOOL_WOBBLE_ANGLE,
     ],
-    groups: &[],
-    teach: "Face-mill head with inside and outside blades in turn.",
-}];
+    "Face-mill head with inside and outside blades in turn.",
+)];

@@ -26,10 +26,10 @@ pub(super) static SECTIONS: &[KeySection] = &[
     GUIDE,
 ];
 
-const LIMITS: KeySection = KeySection {
-    path: "machine.hobbing_limits",
-    role: Role::Plain,
-    keys: &[
+const LIMITS: KeySection = KeySection::new(
+    "machine.hobbing_limits",
+    Role::Plain,
+    &[
         Key::limit("hob_speed_deg_per_s", "deg/s", "1800.0", "Largest speed of the hob spindle."),
         Key::limit("work_speed_deg_per_s", "deg/s", "120.0", "Largest speed of the work spindle."),
         Key::limit(
@@ -46,7 +46,6 @@ const LIMITS: KeySection = KeySection {
         Key::limit("tangential_acceleration_mm_per_s2", "mm/s^2", "1000.0", "Largest acceleration of X."),
         Key::limit("radial_acceleration_mm_per_s2", "mm/s^2", "1000.0", "Largest acceleration of Y."),
     ],
-    groups: &[],
-    teach: "Largest speeds and accelerations of the axes of a hobbing machine, where known. Slide and shift run at \
+    "Largest speeds and accelerations of the axes of a hobbing machine, where known. Slide and shift run at \
         constant feeds; their jumps are left to the control.",
-};
+);

@@ -101,17 +101,16 @@ pub(super) static ADDED: Addition = Addition {
 
 /// What is inside `[[operation]]`.
 pub(super) static SECTIONS: &[KeySection] = &[
-    KeySection {
-        path: "operation[].linkage",
-        role: Role::Choice { default: Some("hobbing"), what: "linkage" },
-        keys: &[],
-        groups: &[],
-        teach: "Law that moves the axes.",
-    },
-    KeySection {
-        path: "operation[].linkage.hobbing",
-        role: Role::Variant,
-        keys: &[
+    KeySection::new(
+        "operation[].linkage",
+        Role::Choice { default: Some("hobbing"), what: "linkage" },
+        &[],
+        "Law that moves the axes.",
+    ),
+    KeySection::new(
+        "operation[].linkage.hobbing",
+        Role::Variant,
+        &[
             Key::word(
                 "even_motion",
                 &["arc_length", "rotation_angle", "polar_angle"],
@@ -129,14 +128,13 @@ pub(super) static SECTIONS: &[KeySection] = &[
             ),
             FORM,
         ],
-        groups: &[],
-        teach: "Five axes: hob, work, two slides in the transverse plane and the axial slide. The papers' schemes I, \
+        "Five axes: hob, work, two slides in the transverse plane and the axial slide. The papers' schemes I, \
             III and V are even arc, work angle and polar angle with work; II, IV and VI the same with hob.",
-    },
-    KeySection {
-        path: "operation[].linkage.hobbing_diagonal",
-        role: Role::Variant,
-        keys: &[
+    ),
+    KeySection::new(
+        "operation[].linkage.hobbing_diagonal",
+        Role::Variant,
+        &[
             Key::number(
                 "shift_mm_per_revolution",
                 "mm per revolution",
@@ -187,8 +185,7 @@ pub(super) static SECTIONS: &[KeySection] = &[
             ),
             FORM,
         ],
-        groups: &[],
-        teach: "Six axes: the hob shifts along its axis while it cuts, so that all its teeth take part; conditions UL, \
+        "Six axes: the hob shifts along its axis while it cuts, so that all its teeth take part; conditions UL, \
             UR, VL and VR of the paper follow from shift_direction and gear.hand.",
-    },
+    ),
 ];

@@ -6,10 +6,10 @@ use crate::scene::keys::{Addition, Default, Key, KeySection, Kind, Range, Role};
 pub const LARGEST_CHIP_SPACING_MM: f64 = 2.0;
 
 /// `[fields.chips]`.
-pub(super) static SECTIONS: &[KeySection] = &[KeySection {
-    path: "fields.chips",
-    role: Role::Plain,
-    keys: &[Key {
+pub(super) static SECTIONS: &[KeySection] = &[KeySection::new(
+    "fields.chips",
+    Role::Plain,
+    &[Key {
         name: "spacing_mm",
         kind: Kind::Number(Range::closed(0.002, LARGEST_CHIP_SPACING_MM)),
         unit: "mm",
@@ -17,9 +17,8 @@ pub(super) static SECTIONS: &[KeySection] = &[KeySection {
         example: "0.05",
         teach: "Distance of the rays through a tooth space and of the places along the cutter's edge.",
     }],
-    groups: &[],
-    teach: "The rays on which chips are followed from stroke to stroke; half the spacing doubles the time.",
-}];
+    "The rays on which chips are followed from stroke to stroke; half the spacing doubles the time.",
+)];
 
 /// Keys of `[material]`.
 pub(super) static ADDED: Addition = Addition {

@@ -71,10 +71,10 @@ const fn compliance(name: &'static str, unit: &'static str, example: &'static st
     Key::optional(name, unit, Range::closed(0.0, 10_000.0), "rigid", example, teach)
 }
 
-const COMPLIANCE: KeySection = KeySection {
-    path: "machine.compliance",
-    role: Role::Plain,
-    keys: &[
+const COMPLIANCE: KeySection = KeySection::new(
+    "machine.compliance",
+    Role::Plain,
+    &[
         compliance(
             "tool_radial_um_per_kn",
             "um/kN",
@@ -92,15 +92,14 @@ const COMPLIANCE: KeySection = KeySection {
         compliance("work_tangential_um_per_kn", "um/kN", "4.0", "The same across it."),
         compliance("work_torsional_urad_per_nm", "urad/(N m)", "0.5", "Turn of the work spindle per torque."),
     ],
-    groups: &[],
-    teach: "How far cutter and work give way to the forces of the cut, stroke by stroke: deflected strokes leave \
+    "How far cutter and work give way to the forces of the cut, stroke by stroke: deflected strokes leave \
         other flanks. No compliance has a default: measure it, one side fixed and the other one pushed.",
-};
+);
 
-const LIMITS: KeySection = KeySection {
-    path: "machine.limits",
-    role: Role::Plain,
-    keys: &[
+const LIMITS: KeySection = KeySection::new(
+    "machine.limits",
+    Role::Plain,
+    &[
         Key::limit("work_speed_deg_per_s", "deg/s", "60.0", "Largest speed of the work spindle; 1 rpm is 6 deg/s."),
         Key::limit("cutter_speed_deg_per_s", "deg/s", "120.0", "Largest speed of the cutter spindle."),
         Key::limit("center_distance_speed_mm_per_s", "mm/s", "50.0", "Largest speed of the radial axis."),
@@ -125,7 +124,6 @@ const LIMITS: KeySection = KeySection {
                 need more than 40 kN.",
         ),
     ],
-    groups: &[],
-    teach: "Largest speeds and accelerations of the axes, with which the peaks of every operation are compared, and \
+    "Largest speeds and accelerations of the axes, with which the peaks of every operation are compared, and \
         the force of the ram.",
-};
+);

@@ -117,17 +117,16 @@ pub(super) static ADDED: Addition = Addition {
 
 /// What is inside `[[operation]]`.
 pub(super) static SECTIONS: &[KeySection] = &[
-    KeySection {
-        path: "operation[].linkage",
-        role: Role::Choice { default: Some("shaping_normal"), what: "linkage" },
-        keys: &[],
-        groups: &[],
-        teach: "Law that moves the axes. With an offset of 0 both linkages of shaping cut the same gear.",
-    },
-    KeySection {
-        path: "operation[].linkage.shaping_traditional",
-        role: Role::Variant,
-        keys: &[Key {
+    KeySection::new(
+        "operation[].linkage",
+        Role::Choice { default: Some("shaping_normal"), what: "linkage" },
+        &[],
+        "Law that moves the axes. With an offset of 0 both linkages of shaping cut the same gear.",
+    ),
+    KeySection::new(
+        "operation[].linkage.shaping_traditional",
+        Role::Variant,
+        &[Key {
             name: "direction",
             kind: Kind::Word(&["center_line", "polar_radius"]),
             unit: "",
@@ -136,14 +135,13 @@ pub(super) static SECTIONS: &[KeySection] = &[
             teach: "Direction of the offset: the machine's radial axis, or the polar radius of the pitch point (kept \
                 for comparison).",
         }],
-        groups: &[],
-        teach: "The angles of the finishing cut, the offset added to the centre distance: simple, with uneven \
+        "The angles of the finishing cut, the offset added to the centre distance: simple, with uneven \
             stock where the curvature changes.",
-    },
-    KeySection {
-        path: "operation[].linkage.shaping_normal",
-        role: Role::Variant,
-        keys: &[Key {
+    ),
+    KeySection::new(
+        "operation[].linkage.shaping_normal",
+        Role::Variant,
+        &[Key {
             name: "reading",
             kind: Kind::Word(&["corrected", "as_printed"]),
             unit: "",
@@ -152,35 +150,31 @@ pub(super) static SECTIONS: &[KeySection] = &[
             teach: "Reading of the paper's Eq. 12: with the offset in the cutter's angle, or without it as printed \
                 (wrong, kept to show what it does).",
         }],
-        groups: &[],
-        teach: "The offset along the normal of the pitch curve, so that both flanks keep even stock.",
-    },
-    KeySection {
-        path: "operation[].infeed",
-        role: Role::Choice { default: Some("spiral"), what: "infeed" },
-        keys: &[],
-        groups: &[],
-        teach: "How the cutter gets to depth. An operation with a window_deg, and one that goes no deeper than those \
+        "The offset along the normal of the pitch curve, so that both flanks keep even stock.",
+    ),
+    KeySection::new(
+        "operation[].infeed",
+        Role::Choice { default: Some("spiral"), what: "infeed" },
+        &[],
+        "How the cutter gets to depth. An operation with a window_deg, and one that goes no deeper than those \
             before it, is at depth from the first stroke on unless it says otherwise.",
-    },
-    KeySection {
-        path: "operation[].infeed.none",
-        role: Role::Variant,
-        keys: &[],
-        groups: &[],
-        teach: "At depth from the first stroke on: from the blank, that stroke takes whole tooth spaces at once.",
-    },
-    KeySection {
-        path: "operation[].infeed.plunge",
-        role: Role::Variant,
-        keys: &[depth("depth_mm", Default::Required, "6.75", DEPTH), STROKES],
-        groups: &[],
-        teach: "Radially at the start angle, without rolling.",
-    },
-    KeySection {
-        path: "operation[].infeed.spiral",
-        role: Role::Variant,
-        keys: &[
+    ),
+    KeySection::new(
+        "operation[].infeed.none",
+        Role::Variant,
+        &[],
+        "At depth from the first stroke on: from the blank, that stroke takes whole tooth spaces at once.",
+    ),
+    KeySection::new(
+        "operation[].infeed.plunge",
+        Role::Variant,
+        &[depth("depth_mm", Default::Required, "6.75", DEPTH), STROKES],
+        "Radially at the start angle, without rolling.",
+    ),
+    KeySection::new(
+        "operation[].infeed.spiral",
+        Role::Variant,
+        &[
             depth(
                 "depth_mm",
                 Default::Derived("what is left to feed, from the blank or the operation before"),
@@ -189,19 +183,17 @@ pub(super) static SECTIONS: &[KeySection] = &[
             ),
             angle(Default::Derived("a quarter turn for the whole tooth depth, less for less")),
         ],
-        groups: &[],
-        teach: "Evenly while rolling over the first part of the turn. Cut as much overlap, or the start stays shallow.",
-    },
-    KeySection {
-        path: "operation[].infeed.plunge_and_roll",
-        role: Role::Variant,
-        keys: &[
+        "Evenly while rolling over the first part of the turn. Cut as much overlap, or the start stays shallow.",
+    ),
+    KeySection::new(
+        "operation[].infeed.plunge_and_roll",
+        Role::Variant,
+        &[
             depth("plunge_depth_mm", Default::Required, "4.0", "Depth plunged at the start angle."),
             STROKES,
             depth("roll_depth_mm", Default::Required, "2.75", "Depth fed afterwards while rolling."),
             angle(Default::Required),
         ],
-        groups: &[],
-        teach: "Part by plunging, the rest while rolling.",
-    },
+        "Part by plunging, the rest while rolling.",
+    ),
 ];

@@ -25,10 +25,10 @@ const SPEEDS: Range = Range::closed(0.0, 1000.0);
 
 /// `[tool.shaper_cutter]` and what is inside it.
 pub(super) static SECTIONS: &[KeySection] = &[
-    KeySection {
-        path: "tool.shaper_cutter",
-        role: Role::Variant,
-        keys: &[
+    KeySection::new(
+        "tool.shaper_cutter",
+        Role::Variant,
+        &[
             Key {
                 name: "teeth",
                 kind: Kind::Whole { min: 5, max: 300 },
@@ -107,9 +107,8 @@ pub(super) static SECTIONS: &[KeySection] = &[
                     one value per tooth, or none.",
             },
         ],
-        groups: &[],
-        teach: "Shaper cutter by its profile projected on the transverse plane.",
-    },
+        "Shaper cutter by its profile projected on the transverse plane.",
+    ),
     KeySection {
         path: EDGE_ROUGHNESS,
         role: Role::Plain,
@@ -151,10 +150,10 @@ pub(super) static SECTIONS: &[KeySection] = &[
         groups: &[Group { names: &["rq_um", "profile"], required: false }],
         teach: "Roughness of the cutter's edges along its flanks: every stroke copies what touches the gear.",
     },
-    KeySection {
-        path: EDGE_ROUNDING,
-        role: Role::Plain,
-        keys: &[
+    KeySection::new(
+        EDGE_ROUNDING,
+        Role::Plain,
+        &[
             Key::optional(
                 "radius_um",
                 "um",
@@ -180,14 +179,13 @@ pub(super) static SECTIONS: &[KeySection] = &[
                 teach: "Share of what is ploughed that springs back behind the edge; the rest stays pressed down.",
             },
         ],
-        groups: &[],
-        teach: "Rounding of the cutter's edges: strokes that meet less than a thinnest chip cut nothing. Flanks, roots \
+        "Rounding of the cutter's edges: strokes that meet less than a thinnest chip cut nothing. Flanks, roots \
             and tips are then followed in strict order of strokes.",
-    },
-    KeySection {
-        path: BUILT_UP_EDGE,
-        role: Role::Plain,
-        keys: &[
+    ),
+    KeySection::new(
+        BUILT_UP_EDGE,
+        Role::Plain,
+        &[
             Key::optional(
                 "density_per_mm2",
                 "1/mm^2",
@@ -264,28 +262,20 @@ pub(super) static SECTIONS: &[KeySection] = &[
                 "Mean length of scratches along the stroke.",
             ),
         ],
-        groups: &[],
-        teach: "Pits and scratches that fragments of a built-up edge tear into flanks (docs/edge.md). No key has a \
+        "Pits and scratches that fragments of a built-up edge tear into flanks (docs/edge.md). No key has a \
             default. Which marks, machine.errors.seed says.",
-    },
-    KeySection {
-        path: "tool.shaper_cutter.tip",
-        role: Role::Choice { default: Some("sharp"), what: "tip" },
-        keys: &[],
-        groups: &[],
-        teach: "Shape of the cutter's tip corners, which form the gear's root fillets.",
-    },
-    KeySection {
-        path: "tool.shaper_cutter.tip.sharp",
-        role: Role::Variant,
-        keys: &[],
-        groups: &[],
-        teach: "Sharp corners.",
-    },
-    KeySection {
-        path: "tool.shaper_cutter.tip.round",
-        role: Role::Variant,
-        keys: &[Key {
+    ),
+    KeySection::new(
+        "tool.shaper_cutter.tip",
+        Role::Choice { default: Some("sharp"), what: "tip" },
+        &[],
+        "Shape of the cutter's tip corners, which form the gear's root fillets.",
+    ),
+    KeySection::new("tool.shaper_cutter.tip.sharp", Role::Variant, &[], "Sharp corners."),
+    KeySection::new(
+        "tool.shaper_cutter.tip.round",
+        Role::Variant,
+        &[Key {
             name: "radius_mm",
             kind: Kind::Number(Range::above(0.0, 50.0)),
             unit: "mm",
@@ -294,13 +284,12 @@ pub(super) static SECTIONS: &[KeySection] = &[
             teach: "Radius of the round; about 0.2 modules is common. The tip of a full-depth cutter of 20 deg has \
                 room for 0.25 modules with 14 teeth, for 0.34 with 20, and for the 0.38 of ISO 53 from 27 on.",
         }],
-        groups: &[],
-        teach: "Round tangent to flank and tip circle.",
-    },
-    KeySection {
-        path: "tool.shaper_cutter.tip.chamfer",
-        role: Role::Variant,
-        keys: &[
+        "Round tangent to flank and tip circle.",
+    ),
+    KeySection::new(
+        "tool.shaper_cutter.tip.chamfer",
+        Role::Variant,
+        &[
             Key {
                 name: "height_mm",
                 kind: Kind::Number(Range::above(0.0, 50.0)),
@@ -318,7 +307,6 @@ pub(super) static SECTIONS: &[KeySection] = &[
                 teach: "Angle of the chamfer against the centre line of the tooth.",
             },
         ],
-        groups: &[],
-        teach: "Straight chamfer between flank and tip circle.",
-    },
+        "Straight chamfer between flank and tip circle.",
+    ),
 ];
