@@ -115,8 +115,8 @@ impl InspectionSheet {
         let place = ChartBox { x: LEFT, y: top + 160.0, width: half, height: 60.0 };
         runout.frame(page, place, "Runout Fr: probe in the space after each tooth [µm]");
         runout.bars(page, place, &self.runout_um);
-        self.table(page, MIDDLE + GAP, top + 162.0);
-        top + 160.0 + 60.0 + 32.0
+        let table = self.table(page, MIDDLE + GAP, top + 162.0);
+        table.max(top + 160.0 + 60.0) + 32.0
     }
 
     /// Both signs of the limit of single pitch deviations.
@@ -124,7 +124,8 @@ impl InspectionSheet {
         self.single_pitch_limit_um.map_or_else(Vec::new, |limit| vec![-limit, limit])
     }
 
-    fn table(&self, page: &mut VectorPage, x: f64, top: f64) {
+    /// Figures with limits; where they end.
+    fn table(&self, page: &mut VectorPage, x: f64, top: f64) -> f64 {
         let ends = [0.0, 78.0, 118.0, 158.0, 205.0, RIGHT - x];
         let heads = ["[µm]", "left", "right", "limit", "class", "verdict"];
         let row = |page: &mut VectorPage, y: f64, cells: [&str; 6], inks: [Ink; 2]| {
@@ -141,6 +142,7 @@ impl InspectionSheet {
             let ink = if figure.fails { Ink::Red } else { Ink::Black };
             row(page, y, figure.cells.each_ref().map(String::as_str), [Ink::Black, ink]);
         }
+        top + 10.5 + 8.6 * self.figures.len().saturating_sub(1) as f64
     }
 
     fn foot(&self, page: &mut VectorPage, top: f64) {

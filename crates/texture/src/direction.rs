@@ -13,6 +13,7 @@
 
 use crate::error::TextureError;
 use rayon::prelude::*;
+use std::ops::Range;
 
 use super::spectrum::PowerSpectrum;
 use super::surface::Surface;
@@ -27,8 +28,6 @@ const LINES: usize = 32;
 /// Lines across the directions near one axis.
 struct Fan<'a> {
     spectrum: &'a PowerSpectrum,
-    /// Frequencies from 0 along x.
-    half: usize,
     /// Steps of frequency from line to line, and from cell to cell along a line, 1/um.
     steps: [f64; 2],
     /// Lines of this fan, the first with frequency 1.
@@ -42,42 +41,43 @@ struct Fan<'a> {
 }
 
 impl Fan<'_> {
-    /// Power of a cell, counted from the axis.
-    fn power(&self, number: usize, offset: i64) -> f64 {
-        let [across, along] = self.steps;
-        let (distance, place) = (number as f64 * across, offset as f64 * along);
-        if distance * distance + place * place > self.reach * self.reach {
-            return 0.0;
-        }
-        // Opposite frequencies are one wave.
-        let (fx, fy) = if self.along_y { (offset, number as i64) } else { (number as i64, offset) };
-        let (fx, fy) = if fx < 0 { (-fx, -fy) } else { (fx, fy) };
-        if fx as usize >= self.half {
-            return 0.0;
-        }
-        let ny = self.spectrum.ny;
-        self.spectrum.power[fx as usize * ny + if fy < 0 { ny - (-fy) as usize } else { fy as usize }]
-    }
-
     /// Cells on either side of the axis that directions up to 45 deg cross.
     fn side(&self, number: usize) -> usize {
         let [across, along] = self.steps;
         ((number as f64 * across / along) as usize + 1).min(self.cells)
     }
 
-    /// Power of the cells of some lines, from one end to the other, each line as long as the last.
-    fn block(&self, numbers: std::ops::Range<usize>) -> Vec<f64> {
+    /// Cells on either side of the axis that lie within reach; none, where not even the axis does.
+    fn within(&self, number: usize) -> Option<usize> {
+        let [across, along] = self.steps;
+        let (distance, reach) = (number as f64 * across, self.reach);
+        (distance <= reach).then(|| ((reach * reach - distance * distance).sqrt() / along) as usize)
+    }
+
+    /// Power of the cells of some lines, from one end to the other, each line as long as the last; beyond reach zero.
+    fn block(&self, numbers: Range<usize>) -> Vec<f64> {
         let side = self.side(numbers.end - 1);
-        let width = 2 * side + 1;
+        let (ny, width) = (self.spectrum.ny, 2 * side + 1);
         let mut block = vec![0.0; numbers.len() * width];
-        let mut take = |number: usize, cell: usize| {
-            block[(number - numbers.start) * width + cell] = self.power(number, cell as i64 - side as i64);
-        };
-        // As the spectrum lies in memory.
+        let column = |fx: usize| &self.spectrum.power[fx * ny..(fx + 1) * ny];
+        let ends = numbers.clone().map_while(|number| Some(self.within(number)?.min(side)));
         if self.along_y {
-            (0..width).for_each(|cell| numbers.clone().for_each(|number| take(number, cell)));
+            // As the spectrum lies in memory; opposite frequencies are one wave.
+            let ends: Vec<usize> = ends.collect();
+            for cell in 0..=side {
+                let power = column(cell);
+                let within = ends.partition_point(|end| *end >= cell);
+                for (row, fy) in block.chunks_exact_mut(width).zip(numbers.clone()).take(within) {
+                    row[side - cell] = power[ny - fy];
+                    row[side + cell] = power[fy];
+                }
+            }
         } else {
-            numbers.clone().for_each(|number| (0..width).for_each(|cell| take(number, cell)));
+            for ((row, fx), end) in block.chunks_exact_mut(width).zip(numbers).zip(ends) {
+                let power = column(fx);
+                row[side - end..side].copy_from_slice(&power[ny - end..]);
+                row[side..=side + end].copy_from_slice(&power[..=end]);
+            }
         }
         block
     }
@@ -130,6 +130,18 @@ impl Fan<'_> {
         sums
     }
 
+    /// Power of a cell, counted from the axis.
+    fn power(&self, number: usize, offset: i64) -> f64 {
+        if self.within(number).is_none_or(|end| offset.unsigned_abs() as usize > end) {
+            return 0.0;
+        }
+        // Opposite frequencies are one wave.
+        let (fx, fy) = if self.along_y { (offset, number as i64) } else { (number as i64, offset) };
+        let (fx, fy) = if fx < 0 { (-fx, -fy) } else { (fx, fy) };
+        let ny = self.spectrum.ny;
+        self.spectrum.power[fx as usize * ny + if fy < 0 { ny - (-fy) as usize } else { fy as usize }]
+    }
+
     /// Mean direction of the cells between two tangents by the squares of their power, deg.
     fn mean_deg(&self, tangents: [f64; 2]) -> f64 {
         let [across, along] = self.steps;
@@ -157,8 +169,8 @@ pub(crate) fn direction_deg(spectrum: &PowerSpectrum, surface: &Surface) -> Resu
     let [x, y] = [surface.nx() as f64 * surface.dx_um(), ny as f64 * surface.dy_um()].map(|length_um| 1.0 / length_um);
     let reach = 0.5 / surface.dx_um().max(surface.dy_um());
     let middle = (ny - 1) / 2;
-    let near_x = Fan { spectrum, half, steps: [x, y], lines: half - 1, cells: ny / 2, reach, along_y: false };
-    let near_y = Fan { spectrum, half, steps: [y, x], lines: middle.max(1), cells: half - 1, reach, along_y: true };
+    let near_x = Fan { spectrum, steps: [x, y], lines: half - 1, cells: ny / 2, reach, along_y: false };
+    let near_y = Fan { spectrum, steps: [y, x], lines: middle.max(1), cells: half - 1, reach, along_y: true };
     let fans = [&near_x, &near_y];
     let tangents: Vec<f64> = (0..=CLASSES).map(|class| (class as f64 / PER_DEG - 45.0).to_radians().tan()).collect();
     let classes = fans.map(|fan| fan.classes(&tangents));

@@ -22,7 +22,7 @@ use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
 use std::f64::consts::{LN_2, PI};
 use std::sync::Arc;
 
-use super::columns::{by_columns, transposed};
+use super::columns::TurnedMap;
 use super::surface::Surface;
 
 /// The weights end at this many nesting indices, where they are 7e-7 of the middle one.
@@ -118,8 +118,8 @@ impl Filter {
     fn apply(&self, surface: &Surface, weights: Option<&[f64]>) -> Vec<f64> {
         let (nx, ny) = (surface.nx(), surface.ny());
         let weights_of = |y: usize| weights.map(|weights| &weights[y * nx..(y + 1) * nx]);
-        // Along x: sums of the weighted heights, column by column.
-        let [mut z, zx] = by_columns(
+        // Along x: sums of the weighted heights.
+        let sums: TurnedMap<f64, 2> = TurnedMap::of(
             [nx, ny],
             || self.x.buffers(),
             |buffers, y, sums| {
@@ -134,7 +134,7 @@ impl Filter {
         );
         let moments = match weights {
             None => Moments::of_rectangle(self),
-            Some(weights) => Moments::OfWeights(by_columns(
+            Some(weights) => Moments::OfWeights(TurnedMap::of(
                 [nx, ny],
                 || self.x.buffers(),
                 |buffers, y, sums| {
@@ -142,20 +142,24 @@ impl Filter {
                 },
             )),
         };
-        // Down every column, whose place takes the result.
-        z.par_chunks_mut(ny).zip(zx.par_chunks(ny)).enumerate().for_each_init(
-            || self.y.buffers(),
-            |buffers, (x, (z, zx))| {
-                let [sum, sum_y] = self.y.sums(buffers, z.iter().copied());
-                let [sum_x] = self.y.sums(buffers, zx.iter().copied());
-                let moments = moments.column(&self.y, buffers, x);
-                for (y, value) in z.iter_mut().enumerate() {
+        // Down every column.
+        let planes: TurnedMap<f64, 1> = TurnedMap::of(
+            [ny, nx],
+            || (self.y.buffers(), vec![0.0; ny]),
+            |(buffers, column), x, [plane]| {
+                sums.read(0, x, column);
+                let [sum, sum_y] = self.y.sums(buffers, column.iter().copied());
+                sums.read(1, x, column);
+                let [sum_x] = self.y.sums(buffers, column.iter().copied());
+                let moments = moments.column(&self.y, buffers, column, x);
+                for (y, value) in plane.iter_mut().enumerate() {
                     *value = plane_at_middle(moments.each_ref().map(|of| of[y]), [sum[y], sum_x[y], sum_y[y]]);
                 }
             },
         );
-        drop(zx);
-        let mut heights = transposed(&z, ny, nx);
+        drop(sums);
+        let mut heights = vec![0.0; nx * ny];
+        heights.par_chunks_mut(nx).enumerate().for_each(|(y, row)| planes.read(0, y, row));
         for (value, z) in heights.iter_mut().zip(surface.heights_um()).filter(|(_, z)| z.is_nan()) {
             *value = *z;
         }
@@ -179,8 +183,8 @@ fn plane_at_middle([m, mx, my, mxx, mxy, myy]: [f64; 6], [z, zx, zy]: [f64; 3]) 
 enum Moments {
     /// All weights are 1: products of moments along the axes.
     Rectangle { x: [Vec<f64>; 3], y: [Vec<f64>; 3] },
-    /// Moments along x, column by column.
-    OfWeights([Vec<f64>; 3]),
+    /// Moments along x.
+    OfWeights(TurnedMap<f64, 3>),
 }
 
 impl Moments {
@@ -190,18 +194,19 @@ impl Moments {
     }
 
     /// 1, x, y, x^2, x y, y^2 down column `x`.
-    fn column(&self, along_y: &LineKernels, buffers: &mut LineBuffers, x: usize) -> [Vec<f64>; 6] {
+    fn column(&self, along_y: &LineKernels, buffers: &mut LineBuffers, line: &mut [f64], x: usize) -> [Vec<f64>; 6] {
         match self {
             Self::Rectangle { x: along_x, y } => {
                 let product = |p: usize, q: usize| y[q].iter().map(|moment| along_x[p][x] * moment).collect();
                 [product(0, 0), product(1, 0), product(0, 1), product(2, 0), product(1, 1), product(0, 2)]
             }
             Self::OfWeights(along_x) => {
-                let ny = along_y.count;
-                let column = |power: usize| along_x[power][x * ny..(x + 1) * ny].iter().copied();
-                let [m, my, myy] = along_y.sums(buffers, column(0));
-                let [mx, mxy] = along_y.sums(buffers, column(1));
-                let [mxx] = along_y.sums(buffers, column(2));
+                along_x.read(0, x, line);
+                let [m, my, myy] = along_y.sums(buffers, line.iter().copied());
+                along_x.read(1, x, line);
+                let [mx, mxy] = along_y.sums(buffers, line.iter().copied());
+                along_x.read(2, x, line);
+                let [mxx] = along_y.sums(buffers, line.iter().copied());
                 [m, mx, my, mxx, mxy, myy]
             }
         }

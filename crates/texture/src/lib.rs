@@ -14,13 +14,14 @@
 //! - `disk_steps`: the steps on the disk by which files come to be, where tests may refuse them
 //! - [`atomic`]: files that are complete or absent
 //! - [`surface`]: heights on a grid with holes
-//! - `columns`: lines laid down as columns
+//! - `columns`: lines read as columns
 //! - [`height_steps`]: how coarse the steps of an instrument's heights are
 //! - [`form`]: the F-operator
 //! - [`gaussian`]: S- and L-filter
 //! - [`chain`]: form removal, filters and crop, one after the other
 //! - [`height`]: Sa Sq Ssk Sku Sp Sv Sz
 //! - [`hybrid`]: Sdq Sdr
+//! - `sorting`: heights sorted downwards, or single ones of them
 //! - [`ratio`]: Smr Smc Sdc Sxp Vm Vv Vmp Vmc Vvc Vvv
 //! - [`core`]: Sk Spk Svk Smrk1 Smrk2 Spkx Svkx Sak1 Sak2
 //! - [`probability`]: Spq Svq Smq
@@ -127,6 +128,7 @@ pub mod profile;
 pub mod profile_chain;
 pub mod ratio;
 pub mod setting_class;
+mod sorting;
 pub mod spatial;
 mod spectrum;
 pub mod surface;

@@ -1,88 +1,89 @@
 //! The areal material ratio curve (Abbott curve) and what is read from it: Smr(c), Smc(p), Sdc, Sxp, Vm(p), Vv(p).
 //!
 //! Heights sorted downwards are the curve itself: height k of N stands at the ratio (k + 1/2) / N, straight lines
-//! between. No histogram: equal classes of height would cost about a per cent that more classes do not give back.
+//! between. No histogram: equal classes of height would cost about a per cent that more classes do not give back. The
+//! whole curve needs all heights sorted; a single Smc(p) or Smr(c) does not, and has a function of its own.
 
+use super::sorting::{HeightSelection, measured, sorted};
 use super::surface::Surface;
 use rayon::prelude::*;
 
 /// Samples summed at a time.
 const CHUNK: usize = 1 << 16;
-/// Heights laid into classes at a time.
-const PART: usize = 1 << 18;
-/// Heights of a class on average: few enough to be sorted in the nearest cache.
-const IN_A_CLASS: usize = 256;
-/// Sign of a float among its bits.
-const SIGN: u64 = 1 << 63;
-
-/// Whole number that is the smaller the higher a point stands: whole numbers are sorted faster than floats.
-fn key(height: f64) -> u64 {
-    let bits = height.to_bits();
-    if height.is_sign_negative() { bits } else { !(bits | SIGN) }
+/// Smc(p) at some material ratios alone, um: the numbers of [`MaterialRatio::smc_um`] without sorting more heights than
+/// those of their classes.
+pub fn smc_um<const N: usize>(surface: &Surface, percent: [f64; N]) -> [f64; N] {
+    let level_um = surface.mean_um();
+    let mut selection = HeightSelection::of(surface.heights_um(), surface.ends_um());
+    let count = selection.count();
+    percent.map(|percent| between_um(percent, count, |index| selection.nth_um(index) - level_um))
 }
 
-/// Height of a key.
-fn height(key: u64) -> f64 {
-    f64::from_bits(if key & SIGN != 0 { key } else { !key & !SIGN })
+/// Smr(c) alone, per cent: the number of [`MaterialRatio::smr_percent`] by counting.
+pub fn smr_percent(surface: &Surface, height_um: f64) -> f64 {
+    let level_um = surface.mean_um();
+    let of_part = |part: &[f64]| {
+        measured(part).map(|z| z - level_um).fold(HeightsBeside::default(), |beside, z| beside.with(z, height_um))
+    };
+    let beside = surface.heights_um().par_chunks(CHUNK).map(of_part).reduce(HeightsBeside::default, HeightsBeside::and);
+    beside.ratio_percent(height_um)
 }
 
-/// Keys of some heights, class after class.
-struct ClassedKeys {
-    keys: Vec<u64>,
-    /// Where every class begins, and where the last ends.
-    starts: Vec<usize>,
+/// Heights above and below a level.
+#[derive(Clone, Copy)]
+struct HeightsBeside {
+    /// How many are at it or above, and how many below.
+    counts: [usize; 2],
+    /// The lowest of the former.
+    upper_um: f64,
+    /// The highest of the latter.
+    lower_um: f64,
 }
 
-impl ClassedKeys {
-    fn of(heights_um: &[f64], classes: usize, class: impl Fn(f64) -> usize) -> Self {
-        let measured = || heights_um.iter().copied().filter(|z| !z.is_nan());
-        let mut starts = vec![0; classes + 1];
-        measured().for_each(|z| starts[class(z) + 1] += 1);
-        for i in 0..classes {
-            starts[i + 1] += starts[i];
-        }
-        let mut next = starts.clone();
-        let mut keys = vec![0; starts[classes]];
-        for z in measured() {
-            let place = &mut next[class(z)];
-            keys[*place] = key(z);
-            *place += 1;
-        }
-        Self { keys, starts }
-    }
-
-    fn class(&self, class: usize) -> &[u64] {
-        &self.keys[self.starts[class]..self.starts[class + 1]]
+impl Default for HeightsBeside {
+    fn default() -> Self {
+        Self { counts: [0; 2], upper_um: f64::INFINITY, lower_um: f64::NEG_INFINITY }
     }
 }
 
-/// Heights over `level_um`, sorted downwards; holes are left out. Classes of equal height part them, so that each is
-/// sorted by itself: heights that all lie in a few of them take no longer than sorting without classes.
-fn sorted(heights_um: &[f64], [low, high]: [f64; 2], level_um: f64) -> Vec<f64> {
-    let classes = (heights_um.len() / IN_A_CLASS).clamp(1, 1 << 14);
-    let per_um = if high > low { classes as f64 / (high - low) } else { 0.0 };
-    let class = |z: f64| (((high - z) * per_um) as usize).min(classes - 1);
-    let parts: Vec<ClassedKeys> =
-        heights_um.par_chunks(PART).map(|part| ClassedKeys::of(part, classes, class)).collect();
-    let mut sorted_um = vec![0.0; parts.iter().map(|part| part.keys.len()).sum()];
-    let mut rest = sorted_um.as_mut_slice();
-    let mut places = Vec::with_capacity(classes);
-    for class in 0..classes {
-        let (place, after) = rest.split_at_mut(parts.iter().map(|part| part.class(class).len()).sum());
-        places.push(place);
-        rest = after;
+impl HeightsBeside {
+    fn with(self, z: f64, level_um: f64) -> Self {
+        let [above, below] = self.counts;
+        if z >= level_um {
+            Self { counts: [above + 1, below], upper_um: self.upper_um.min(z), ..self }
+        } else {
+            Self { counts: [above, below + 1], lower_um: self.lower_um.max(z), ..self }
+        }
     }
-    places.into_par_iter().enumerate().for_each_init(Vec::new, |keys, (class, place)| {
-        keys.clear();
-        for part in &parts {
-            keys.extend_from_slice(part.class(class));
+
+    fn and(self, other: Self) -> Self {
+        Self {
+            counts: [0, 1].map(|side| self.counts[side] + other.counts[side]),
+            upper_um: self.upper_um.min(other.upper_um),
+            lower_um: self.lower_um.max(other.lower_um),
         }
-        keys.sort_unstable();
-        for (z, &key) in place.iter_mut().zip(keys.iter()) {
-            *z = height(key) - level_um;
+    }
+
+    /// Smr at the level.
+    fn ratio_percent(self, level_um: f64) -> f64 {
+        match self.counts {
+            [0, _] => 0.0,
+            [_, 0] => 100.0,
+            [above, below] => {
+                let part = (self.upper_um - level_um) / (self.upper_um - self.lower_um);
+                100.0 * (above as f64 - 0.5 + part) / (above + below) as f64
+            }
         }
-    });
-    sorted_um
+    }
+}
+
+/// Height at a material ratio of `count` heights, of which `nth_um` gives the one of an index downwards.
+fn between_um(percent: f64, count: usize, mut nth_um: impl FnMut(usize) -> f64) -> f64 {
+    let last = count - 1;
+    let index = (percent / 100.0 * count as f64 - 0.5).clamp(0.0, last as f64);
+    let low = index.floor() as usize;
+    let (upper, lower) = (nth_um(low), nth_um((low + 1).min(last)));
+    upper + (index - low as f64) * (lower - upper)
 }
 
 /// Heights sorted downwards, um.
@@ -125,31 +126,16 @@ impl MaterialRatio {
 
     /// Smc(p): height at which the material ratio is `percent`, um.
     pub fn smc_um(&self, percent: f64) -> f64 {
-        self.height_at_um(percent / 100.0 * self.sorted_um.len() as f64 - 0.5)
-    }
-
-    /// Height at a fractional index of the sorted heights.
-    pub(crate) fn height_at_um(&self, index: f64) -> f64 {
-        let last = self.sorted_um.len() - 1;
-        let index = index.clamp(0.0, last as f64);
-        let low = index.floor() as usize;
-        let high = (low + 1).min(last);
-        self.sorted_um[low] + (index - low as f64) * (self.sorted_um[high] - self.sorted_um[low])
+        between_um(percent, self.sorted_um.len(), |index| self.sorted_um[index])
     }
 
     /// Smr(c): share of the area where material stands at or above `height_um`, per cent.
     pub fn smr_percent(&self, height_um: f64) -> f64 {
         let n = self.sorted_um.len();
         let above = self.sorted_um.partition_point(|&z| z >= height_um);
-        if above == 0 {
-            return 0.0;
-        }
-        if above == n {
-            return 100.0;
-        }
-        let (upper, lower) = (self.sorted_um[above - 1], self.sorted_um[above]);
-        let part = (upper - height_um) / (upper - lower);
-        100.0 * (above as f64 - 0.5 + part) / n as f64
+        let at = |index: Option<usize>| index.and_then(|index| self.sorted_um.get(index)).map_or(f64::NAN, |z| *z);
+        let (upper_um, lower_um) = (at(above.checked_sub(1)), at(Some(above)));
+        HeightsBeside { counts: [above, n - above], upper_um, lower_um }.ratio_percent(height_um)
     }
 
     /// Vm(p): material above the height at `percent`, per unit area, um.
@@ -191,5 +177,34 @@ impl MaterialRatio {
         };
         let ends = part(first.wrapping_sub(1), first as f64 - from) + part(end, to - end as f64);
         (whole.iter().sum::<f64>() + ends) / n
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Selected and counted heights are those of the sorted ones to the last digit: with holes, with many equal
+    /// heights, with one far away from all others, and where all are equal.
+    #[test]
+    fn a_parameter_alone_is_that_of_the_curve() {
+        let waves = |i: usize| (0.37 * i as f64).sin() + 0.2 * (0.011 * i as f64).cos();
+        let cases: [fn(usize, f64) -> f64; 5] = [
+            |_, wave| wave,
+            |i, wave| if i % 7 == 3 { f64::NAN } else { wave },
+            |_, wave| (3.0 * wave).round(),
+            |i, wave| if i == 77 { 1e5 } else { wave },
+            |_, _| 0.25,
+        ];
+        for (case, height) in cases.into_iter().enumerate() {
+            let heights = (0..600 * 500).map(|i| height(i, waves(i))).collect();
+            let surface = Surface::new(600, 500, 1.0, 1.0, heights).expect("a grid");
+            let curve = MaterialRatio::of(&surface);
+            let percent = [0.0, 2.5, 10.0, 50.0, 80.0, 99.99, 100.0];
+            assert_eq!(smc_um(&surface, percent), percent.map(|percent| curve.smc_um(percent)), "case {case}");
+            for height_um in [-2e5, -1.0, -0.3, 0.0, 0.011, 0.8, 2e5] {
+                assert_eq!(smr_percent(&surface, height_um), curve.smr_percent(height_um), "case {case}: {height_um}");
+            }
+        }
     }
 }

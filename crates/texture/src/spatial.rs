@@ -9,7 +9,7 @@
 //! whole waves in the window can tell.
 
 use super::direction::direction_deg;
-use super::spectrum::{PowerSpectrum, Products, power, products};
+use super::spectrum::{Products, Wave, largest_wave, power, products};
 use super::surface::Surface;
 use crate::error::TextureError;
 use rayon::prelude::*;
@@ -38,8 +38,8 @@ impl Spatial {
             return Self { sal: none(), str: none(), std: none(), ssw: none() };
         }
         let (sal, str) = correlation_lengths(surface);
-        let [std, ssw] = match spectrum(surface) {
-            Ok(power) => [direction_deg(&power, surface), wavelength_um(&power, surface)],
+        let [std, ssw] = match whole(surface).map(power) {
+            Ok(power) => [direction_deg(&power, surface), wavelength_um(power.largest_wave(), surface)],
             Err(why) => [Err(why.clone()), Err(why)],
         };
         Self { sal, str, std, ssw }
@@ -67,7 +67,7 @@ pub fn correlation_lengths(surface: &Surface) -> (Result<f64, TextureError>, Res
 /// # Errors
 /// Holes.
 pub fn std_deg(surface: &Surface) -> Result<f64, TextureError> {
-    direction_deg(&spectrum(surface)?, surface)
+    direction_deg(&power(whole(surface)?), surface)
 }
 
 /// Ssw alone, um, of a surface that is not flat.
@@ -75,12 +75,13 @@ pub fn std_deg(surface: &Surface) -> Result<f64, TextureError> {
 /// # Errors
 /// Holes.
 pub fn ssw_um(surface: &Surface) -> Result<f64, TextureError> {
-    wavelength_um(&spectrum(surface)?, surface)
+    wavelength_um(largest_wave(whole(surface)?), surface)
 }
 
-fn spectrum(surface: &Surface) -> Result<PowerSpectrum, TextureError> {
+/// A surface without holes.
+fn whole(surface: &Surface) -> Result<&Surface, TextureError> {
     match surface.holes() {
-        0 => Ok(power(surface)),
+        0 => Ok(surface),
         holes => Err(TextureError::HolesInSpectrum { holes }),
     }
 }
@@ -193,22 +194,14 @@ fn distance_to_segment(p: [f64; 2], q: [f64; 2]) -> f64 {
     (p[0] + along * dx).hypot(p[1] + along * dy)
 }
 
-/// Frequencies of a value of the spectrum along x and y, 1/um.
-fn frequency(spectrum: &PowerSpectrum, surface: &Surface, index: usize) -> [f64; 2] {
-    let ny = spectrum.ny;
-    let (fx, fy) = (index / ny, index % ny);
-    let signed = if fy <= ny / 2 { fy as f64 } else { fy as f64 - ny as f64 };
-    [fx as f64 / (surface.nx() as f64 * surface.dx_um()), signed / (ny as f64 * surface.dy_um())]
-}
-
 /// Ssw. The mean has no power: it was taken off.
-fn wavelength_um(spectrum: &PowerSpectrum, surface: &Surface) -> Result<f64, TextureError> {
-    let waves = spectrum.power.par_iter().enumerate().skip(1);
-    // Opposite frequencies on fx = 0 are equal but for rounding; the first of equals wins on any number of threads.
-    let largest = waves.reduce(|| (0, &0.0), |a, b| if b.1 > a.1 || (b.1 == a.1 && b.0 < a.0) { b } else { a });
-    if *largest.1 == 0.0 {
+fn wavelength_um(wave: Wave, surface: &Surface) -> Result<f64, TextureError> {
+    if wave.power == 0.0 {
         return Err(TextureError::NoWaves);
     }
-    let [x, y] = frequency(spectrum, surface, largest.0);
-    Ok(1.0 / x.hypot(y))
+    let ny = surface.ny();
+    let (fx, fy) = (wave.place / ny, wave.place % ny);
+    let fy = if fy <= ny / 2 { fy as f64 } else { fy as f64 - ny as f64 };
+    let frequency = (fx as f64 / (surface.nx() as f64 * surface.dx_um())).hypot(fy / (ny as f64 * surface.dy_um()));
+    Ok(1.0 / frequency)
 }

@@ -9,14 +9,17 @@
 
 use rayon::prelude::*;
 use realfft::RealFftPlanner;
-use rustfft::FftPlanner;
 use rustfft::num_complex::Complex;
+use rustfft::{Fft, FftPlanner};
+use std::sync::Arc;
 
-use super::columns::by_columns;
+use super::columns::TurnedMap;
 use super::surface::Surface;
 
-/// Rows transformed back at a time.
-const ROWS: usize = 8;
+/// What rounding may add to a wave beyond the sum over its column.
+const ROUNDING: f64 = 1e-9;
+/// Columns searched at once; fixed, although the number of threads would not change what is found.
+const AT_ONCE: usize = 16;
 
 /// Sums of products over lags (tx, ty): ty from 0 upwards, tx from -(nx - 1) to nx - 1.
 pub(crate) struct Products {
@@ -36,11 +39,37 @@ pub(crate) struct PowerSpectrum {
     pub power: Vec<f64>,
 }
 
-/// Lines along y of the transform along x, padded with zeros to `mx` values, of heights over `level_um`; holes count as
-/// that level. One line of `ny` values for each frequency from 0 to `mx` / 2.
-fn transformed_along_x(surface: &Surface, mx: usize, level_um: f64) -> Vec<Complex<f64>> {
+impl PowerSpectrum {
+    /// The wave with the most power.
+    pub fn largest_wave(&self) -> Wave {
+        let waves = self.power.par_iter().enumerate().map(|(place, &power)| Wave { place, power });
+        waves.reduce(Wave::default, Wave::larger)
+    }
+}
+
+/// One value of the spectrum.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(crate) struct Wave {
+    /// Where it stands in [`PowerSpectrum::power`].
+    pub place: usize,
+    /// Its power; 0 where there is no wave.
+    pub power: f64,
+}
+
+impl Wave {
+    /// Of two waves the one with more power, of equals the first: opposite frequencies on fx = 0 are equal but for
+    /// rounding. The mean is no wave.
+    fn larger(self, other: Self) -> Self {
+        let first = other.power == self.power && other.place < self.place;
+        if other.place > 0 && (other.power > self.power || first) { other } else { self }
+    }
+}
+
+/// The transform along x, padded with zeros to `mx` values, of heights over `level_um`; holes count as that level. One
+/// column of `ny` values for each frequency from 0 to `mx` / 2.
+fn transformed_along_x(surface: &Surface, mx: usize, level_um: f64) -> TurnedMap<Complex<f64>, 1> {
     let to_x = RealFftPlanner::<f64>::new().plan_fft_forward(mx);
-    let [columns] = by_columns(
+    TurnedMap::of(
         [mx / 2 + 1, surface.ny()],
         || (vec![0.0; mx], to_x.make_scratch_vec()),
         |(line, scratch), y, [out]| {
@@ -50,26 +79,73 @@ fn transformed_along_x(surface: &Surface, mx: usize, level_um: f64) -> Vec<Compl
             }
             to_x.process_with_scratch(line, out, scratch).expect("lengths are the plan's");
         },
-    );
-    columns
+    )
+}
+
+/// Columns of the transform along x, transformed along y in turn.
+struct ColumnTransforms {
+    along_x: TurnedMap<Complex<f64>, 1>,
+    to_y: Arc<dyn Fft<f64>>,
+}
+
+impl ColumnTransforms {
+    fn of(surface: &Surface) -> Self {
+        let along_x = transformed_along_x(surface, surface.nx(), surface.mean_um());
+        Self { along_x, to_y: FftPlanner::new().plan_fft_forward(surface.ny()) }
+    }
+
+    /// A line along y, and what its transform needs.
+    fn buffers(&self) -> [Vec<Complex<f64>>; 2] {
+        [self.to_y.len(), self.to_y.get_inplace_scratch_len()].map(|length| vec![Complex::default(); length])
+    }
+
+    /// Power of all waves of one frequency along x.
+    fn power<'a>(&self, [line, scratch]: &'a mut [Vec<Complex<f64>>; 2], fx: usize) -> impl Iterator<Item = f64> + 'a {
+        self.along_x.read(0, fx, line);
+        self.to_y.process_with_scratch(line, scratch);
+        line.iter().map(Complex::norm_sqr)
+    }
 }
 
 /// Power of a surface without holes about its mean; that of the mean itself is rounding.
 pub(crate) fn power(surface: &Surface) -> PowerSpectrum {
-    let ny = surface.ny();
-    let mut columns = transformed_along_x(surface, surface.nx(), surface.mean_um());
-    let to_y = FftPlanner::<f64>::new().plan_fft_forward(ny);
-    let mut power = vec![0.0; columns.len()];
-    power.par_chunks_mut(ny).zip(columns.par_chunks_mut(ny)).for_each_init(
-        || vec![Complex::default(); to_y.get_inplace_scratch_len()],
-        |scratch, (power, line)| {
-            to_y.process_with_scratch(line, scratch);
-            for (value, z) in power.iter_mut().zip(line.iter()) {
-                *value = z.norm_sqr();
+    let (ny, columns) = (surface.ny(), ColumnTransforms::of(surface));
+    let mut power = vec![0.0; (surface.nx() / 2 + 1) * ny];
+    power.par_chunks_mut(ny).enumerate().for_each_init(
+        || columns.buffers(),
+        |buffers, (fx, out)| {
+            for (value, power) in out.iter_mut().zip(columns.power(buffers, fx)) {
+                *value = power;
             }
         },
     );
     PowerSpectrum { ny, power }
+}
+
+/// [`PowerSpectrum::largest_wave`] of a surface without holes, without the whole of its spectrum: no wave has more power
+/// than all of its column, which is known before the column is transformed (Parseval).
+pub(crate) fn largest_wave(surface: &Surface) -> Wave {
+    let (ny, columns) = (surface.ny(), ColumnTransforms::of(surface));
+    let all_waves = |[line, _]: &mut [Vec<Complex<f64>>; 2], fx: usize| {
+        columns.along_x.read(0, fx, line);
+        (ny as f64 * line.iter().map(Complex::norm_sqr).sum::<f64>() * (1.0 + ROUNDING), fx)
+    };
+    let half = surface.nx() / 2 + 1;
+    let mut bounds: Vec<(f64, usize)> = (0..half).into_par_iter().map_init(|| columns.buffers(), all_waves).collect();
+    bounds.sort_unstable_by(|a, b| b.0.total_cmp(&a.0));
+    let mut largest = Wave::default();
+    for columns_of_most in bounds.chunks(AT_ONCE) {
+        if columns_of_most[0].0 < largest.power {
+            break;
+        }
+        let of_column = |buffers: &mut [_; 2], &(_, fx): &(f64, usize)| {
+            let waves = (fx * ny..).zip(columns.power(buffers, fx)).map(|(place, power)| Wave { place, power });
+            waves.fold(Wave::default(), Wave::larger)
+        };
+        let waves = columns_of_most.par_iter().map_init(|| columns.buffers(), of_column);
+        largest = largest.larger(waves.reduce(Wave::default, Wave::larger));
+    }
+    largest
 }
 
 /// Sums of products of heights over `level_um`; holes count as that level.
@@ -77,45 +153,50 @@ pub(crate) fn products(surface: &Surface, level_um: f64) -> Products {
     let (nx, ny) = (surface.nx(), surface.ny());
     let (mx, my) = (2 * nx, 2 * ny);
     let half = nx + 1;
-    let mut columns = transformed_along_x(surface, mx, level_um);
-    let mut planner = FftPlanner::<f64>::new();
-    let (to_y, from_y) = (planner.plan_fft_forward(my), planner.plan_fft_inverse(my));
-    columns.par_chunks_mut(ny).for_each_init(
+    let along_x = transformed_along_x(surface, mx, level_um);
+    let to_y = FftPlanner::<f64>::new().plan_fft_forward(my);
+    // Power is real: transforming it back gives the conjugates of what transforming it once more gives.
+    let from_y = RealFftPlanner::<f64>::new().plan_fft_forward(my);
+    let rows: TurnedMap<_, 1> = TurnedMap::of(
+        [ny, half],
         || {
-            let scratch = to_y.get_inplace_scratch_len().max(from_y.get_inplace_scratch_len());
-            (vec![Complex::default(); my], vec![Complex::default(); scratch])
+            let scratch = to_y.get_inplace_scratch_len().max(from_y.get_scratch_len());
+            (
+                from_y.make_output_vec(),
+                from_y.make_input_vec(),
+                [my, scratch].map(|length| vec![Complex::default(); length]),
+            )
         },
-        |(line, scratch), column| {
-            line[..ny].copy_from_slice(column);
+        |(back, power, [line, scratch]), fx, [out]| {
+            along_x.read(0, fx, &mut line[..ny]);
             line[ny..].fill(Complex::default());
             to_y.process_with_scratch(line, scratch);
-            for z in line.iter_mut() {
-                *z = Complex::new(z.norm_sqr(), 0.0);
+            for (power, z) in power.iter_mut().zip(line.iter()) {
+                *power = z.norm_sqr();
             }
-            from_y.process_with_scratch(line, scratch);
-            column.copy_from_slice(&line[..ny]);
+            from_y.process_with_scratch(power, back, scratch).expect("lengths are the plan's");
+            for (out, z) in out.iter_mut().zip(back.iter()) {
+                *out = z.conj();
+            }
         },
     );
+    drop(along_x);
     let from_x = RealFftPlanner::<f64>::new().plan_fft_inverse(mx);
     let lags = 2 * nx - 1;
     let scale = 1.0 / (mx as f64 * my as f64);
     let mut sums = vec![0.0; lags * ny];
-    sums.par_chunks_mut(lags * ROWS).enumerate().for_each_init(
-        || (vec![Complex::default(); half * ROWS], vec![0.0; mx], from_x.make_scratch_vec()),
-        |(rows, line, scratch), (block, out)| {
-            // Several rows at once: each takes one value out of every column.
-            for (x, column) in columns.chunks(ny).enumerate() {
-                for (y, value) in column[block * ROWS..].iter().take(ROWS).enumerate() {
-                    rows[y * half + x] = *value;
-                }
-            }
-            for (row, out) in rows.chunks_mut(half).zip(out.chunks_mut(lags)) {
-                // Rounding leaves dust where a real line's transform must be real; the plan refuses it.
-                row[0].im = 0.0;
-                row[half - 1].im = 0.0;
-                from_x.process_with_scratch(row, line, scratch).expect("lengths are the plan's");
-                for (i, value) in out.iter_mut().enumerate() {
-                    *value = scale * line[(i + mx + 1 - nx) % mx];
+    sums.par_chunks_mut(lags).enumerate().for_each_init(
+        || (vec![Complex::default(); half], vec![0.0; mx], from_x.make_scratch_vec()),
+        |(row, line, scratch), (ty, out)| {
+            rows.read(0, ty, row);
+            // Rounding leaves dust where a real line's transform must be real; the plan refuses it.
+            row[0].im = 0.0;
+            row[half - 1].im = 0.0;
+            from_x.process_with_scratch(row, line, scratch).expect("lengths are the plan's");
+            let (before, from_zero) = out.split_at_mut(nx - 1);
+            for (lags, sums) in [(before, &line[mx + 1 - nx..]), (from_zero, &line[..nx])] {
+                for (lag, sum) in lags.iter_mut().zip(sums) {
+                    *lag = scale * sum;
                 }
             }
         },
@@ -150,6 +231,7 @@ mod tests {
             }
         }
         let spectrum = power(&surface);
+        assert_eq!(largest_wave(&surface), spectrum.largest_wave());
         // The mean is off: it has no waves.
         assert!(spectrum.power[0] < 1e-20, "{}", spectrum.power[0]);
         for (fx, fy) in [(1, 0), (0, 2), (2, 3), (3, 4)] {

@@ -120,8 +120,17 @@ impl Surface {
 
     /// Mean height, um.
     pub fn mean_um(&self) -> f64 {
+        // Eight sums at a time: each waits for its own last addition only.
         let [sum, count] = self.sum_rows(|_, row| {
-            row.iter().filter(|z| !z.is_nan()).fold([0.0, 0.0], |[sum, count], z| [sum + z, count + 1.0])
+            let (mut sums, mut counts) = ([0.0; 8], [0.0; 8]);
+            for heights in row.chunks(8) {
+                for ((sum, count), z) in sums.iter_mut().zip(&mut counts).zip(heights) {
+                    let measured = !z.is_nan();
+                    *sum += if measured { *z } else { 0.0 };
+                    *count += f64::from(u8::from(measured));
+                }
+            }
+            [sums.iter().sum(), counts.iter().sum()]
         });
         sum / count
     }

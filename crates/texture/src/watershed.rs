@@ -95,6 +95,8 @@ impl Parents {
     }
 }
 
+/// Rows whose passes are looked for at once; fixed, so that the number of threads never changes an order.
+const ROWS: usize = 16;
 /// No hill: a hole, or the frame round the map.
 const HOLE: u32 = u32::MAX;
 
@@ -196,31 +198,32 @@ impl Grid {
         open
     }
 
-    /// Passes between hills, one for each point and each other hill among its higher neighbours.
+    /// Passes between hills: of some rows the highest from each hill to each other among its higher neighbours. A lower
+    /// one would meet hills that have met already.
     fn saddles(&self, hill_of: &[u32]) -> Vec<Saddle> {
-        let rows: Vec<Vec<Saddle>> = (1..=self.ny)
-            .into_par_iter()
-            .map(|y| {
-                let mut found = Vec::new();
+        let of_rows = |first: usize| {
+            let mut found = Vec::new();
+            for y in first..(first + ROWS).min(self.ny + 1) {
                 for index in y * self.width + 1..=y * self.width + self.nx {
                     let hill = hill_of[index];
                     if hill == HOLE {
                         continue;
                     }
-                    let first = found.len();
                     for n in self.neighbours(index) {
                         let other = hill_of[n];
                         if other != hill && other != HOLE && self.above(n, index) {
-                            let saddle = Saddle { height: self.z[index], hills: [hill, other] };
-                            if found[first..].iter().all(|s: &Saddle| s.hills != saddle.hills) {
-                                found.push(saddle);
-                            }
+                            found.push(Saddle { height: self.z[index], hills: [hill, other] });
                         }
                     }
                 }
-                found
-            })
-            .collect();
+            }
+            found.sort_unstable_by(|a, b| a.hills.cmp(&b.hills).then(b.height.total_cmp(&a.height)));
+            found.dedup_by_key(|saddle| saddle.hills);
+            found.shrink_to_fit();
+            found
+        };
+        let rows: Vec<Vec<Saddle>> =
+            (0..self.ny.div_ceil(ROWS)).into_par_iter().map(|k| of_rows(1 + k * ROWS)).collect();
         rows.concat()
     }
 }

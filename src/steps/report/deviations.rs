@@ -4,6 +4,7 @@
 mod charts;
 
 use super::facts::gear_words;
+use super::texture;
 use crate::findings::Findings;
 use crate::findings::quantities::sizes::SIZES;
 use crate::findings::table::table_file;
@@ -126,6 +127,7 @@ fn sheet(
     subtitle: &str,
     sizes: Vec<[String; 3]>,
     notes: Vec<String>,
+    roughness: Vec<SheetFigure>,
 ) -> InspectionSheet {
     let um = |values: &[f64]| values.iter().map(|&mm| shown_um(mm)).collect::<Vec<_>>();
     let pitch = &inspection.gear.pitch;
@@ -144,7 +146,7 @@ fn sheet(
         cumulative_pitch_um: of_pitch(|pitch| &pitch.cumulative_mm),
         single_pitch_limit_um: inspection.limit_um(InspectionFigure::SinglePitch),
         runout_um: inspection.gear.runout.as_ref().map_or_else(Vec::new, |runout| um(&runout.radial_mm)),
-        figures: verdict.figures.iter().map(sheet_figure).collect(),
+        figures: verdict.figures.iter().map(sheet_figure).chain(roughness).collect(),
         verdict: inspection.held_against(),
         fails: verdict.passes() == Some(false),
         notes,
@@ -187,7 +189,9 @@ pub fn inspection_page(inspection: &Inspection, scene: &Scene, found: &Findings)
         notes.push("Limits of profile and helix are those of the transverse section times cos βb.".to_owned());
     }
     notes.extend(reasons.iter().flat_map(|(signs, why)| wrapped(&format!("No {signs}: {why}."), NOTE_LETTERS)));
-    sheet(inspection, &scene.name, &gear_words(&scene.gear), sizes, notes).page()
+    let (roughness, cutoffs) = texture::sheet_figures(found, scene);
+    notes.extend(cutoffs);
+    sheet(inspection, &scene.name, &gear_words(&scene.gear), sizes, notes, roughness).page()
 }
 
 /// Writes the inspector's sheet as `inspection.svg` and `inspection.pdf`.

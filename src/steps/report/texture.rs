@@ -7,17 +7,21 @@ use crate::findings::quantities::surfaces::{OVERLAY, RATIO};
 use crate::findings::quantities::teeth::{FLANK, TOOTH};
 use crate::findings::{self, Findings, QuantityRow, unit};
 use crate::output::folder::OutputFolder;
+use crate::output::inspection_sheet::SheetFigure;
 use crate::output::ratio_chart::{RatioChart, SkConstruction};
 use crate::output::report::texture::{ParameterRow, TextureBlock};
 use crate::output::report::{Block, PageSection, PageTable, Tone};
+use crate::scene::Scene;
+use crate::steps::inspection::verdict_words;
 use crate::steps::report::read_picture;
-use crate::texture;
 use crate::texture::quantities::{
-    ABBOTT, CENTER_LEAD, CENTER_PROFILE, CHAIN, CURVE_HEIGHT, CUTOFF, FILES, LENGTH_LEAD, LENGTH_PROFILE, LOWER,
-    PARAMETERS, RA, RA_LARGEST, RA_LIMIT, ROUGHNESS, RZ, RZ_LARGEST, RZ_LIMIT, TEXTURE, UPPER, WINDOW_OF_LINES,
+    ABBOTT, CENTER_LEAD, CENTER_PROFILE, CHAIN, CURVE_HEIGHT, CUTOFF, DIRECTION, FILES, LENGTH_LEAD, LENGTH_PROFILE,
+    LOWER, PARAMETERS, RA, RA_LARGEST, RA_LIMIT, ROUGHNESS, RZ, RZ_LARGEST, RZ_LIMIT, TEXTURE, UPPER, WINDOW_OF_LINES,
     WINDOW_PERCENT,
 };
+use crate::texture::{self, Direction};
 use gearcut_core::error::Result;
+use gearcut_core::terms::Side;
 
 /// The section; none if no window was evaluated. Pictures are those that the folder holds.
 ///
@@ -231,4 +235,51 @@ fn profiles(found: &Findings, finished: &findings::Section) -> Option<Block> {
         columns: columns.to_vec(),
         rows: operation.sections.iter().map(row).collect(),
     }))
+}
+
+/// Ra and Rz of what the last operation left as figures of the inspector's sheet, the largest of each side's lines in a
+/// direction, and a note on their cut-offs; none without windows.
+pub fn sheet_figures(found: &Findings, scene: &Scene) -> (Vec<SheetFigure>, Option<String>) {
+    let limits = &scene.measure.limits;
+    let finished = found.parts(&TEXTURE).last().map(|operation| operation.key.as_str());
+    let operation = found.parts(&ROUGHNESS).iter().find(|operation| Some(operation.key.as_str()) == finished);
+    let lines = operation.map_or(&[][..], |operation| &operation.sections);
+    if lines.is_empty() {
+        return (Vec::new(), None);
+    }
+    let mut figures = Vec::new();
+    for direction in Direction::BOTH {
+        let along = || lines.iter().filter(|lines| lines.text(&DIRECTION) == direction.words());
+        for (sign, largest, judged, limit_um) in
+            [("Ra", &RA_LARGEST, &RA_LIMIT, limits.ra_um), ("Rz", &RZ_LARGEST, &RZ_LIMIT, limits.rz_um)]
+        {
+            let side = |side: Side| {
+                let of_side = along().filter(|lines| lines.text(&FLANK) == side.name());
+                match of_side.filter_map(|lines| lines.value(largest)).reduce(f64::max) {
+                    Some(um) if um < 1e-3 => "< 0.001".to_owned(),
+                    largest => shown(largest, 3),
+                }
+            };
+            let verdicts: Vec<&str> =
+                along().map(|lines| lines.text(judged)).filter(|words| !words.is_empty()).collect();
+            let passes = (!verdicts.is_empty()).then(|| !verdicts.contains(&"exceeded"));
+            figures.push(SheetFigure {
+                cells: [
+                    format!("{sign} {}", direction.words().trim_start_matches("along the ")),
+                    side(Side::Left),
+                    side(Side::Right),
+                    shown(limit_um, 3),
+                    "–".to_owned(),
+                    verdict_words(passes).to_owned(),
+                ],
+                fails: passes == Some(false),
+            });
+        }
+    }
+    let mut cutoffs: Vec<String> = lines.iter().map(|lines| shown(lines.value(&CUTOFF), 3)).collect();
+    cutoffs.sort_unstable();
+    cutoffs.dedup();
+    let note =
+        format!("Ra and Rz: the largest of the lines in all finished windows, cut-off {} mm.", cutoffs.join(", "));
+    (figures, Some(note))
 }

@@ -9,7 +9,7 @@ use rustfft::FftPlanner;
 use rustfft::num_complex::Complex;
 
 use super::{MIRRORS, Mirrored};
-use crate::columns::transposed;
+use crate::columns::TurnedMap;
 use crate::surface::Surface;
 
 /// Cells a side of the averaged surfaces: marks of 20 points keep five cells on maps of 1500 points.
@@ -54,23 +54,31 @@ impl Cells {
                 let (tx, ty) = (if x { self.nx - 1 - cx } else { cx }, if y { self.ny - 1 - cy } else { cy });
                 out[ty * mx + tx] = Complex::new(value(i), 0.0);
             }
-            transformed(out, mx, my, false)
+            transformed(&out, mx, my, false)
         };
         [at(&|i| self.weights[i]), at(&|i| self.heights[i]), at(&|i| self.heights[i] * self.heights[i])]
     }
 }
 
-/// The transform of `mx` x `my` values, or back; transposed, which products and a second transform undo.
-pub(super) fn transformed(mut values: Vec<Complex<f64>>, mx: usize, my: usize, back: bool) -> Vec<Complex<f64>> {
+/// The transform of `mx` x `my` values, or back; turned over, which products and a second transform undo.
+pub(super) fn transformed(values: &[Complex<f64>], mx: usize, my: usize, back: bool) -> Vec<Complex<f64>> {
     let mut planner = FftPlanner::<f64>::new();
-    let mut lines = |values: &mut Vec<Complex<f64>>, length: usize| {
-        let plan = if back { planner.plan_fft_inverse(length) } else { planner.plan_fft_forward(length) };
-        values.par_chunks_mut(length).for_each(|line| plan.process(line));
-    };
-    lines(&mut values, mx);
-    let mut turned = transposed(&values, mx, my);
-    lines(&mut turned, my);
-    turned
+    let [along_x, along_y] =
+        [mx, my].map(|length| if back { planner.plan_fft_inverse(length) } else { planner.plan_fft_forward(length) });
+    let rows: TurnedMap<_, 1> = TurnedMap::of(
+        [mx, my],
+        || (),
+        |(), y, [line]| {
+            line.copy_from_slice(&values[y * mx..(y + 1) * mx]);
+            along_x.process(line);
+        },
+    );
+    let mut columns = vec![Complex::default(); mx * my];
+    columns.par_chunks_mut(my).enumerate().for_each(|(x, column)| {
+        rows.read(0, x, column);
+        along_y.process(column);
+    });
+    columns
 }
 
 /// What the shifts of one mirror correlate with.
@@ -92,8 +100,8 @@ pub(super) fn correlations(a: &Cells, b: &Cells) -> Vec<CoarseShifts> {
         let of_b = b.transforms([mx, my], mirrored);
         // Sums over the overlap of products with the second shifted.
         let sums = |p: usize, q: usize| {
-            let product = of_a[p].iter().zip(&of_b[q]).map(|(p, q)| p * q.conj() * scale).collect();
-            transformed(product, my, mx, true)
+            let product: Vec<_> = of_a[p].iter().zip(&of_b[q]).map(|(p, q)| p * q.conj() * scale).collect();
+            transformed(&product, my, mx, true)
         };
         let [n, sa, sb, saa, sbb, sab] = [sums(0, 0), sums(1, 0), sums(0, 1), sums(2, 0), sums(0, 2), sums(1, 1)];
         let at = |i: usize| {

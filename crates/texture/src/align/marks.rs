@@ -46,7 +46,7 @@ pub fn marks(surface: &Surface) -> Result<SurfaceMarks, TextureError> {
         let (x, y) = (i % cells.nx, i / cells.nx);
         values[y * mx + x] = Complex::new(cells.heights[i] * window(x, cells.nx) * window(y, cells.ny), 0.0);
     }
-    let power = transformed(values, mx, my, false);
+    let power = transformed(&values, mx, my, false);
     let mut best = (0.0, [0.0; 2]);
     for x in 0..=cells.nx {
         for y in 0..my {

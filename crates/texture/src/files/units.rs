@@ -21,10 +21,14 @@ pub enum LengthUnit {
     Picometre,
     /// Inch.
     Inch,
+    /// Thousandth of an inch.
+    Mil,
+    /// Millionth of an inch.
+    Microinch,
 }
 
 /// Every unit: as messages and options write it, its micrometres, and how files write it (in small letters).
-const UNITS: [(LengthUnit, &str, f64, &[&str]); 8] = [
+const UNITS: [(LengthUnit, &str, f64, &[&str]); 10] = [
     (LengthUnit::Metre, "m", 1e6, &["m", "meter", "metre", "meters", "metres"]),
     (LengthUnit::Centimetre, "cm", 1e4, &["cm"]),
     (LengthUnit::Millimetre, "mm", 1e3, &["mm", "millimeter", "millimetre", "millimeters", "millimetres"]),
@@ -37,7 +41,9 @@ const UNITS: [(LengthUnit, &str, f64, &[&str]); 8] = [
     (LengthUnit::Nanometre, "nm", 1e-3, &["nm", "nanometer", "nanometre", "nanometers", "nanometres"]),
     (LengthUnit::Angstrom, "angstrom", 1e-4, &["angstrom", "\u{e5}", "\u{212b}"]),
     (LengthUnit::Picometre, "pm", 1e-6, &["pm"]),
-    (LengthUnit::Inch, "inch", 25_400.0, &["inch", "in"]),
+    (LengthUnit::Inch, "inch", 25_400.0, &["inch", "inches", "in"]),
+    (LengthUnit::Mil, "mil", 25.4, &["mil", "mils", "thou"]),
+    (LengthUnit::Microinch, "uin", 0.0254, &["uin", "\u{b5}in", "\u{3bc}in", "microinch", "microinches"]),
 ];
 
 impl LengthUnit {
@@ -96,6 +102,8 @@ mod tests {
             ("\u{212b}", 1e-4),
             ("pm", 1e-6),
             ("in", 25.4e3),
+            ("mil", 25.4),
+            ("\u{b5}in", 0.0254),
         ] {
             assert_eq!(LengthUnit::of(name).map(LengthUnit::um), Some(um), "{name}");
         }

@@ -170,7 +170,7 @@ impl TextHeader {
             LineRole::AnyUnit => match LengthUnit::of(&value) {
                 Some(unit) => self.set_height_unit(unit).map_err(|fault| at(fault.to_string()))?,
                 None => {
-                    self.unknown(line, number);
+                    self.keep(line, number);
                     return Ok(Understood::No);
                 }
             },
@@ -231,11 +231,17 @@ impl TextHeader {
         }
     }
 
+    /// Keeps a line whose key is not known if it names a unit; `in` is one in brackets only.
     fn unknown(&mut self, line: &str, number: usize) {
-        let names_unit = |word: &str| word.chars().count() > 1 && word != "in" && LengthUnit::of(word).is_some();
-        if line.split(|c: char| c.is_whitespace() || "[](){}/;,:=\"".contains(c)).any(names_unit) {
-            self.unclear.push(format!("line {number}: `{}`", quoted(line.trim())));
+        let names_unit = |word: &str| word != "in" && LengthUnit::of(word).is_some();
+        let words = line.split(|c: char| c.is_whitespace() || "[](){}/;,:=\"".contains(c));
+        if words.into_iter().any(names_unit) || line.contains("[in]") || line.contains("(in)") {
+            self.keep(line, number);
         }
+    }
+
+    fn keep(&mut self, line: &str, number: usize) {
+        self.unclear.push(format!("line {number}: `{}`", quoted(line.trim())));
     }
 }
 

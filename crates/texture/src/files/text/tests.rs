@@ -58,6 +58,7 @@ fn nothing_is_silently_wrong_in_a_corpus_of_headers() {
         ("\u{3bc}m", 1.0),
         ("nm", 1e3),
         ("\u{c5}", 1e4),
+        ("mil", 1.0 / 25.4),
         ("V", 1.0),
         ("a.u.", 1.0),
     ];
@@ -69,6 +70,7 @@ fn nothing_is_silently_wrong_in_a_corpus_of_headers() {
         "Height unit\t{}",
         "",
         "Heights are in {}",
+        "Z-Werte [{}]",
     ];
     let spacings = [
         "# dx_um = 2\n# dy_um = 3\n",
@@ -76,7 +78,7 @@ fn nothing_is_silently_wrong_in_a_corpus_of_headers() {
         "x spacing = 2 um\ny spacing = 0.003 mm\n",
         "",
     ];
-    let (mut read_right, mut refusals) = (0, 0);
+    let (mut read_right, mut refusals, mut quotes) = (0, 0, 0);
     for (unit, per_um) in units {
         for line in lines {
             for spacing in spacings {
@@ -97,8 +99,15 @@ fn nothing_is_silently_wrong_in_a_corpus_of_headers() {
                         [0xff, 0xfe].into_iter().chain(text.encode_utf16().flat_map(u16::to_le_bytes)).collect();
                     let latin: Option<Vec<u8>> = text.chars().map(|c| u8::try_from(u32::from(c)).ok()).collect();
                     for bytes in [Some(text.clone().into_bytes()), Some(utf16), latin].into_iter().flatten() {
-                        for given in [NOTHING, Given::spacing(Some([2.0, 3.0]))] {
+                        for given in [NOTHING, Given::spacing(Some([2.0, 3.0])), UM] {
                             match decode(&bytes, &given) {
+                                // Heights in another unit than the one given are those of a file that does not say
+                                // its own, or says it in words that are quoted.
+                                Ok(found) if given.height_unit.is_some() && !is_map(&found) => {
+                                    let quoted = found.remarks.iter().any(|remark| remark.contains("not understood"));
+                                    assert!(line.is_empty() || quoted, "{found:?}\n{text}");
+                                    quotes += usize::from(quoted);
+                                }
                                 Ok(found) => {
                                     assert!(is_map(&found), "{found:?}\n{text}");
                                     read_right += 1;
@@ -117,7 +126,10 @@ fn nothing_is_silently_wrong_in_a_corpus_of_headers() {
             }
         }
     }
-    assert!(read_right > 3000 && refusals > 3000, "{read_right} right, {refusals} refused");
+    assert!(
+        read_right > 3000 && refusals > 3000 && quotes > 100,
+        "{read_right} right, {refusals} refused, {quotes} with the line quoted"
+    );
 }
 
 #[test]
@@ -182,8 +194,11 @@ fn numbers_in_quotation_marks_are_numbers() {
 /// A unit that is named in words which are not understood: what is given counts, and the line is told.
 #[test]
 fn a_line_that_was_not_understood_is_told_beside_a_given_unit() {
-    let found = read(&format!("Data in nm\n{}", table(1.0, ";", '.', "")), &UM).expect("a map");
-    assert!(found.remarks.iter().any(|remark| remark.contains("line 1: `Data in nm`")), "{:?}", found.remarks);
+    for line in ["Data in nm", "Z-Werte [in]", "unit: furlong", "all in m, pixels of 0.002 x 0.003 mm"] {
+        let found = read(&format!("{line}\n{}", table(1.0, ";", '.', "")), &UM).expect("a map");
+        let quoted = format!("line 1: `{line}`");
+        assert!(found.remarks.iter().any(|remark| remark.contains(&quoted)), "{:?}", found.remarks);
+    }
 }
 
 #[test]
