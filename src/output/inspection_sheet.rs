@@ -56,7 +56,9 @@ const MIDDLE: f64 = 0.5 * A4_PT[0];
 const GAP: f64 = 8.0;
 /// Divisions from the zero line of a trace to its neighbour's.
 const DIVISIONS: f64 = 4.0;
-const TRACE_HEIGHT: f64 = 140.0;
+const TRACE_HEIGHT: f64 = 122.0;
+/// From row to row of the table.
+const TABLE_ROW: f64 = 7.8;
 /// Size of figures under traces: a sign and six digits fit under the narrowest trace.
 const FIGURE_EM: f64 = 5.2;
 /// Smallest division of an axis, um.
@@ -66,13 +68,18 @@ impl InspectionSheet {
     /// The page.
     pub fn page(&self) -> VectorPage {
         let mut page = VectorPage::new(&format!("{}: gear inspection", self.title));
-        let mut y = self.head(&mut page);
-        for (name, sheets) in [("Profile", &self.profiles), ("Helix", &self.helices)] {
-            y = traces(&mut page, y, name, sheets);
-        }
-        y = self.pitch(&mut page, y);
-        self.foot(&mut page, y);
+        let foot = self.down_to_the_foot(&mut page);
+        self.foot(&mut page, foot);
         page
+    }
+
+    /// Everything but the foot; where that begins.
+    fn down_to_the_foot(&self, page: &mut VectorPage) -> f64 {
+        let mut y = self.head(page);
+        for (name, sheets) in [("Profile", &self.profiles), ("Helix", &self.helices)] {
+            y = traces(page, y, name, sheets);
+        }
+        self.pitch(page, y)
     }
 
     /// Title and sizes; where they end.
@@ -116,7 +123,7 @@ impl InspectionSheet {
         runout.frame(page, place, "Runout Fr: probe in the space after each tooth [µm]");
         runout.bars(page, place, &self.runout_um);
         let table = self.table(page, MIDDLE + GAP, top + 162.0);
-        table.max(top + 160.0 + 60.0) + 32.0
+        (table + 14.0).max(top + 160.0 + 60.0 + 32.0)
     }
 
     /// Both signs of the limit of single pitch deviations.
@@ -132,17 +139,17 @@ impl InspectionSheet {
             for (index, (cell, end)) in cells.into_iter().zip(ends).enumerate() {
                 let anchor = if index == 0 { Anchor::Start } else { Anchor::End };
                 let ink = if index == 5 { inks[1] } else { inks[0] };
-                page.words((x + end, y), 7.0, ink, anchor, cell);
+                page.words((x + end, y), 6.6, ink, anchor, cell);
             }
         };
         row(page, top, heads, [Ink::Grey; 2]);
         page.path(&[(x, top + 2.5), (RIGHT, top + 2.5)], Ink::Grey, 0.5);
         for (index, figure) in self.figures.iter().enumerate() {
-            let y = top + 10.5 + 8.6 * index as f64;
+            let y = top + 10.5 + TABLE_ROW * index as f64;
             let ink = if figure.fails { Ink::Red } else { Ink::Black };
             row(page, y, figure.cells.each_ref().map(String::as_str), [Ink::Black, ink]);
         }
-        top + 10.5 + 8.6 * self.figures.len().saturating_sub(1) as f64
+        top + 10.5 + TABLE_ROW * self.figures.len().saturating_sub(1) as f64
     }
 
     fn foot(&self, page: &mut VectorPage, top: f64) {
@@ -297,6 +304,7 @@ fn slot(page: &mut VectorPage, place: ChartBox, values: &[f64]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::output::report::traces::TraceFigure;
 
     #[test]
     fn axes_are_equal_left_and_right_and_have_a_floor() {
@@ -304,5 +312,47 @@ mod tests {
         assert_eq!((noise.step_um, noise.reach_um), (1.0, 2.0));
         let both = ValueAxis::over([3.0, f64::NAN, -11.0].iter());
         assert_eq!((both.step_um, both.reach_um), (10.0, 20.0));
+    }
+
+    /// A round gear's sizes, its figures with Ra and Rz in both directions, and six notes.
+    #[test]
+    fn the_fullest_sheet_stays_on_its_page() {
+        let figure = || TraceFigure { name: "F".to_owned(), value: None, limit: None };
+        let trace = || TraceColumn {
+            label: String::new(),
+            points: Vec::new(),
+            mean_line: None,
+            figures: vec![figure(), figure(), figure()],
+        };
+        let sheets = || {
+            [false, true].map(|mirrored| TraceSheet {
+                title: String::new(),
+                place_name: String::new(),
+                place_unit: "mm".to_owned(),
+                unit: "\u{b5}m".to_owned(),
+                mirrored,
+                traces: vec![trace()],
+            })
+        };
+        let row = || SheetFigure { cells: std::array::from_fn(|_| String::new()), fails: false };
+        let sheet = InspectionSheet {
+            title: String::new(),
+            subtitle: String::new(),
+            program: String::new(),
+            sizes: vec![std::array::from_fn(|_| String::new()); 24],
+            profiles: sheets(),
+            helices: sheets(),
+            single_pitch_um: [Vec::new(), Vec::new()],
+            cumulative_pitch_um: [Vec::new(), Vec::new()],
+            single_pitch_limit_um: None,
+            runout_um: Vec::new(),
+            figures: (0..13).map(|_| row()).collect(),
+            verdict: String::new(),
+            fails: false,
+            notes: vec![String::new(); 6],
+        };
+        let mut page = VectorPage::new("");
+        let end = sheet.down_to_the_foot(&mut page);
+        assert!(end + 11.0 + 5.0 * 8.4 <= A4_PT[1], "the foot begins at {end}");
     }
 }

@@ -122,8 +122,8 @@ pub(crate) fn power(surface: &Surface) -> PowerSpectrum {
     PowerSpectrum { ny, power }
 }
 
-/// [`PowerSpectrum::largest_wave`] of a surface without holes, without the whole of its spectrum: no wave has more power
-/// than all of its column, which is known before the column is transformed (Parseval).
+/// [`PowerSpectrum::largest_wave`] of a surface without holes, without the whole of its spectrum: no wave has more
+/// power than all of its column, which is known before the column is transformed (Parseval).
 pub(crate) fn largest_wave(surface: &Surface) -> Wave {
     let (ny, columns) = (surface.ny(), ColumnTransforms::of(surface));
     let all_waves = |[line, _]: &mut [Vec<Complex<f64>>; 2], fx: usize| {

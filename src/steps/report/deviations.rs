@@ -114,7 +114,7 @@ impl<'a> Inspection<'a> {
             (class, _) => format!("class reached: {}", class_words(class)),
         };
         match (sources.is_empty(), self.verdict.passes()) {
-            (true, _) => format!("No limits were given; {class}."),
+            (true, _) => format!("No limits of deviations were given; {class}."),
             (false, passes) => format!("{}: {}; {class}.", sources.join(", "), verdict_words(passes)),
         }
     }
@@ -178,19 +178,18 @@ pub fn inspection_page(inspection: &Inspection, scene: &Scene, found: &Findings)
             None => reasons.push((sign.clone(), why)),
         }
     }
+    let (roughness, cutoffs) = texture::sheet_figures(found, scene);
     let mut notes = vec![
         format!("Deviations of the surface as cut from {}.", inspection.words.target),
         "Profile and helix along the flank's normal, in the middle; dashed: the evaluated part. Pitch: arcs of the \
          pitch curve from the mean pitch."
             .to_owned(),
-        "The table has the worst tooth of each side.".to_owned(),
+        format!("The table has the worst tooth of each side.{cutoffs}"),
     ];
     if scene.gear.helix_angle_rad != 0.0 && inspection.verdict.no_class.is_none() {
         notes.push("Limits of profile and helix are those of the transverse section times cos βb.".to_owned());
     }
     notes.extend(reasons.iter().flat_map(|(signs, why)| wrapped(&format!("No {signs}: {why}."), NOTE_LETTERS)));
-    let (roughness, cutoffs) = texture::sheet_figures(found, scene);
-    notes.extend(cutoffs);
     sheet(inspection, &scene.name, &gear_words(&scene.gear), sizes, notes, roughness).page()
 }
 

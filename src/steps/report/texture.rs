@@ -238,14 +238,14 @@ fn profiles(found: &Findings, finished: &findings::Section) -> Option<Block> {
 }
 
 /// Ra and Rz of what the last operation left as figures of the inspector's sheet, the largest of each side's lines in a
-/// direction, and a note on their cut-offs; none without windows.
-pub fn sheet_figures(found: &Findings, scene: &Scene) -> (Vec<SheetFigure>, Option<String>) {
+/// direction, and a sentence on their cut-offs; nothing without windows.
+pub fn sheet_figures(found: &Findings, scene: &Scene) -> (Vec<SheetFigure>, String) {
     let limits = &scene.measure.limits;
     let finished = found.parts(&TEXTURE).last().map(|operation| operation.key.as_str());
     let operation = found.parts(&ROUGHNESS).iter().find(|operation| Some(operation.key.as_str()) == finished);
     let lines = operation.map_or(&[][..], |operation| &operation.sections);
     if lines.is_empty() {
-        return (Vec::new(), None);
+        return (Vec::new(), String::new());
     }
     let mut figures = Vec::new();
     for direction in Direction::BOTH {
@@ -279,7 +279,6 @@ pub fn sheet_figures(found: &Findings, scene: &Scene) -> (Vec<SheetFigure>, Opti
     let mut cutoffs: Vec<String> = lines.iter().map(|lines| shown(lines.value(&CUTOFF), 3)).collect();
     cutoffs.sort_unstable();
     cutoffs.dedup();
-    let note =
-        format!("Ra and Rz: the largest of the lines in all finished windows, cut-off {} mm.", cutoffs.join(", "));
-    (figures, Some(note))
+    let cutoffs = cutoffs.join(", ");
+    (figures, format!(" Ra and Rz: the largest of the lines in all finished windows, cut-off {cutoffs} mm."))
 }

@@ -59,7 +59,7 @@ fn a_measured_surface_is_laid_over_its_window() {
     for words in ["Measured over cut: tooth 3 left", "Measured less cut, levelled", "How the measured surface lies"] {
         assert!(page.contains(words), "{words}");
     }
-    // The inspector's sheet has Ra and Rz of the finished window; marks hardly lean, so that lines along them are smooth.
+    // The inspector's sheet has Ra and Rz of the finished window. Marks hardly lean: lines along them are smooth.
     let sheet = std::fs::read_to_string(at("laid/inspection.svg")).expect("a sheet");
     let lines = &results["sections"]["roughness"]["finish"]["tooth_03_left_along_profile"];
     let largest = lines["Ra_largest"]["value"].as_f64().expect("um");
