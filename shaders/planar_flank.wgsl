@@ -70,7 +70,7 @@ fn lowered(quad: Quad, ray: RayCubics, record: FlankPass, low_mm: f32) -> Quad {
     if ARCS && record.is_arc == 1u {
         entries = enter_arc(rays, record);
     } else {
-        entries = enter_curve(rays, record);
+        entries = enter_curve(rays, record, 2.0 * low_mm - record.start_mm);
     }
     let low = vec4(low_mm);
     let h = record.start_mm + entries.height_mm;

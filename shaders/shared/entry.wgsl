@@ -2,8 +2,8 @@
 // they are tenths of a millimetre, so that f32 resolves a hundredth of a nanometre. Derivation:
 // crates/core/src/cut/cpu/planar.rs; base points: crates/gpu/src/compose.rs.
 
-// Newton steps at most: two suffice from the tile's middle, grazing rays take five.
-const MAX_STEPS: u32 = 8u;
+// Newton steps at most: two suffice from the tile's middle, a dozen serve rays that graze.
+const MAX_STEPS: u32 = 16u;
 // A step below this (100 nm) is the last one: the error after it is its square times half the bend of the edge along
 // the ray, 0.005 nm where the radius is 1 mm. The residual of a grazing ray is known to some 1e-8 mm, so its steps may
 // not shrink much further.
@@ -28,13 +28,16 @@ struct Entries {
     unconverged: vec4<bool>,
 }
 
-// Falling root of x + k nx - U(y + k ny), U the record's polynomial.
-fn enter_curve(rays: Rays, record: FlankPass) -> Entries {
+// Falling root of x + k nx - U(y + k ny), U the record's polynomial. Where the residual rises, the search goes back to
+// `lowest_mm` (above the start height), where it falls if there is any entry above at all; a ray that gets there twice
+// has passed the bottom of a residual without roots and misses the segment.
+fn enter_curve(rays: Rays, record: FlankPass, lowest_mm: f32) -> Entries {
     let c = record.curve;
     let c5 = record.curve_5;
     var k = vec4<f32>(0.0);
     var rate = vec4<f32>(0.0);
     var step = vec4<f32>(0.0);
+    var went_back = vec4<bool>(false);
     for (var i = 0u; i < MAX_STEPS; i++) {
         let y = rays.y + k * rays.ny;
         // Beyond its ends the polynomial goes on along its end tangents.
@@ -43,7 +46,10 @@ fn enter_curve(rays: Rays, record: FlankPass) -> Entries {
         let x = t * (c.x + t * (c.y + t * (c.z + t * (c.w + t * c5)))) + (y - t) * slope;
         rate = rays.nx - slope * rays.ny;
         let divisor = select(rate, vec4(FLATTEST), abs(rate) < vec4(FLATTEST));
-        step = (rays.x + k * rays.nx - x) / divisor;
+        let rises = rate >= vec4(0.0);
+        let back = select(k - vec4(lowest_mm), vec4(0.0), went_back);
+        step = select((rays.x + k * rays.nx - x) / divisor, back, rises);
+        went_back |= rises;
         k = clamp(k - step, vec4(-REACH_MM), vec4(REACH_MM));
         if all(abs(step) < vec4(LAST_STEP_MM)) {
             break;

@@ -320,8 +320,12 @@ impl Segment {
     /// continuation (end tangents of a table, the full circle of an arc). `None`: it never does.
     ///
     /// The residual of a convex segment is convex in h, so Newton's method from a place where it falls runs
-    /// monotonically to the entry, however far away it starts. Should it not arrive (a ray that is not a number), that
-    /// is no miss: the last place counts as the entry, and who bounds with it keeps the pass.
+    /// monotonically to the entry, however far away it starts: the law of the planar kernels
+    /// (`cut/cpu/planar.rs`, `shaders/shared/entry.wgsl`), which start near the entry and look for a place where the
+    /// residual falls only when they find it rising. Segments of shaper cutters are convex by construction (an involute
+    /// from its one side, a straight line, an arc), rough ones within what their smooth course says. Should it not
+    /// arrive (a ray that is not a number), that is no miss: the last place counts as the entry, and who bounds with it
+    /// keeps the pass.
     pub fn enter(&self, origin_mm: DVec2, direction: DVec2) -> Option<RayHit> {
         match &self.shape {
             SegmentShape::Arc { radius_mm } => {
