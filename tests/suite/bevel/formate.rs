@@ -291,7 +291,7 @@ fn scenes_and_pages_speak_of_a_plunge() {
     let folder = tempfile::tempdir().expect("a folder");
     let out = folder.path().join("out");
     let set =
-        ["fields.flank.profile_spacing_um=400", "fields.flank.lead_spacing_um=1500", "fields.blank.spacing_mm=0.6"];
+        ["fields.flank.profile_spacing_um=800", "fields.flank.lead_spacing_um=2000", "fields.blank.spacing_mm=1.2"];
     let set = set.iter().flat_map(|setting| ["--set", setting]);
     let arguments = ["cut", "scenes/bevel/formate.toml", "--only", "numbers,axes,report", "--out"];
     let arguments: Vec<&str> = arguments.into_iter().chain([out.to_str().expect("a path")]).chain(set).collect();

@@ -36,7 +36,7 @@ fn a_wire_runs_round_the_profile_at_its_distance() {
         ("undercut", "scenes/shaping/circular_m3_z24.toml", &["--set", "gear.teeth=10"]),
         ("oval", "scenes/shaping/elliptical_normal.toml", &[]),
         ("ring", "scenes/shaping/internal_circle.toml", &[]),
-        ("hobbed", "scenes/hobbing/circular_spur.toml", &[]),
+        ("hobbed", "scenes/hobbing/circular_spur.toml", &["--set", "gear.teeth=18"]),
     ] {
         let [dxf, ngc] = ["dxf", "ngc"].map(|ending| folder.path().join(format!("{name}.{ending}")));
         let [dxf_name, ngc_name] = [&dxf, &ngc].map(|path| path.to_str().expect("UTF-8"));

@@ -19,16 +19,27 @@ use std::sync::LazyLock;
 
 /// A round spur gear in one cut, a helical one in two by a hob with helical gashes, and the third-order gear, whose
 /// radius of 170 mm f32 resolves to 15 nm.
-const CASES: [(&str, [&str; 3]); 3] = [
-    ("circular_spur", ["gear.face_width_mm=2", "fields.blank.spacing_mm=0.8", "fields.blank.slice_spacing_mm=2.0"]),
-    ("circular_helical", ["gear.face_width_mm=4", "fields.blank.spacing_mm=1.0", "fields.blank.slice_spacing_mm=4.0"]),
+const CASES: [(&str, [&str; 4]); 3] = [
+    (
+        "circular_spur",
+        ["gear.teeth=24", "gear.face_width_mm=2", "fields.blank.spacing_mm=0.8", "fields.blank.slice_spacing_mm=2"],
+    ),
+    (
+        "circular_helical",
+        ["gear.teeth=21", "gear.face_width_mm=4", "fields.blank.spacing_mm=0.8", "fields.blank.slice_spacing_mm=4"],
+    ),
     (
         "third_order_diagonal",
-        ["gear.face_width_mm=50", "fields.blank.spacing_mm=2.5", "fields.blank.slice_spacing_mm=50"],
+        [
+            "operation.finish.axial_feed_mm_per_revolution=5",
+            "gear.face_width_mm=50",
+            "fields.blank.spacing_mm=4",
+            "fields.blank.slice_spacing_mm=50",
+        ],
     ),
 ];
 
-fn job((scene, sets): (&str, [&str; 3])) -> HobbingJob {
+fn job((scene, sets): (&str, [&str; 4])) -> HobbingJob {
     let loaded = load(Path::new(&format!("scenes/hobbing/{scene}.toml")), &sets.map(str::to_owned));
     HobbingJob::new(&loaded.unwrap_or_else(|e| panic!("{e}")).scene).expect("a scene that cuts")
 }
@@ -59,7 +70,7 @@ struct Native {
 }
 
 impl Native {
-    fn of(case: (&str, [&str; 3])) -> Self {
+    fn of(case: (&str, [&str; 4])) -> Self {
         let job: &'static HobbingJob = Box::leak(Box::new(job(case)));
         let cutter = HobCutter::new(job).expect("passes");
         let blank = cut(&cutter, &Cpu::default(), job.blank_field().expect("fits")).expect("native");

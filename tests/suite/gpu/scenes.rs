@@ -29,10 +29,10 @@ fn scenes(process: &str, fewest: usize) -> Vec<Scene> {
     paths.iter().map(|path| load(path, &[]).unwrap_or_else(|errors| panic!("{errors}")).scene).collect()
 }
 
-/// Three flanks and a root of a scene.
+/// Two flanks and a root of a scene.
 fn fields(job: &ShapingJob) -> Vec<(String, Field)> {
     let teeth = job.scene.gear.teeth;
-    let flanks = [(1, Side::Left), (teeth / 3 + 1, Side::Right), (teeth - 1, Side::Left)];
+    let flanks = [(1, Side::Left), (teeth / 3 + 1, Side::Right)];
     let mut fields: Vec<(String, Field)> = flanks
         .into_iter()
         .map(|(tooth, side)| {
@@ -71,7 +71,7 @@ fn compare(gpu: &dyn Backend, mut scene: Scene, feed_during_stroke: bool) -> Par
 /// Two flanks of a hobbing scene, coarse in both directions, after every operation.
 fn compare_hobbed(gpu: &dyn Backend, mut scene: Scene) -> Parity {
     scene.fields.profile_spacing_mm = 0.1;
-    scene.fields.lead_spacing_mm = scene.gear.face_width_mm / 64.0;
+    scene.fields.lead_spacing_mm = scene.gear.face_width_mm / 32.0;
     let name = scene.name.clone();
     let job = HobbingJob::new(&scene).unwrap_or_else(|error| panic!("{name}: {error}"));
     let cutter = HobCutter::new(&job).expect("passes");

@@ -36,7 +36,7 @@ fn the_gpu_cuts_a_ring_alike() {
     let shape = PitchCurveShape::Ellipse { order: 2, eccentricity: 0.08, semi_major_axis_mm: None };
     let operations = vec![operation("rough", NORMAL, 0.5, 270), operation("finish", NORMAL, 0.0, 540)];
     let mut scene = ring_scene(shape, 54, 16, operations);
-    scene.fields.blank_spacing_mm = 0.4;
+    scene.fields.blank_spacing_mm = 0.6;
     let job = ShapingJob::new(scene).expect("a ring");
     let run = |backend: &dyn Backend, by_mm: f64| {
         let mut grid = job.planar().blank_grid().expect("fits");
@@ -67,7 +67,7 @@ mod slow {
     fn the_gpu_leaves_the_same_spans_and_volumes() {
         let mut scene = paper_scene(vec![operation("rough", NORMAL, 2.0, 1200), operation("finish", NORMAL, 0.0, 240)]);
         Shaping::of_mut(&mut scene).expect("shaping").operations[1].feed_during_stroke = true;
-        scene.fields.blank_spacing_mm = 0.5;
+        scene.fields.blank_spacing_mm = 0.7;
         scene.fields.blank_slice_spacing_mm = 30.0;
         let job = ShapingJob::new(scene).expect("a scene that cuts");
         let native = cut(&job);

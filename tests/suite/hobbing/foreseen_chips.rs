@@ -11,8 +11,8 @@ use std::path::Path;
 
 /// Few dexels and rays.
 const FEW: [&str; 4] = [
-    "fields.flank.profile_spacing_um=200",
-    "fields.flank.lead_spacing_um=500",
+    "fields.flank.profile_spacing_um=800",
+    "fields.flank.lead_spacing_um=2000",
     "fields.blank.spacing_mm=0.4",
     "fields.blank.slice_spacing_mm=15",
 ];
@@ -52,12 +52,9 @@ mod slow {
     /// same hob tooth takes one as thick or thicker; the whole blank has no thinner one, and one not much thicker.
     #[test]
     fn a_foreseen_chip_is_one_of_the_cut() {
-        for (name, settings) in [
-            ("circular_spur", &FEW[2..]),
-            ("third_order_plain", &FEW[2..]),
-            ("circular_helical", &["fields.blank.spacing_mm=0.3", "fields.blank.slice_spacing_mm=15"]),
-        ] {
-            let job = scene(name, settings);
+        for (name, spacing_mm) in [("circular_spur", 0.4), ("third_order_plain", 0.5), ("circular_helical", 0.3)] {
+            let spacing = format!("fields.blank.spacing_mm={spacing_mm}");
+            let job = scene(name, &["gear.face_width_mm=12", "fields.blank.slice_spacing_mm=6", &spacing]);
             let cutter = HobCutter::new(&job).expect("passes");
             let foreseen = foreseen_chips::of(&cutter).expect("they are found");
             let middle = |grid: BlankGrid| {

@@ -75,42 +75,60 @@ fn finished(job: &HobbingJob, field: &SpatialField) -> Layer {
     layers.last().expect("an operation").clone()
 }
 
-/// What an error changes near the pitch circle of both flanks of a tooth, mm, where the same pass leaves the surface
-/// with it and without it. Elsewhere the heights of two marks are in the difference, and an error that grows along the
-/// tooth moves the borders of marks.
-fn changes(sound: &HobbingJob, faulty: &HobbingJob, teeth: &[u32]) -> Vec<(Place, f64)> {
-    let cutter = HobCutter::new(sound).expect("passes");
-    let linkage = &sound.finishing().linkage;
-    let mut found = Vec::new();
-    for &tooth in teeth {
-        for side in [Side::Left, Side::Right] {
+/// A gear without errors: rays near the pitch circle of both flanks of some teeth, and how its cut leaves them.
+struct Sound {
+    job: HobbingJob,
+    cuts: Vec<(SpatialField, Layer)>,
+}
+
+impl Sound {
+    fn new(settings: &[&str], teeth: &[u32]) -> Self {
+        let job = job(settings);
+        let cutter = HobCutter::new(&job).expect("passes");
+        let flanks = teeth.iter().flat_map(|&tooth| [(tooth, Side::Left), (tooth, Side::Right)]);
+        let cuts = flanks.map(|(tooth, side)| {
             let target = cutter.target(tooth, side).expect("a flank");
-            let arc_mm = target.arc_at_height_mm(&sound.blank, 0.0).expect("the pitch circle");
+            let arc_mm = target.arc_at_height_mm(&job.blank, 0.0).expect("the pitch circle");
             let field = cutter.rays_over(target, vec![arc_mm], ROWS_MM.to_vec()).field;
-            let (before, after) = (finished(sound, &field), finished(faulty, &field));
-            for row in 0..ROWS_MM.len() {
-                let ray = field.ray(0, row);
-                let index = field.index(0, row);
-                let passes = &cutter.operations[0];
-                if before.passes[index] != after.passes[index] {
-                    continue;
-                }
-                let pass = passes.pass(after.passes[index] - passes.first_pass);
-                let tool_angle_rad = pass.tool_angle_rad;
-                let time_s = linkage.time_at_hob_angle(tool_angle_rad);
-                let place = Place {
-                    point_mm: ray.origin_mm,
-                    normal: ray.normal,
-                    tool_angle_rad,
-                    time_s,
-                    slide_z_mm: -linkage.axes::<1>(time_s).slide_mm.value(),
-                    tooth: passes.places[pass.rank as usize].blade as usize,
-                };
-                found.push((place, f64::from(after.heights_mm[index]) - f64::from(before.heights_mm[index])));
+            let layer = finished(&job, &field);
+            (field, layer)
+        });
+        let cuts = cuts.collect();
+        Self { job, cuts }
+    }
+}
+
+/// What an error changes near the pitch circle, mm, where the same pass leaves the surface with it and without it.
+/// Elsewhere the heights of two marks are in the difference, and an error that grows along the tooth moves the borders
+/// of marks.
+fn changes(sound: &Sound, faulty: &HobbingJob) -> Vec<(Place, f64)> {
+    let cutter = HobCutter::new(&sound.job).expect("passes");
+    let passes = &cutter.operations[0];
+    let linkage = &sound.job.finishing().linkage;
+    let mut found = Vec::new();
+    for (field, before) in &sound.cuts {
+        let after = finished(faulty, field);
+        for row in 0..ROWS_MM.len() {
+            let ray = field.ray(0, row);
+            let index = field.index(0, row);
+            if before.passes[index] != after.passes[index] {
+                continue;
             }
+            let pass = passes.pass(after.passes[index] - passes.first_pass);
+            let tool_angle_rad = pass.tool_angle_rad;
+            let time_s = linkage.time_at_hob_angle(tool_angle_rad);
+            let place = Place {
+                point_mm: ray.origin_mm,
+                normal: ray.normal,
+                tool_angle_rad,
+                time_s,
+                slide_z_mm: -linkage.axes::<1>(time_s).slide_mm.value(),
+                tooth: passes.places[pass.rank as usize].blade as usize,
+            };
+            found.push((place, f64::from(after.heights_mm[index]) - f64::from(before.heights_mm[index])));
         }
     }
-    assert!(3 * found.len() > teeth.len() * 2 * ROWS_MM.len(), "only {} places", found.len());
+    assert!(3 * found.len() > sound.cuts.len() * ROWS_MM.len(), "only {} places", found.len());
     found
 }
 
@@ -121,10 +139,9 @@ fn agree(name: &str, found: &[(Place, f64)], least_um: f64, expected: impl Fn(&P
 
 #[test]
 fn errors_of_a_round_gear_are_their_closed_forms() {
-    let sound = job(&[]);
-    let teeth = [2, 13];
+    let sound = Sound::new(&[], &[2, 13]);
     let case = |name: &str, settings: &[&str], least_um: f64, expected: &dyn Fn(&Place) -> f64| {
-        agree(name, &changes(&sound, &job(settings), &teeth), least_um, expected);
+        agree(name, &changes(&sound, &job(settings)), least_um, expected);
     };
     case(
         "waves of the work spindle",
@@ -184,31 +201,28 @@ fn errors_of_a_round_gear_are_their_closed_forms() {
 /// On a helical gear what moves along the axis moves flanks as well.
 #[test]
 fn errors_along_the_axis_show_on_a_helical_gear() {
-    let helical = |settings: &[&str]| {
-        let settings: Vec<&str> = ["gear.helix_angle_deg=20"].iter().chain(settings).copied().collect();
-        job(&settings)
+    let helical = "gear.helix_angle_deg=20";
+    let sound = Sound::new(&[helical], &[5]);
+    let case = |name: &str, setting: &str, expected: &dyn Fn(&Place) -> f64| {
+        agree(name, &changes(&sound, &job(&[helical, setting])), 1.0, expected);
     };
-    let sound = helical(&[]);
-    let case = |name: &str, settings: &[&str], expected: &dyn Fn(&Place) -> f64| {
-        agree(name, &changes(&sound, &helical(settings), &[5]), 1.0, expected);
-    };
-    case("scale of the slide", &["machine.errors.slide.scale_um_per_m=3000"], &|place| {
+    case("scale of the slide", "machine.errors.slide.scale_um_per_m=3000", &|place| {
         place.shifted([0.0, 0.0, 3e-3 * place.slide_z_mm])
     });
-    case("offset of the work", &["mounting.axial_offset_um=-12"], &|place| place.shifted([0.0, 0.0, 12e-3]));
+    case("offset of the work", "mounting.axial_offset_um=-12", &|place| place.shifted([0.0, 0.0, 12e-3]));
 }
 
 /// The hob's axis runs round its spindle's: the pass that left a place says where it was.
 #[test]
 fn runout_of_the_hob_follows_its_angle() {
-    let sound = job(&[]);
+    let sound = Sound::new(&[], &[2, 9]);
     let (runout_mm, angle_rad) = (8e-3, 0.5);
     let faulty = job(&[
         "tool.hob.runout_um=8",
         &format!("tool.hob.runout_angle_deg={}", angle_rad * 180.0 / std::f64::consts::PI),
     ]);
     let geometry = faulty.finishing().linkage.geometry();
-    agree("runout of the hob", &changes(&sound, &faulty, &[2, 9]), 1.0, |place| {
+    agree("runout of the hob", &changes(&sound, &faulty), 1.0, |place| {
         let tool = geometry.machine_from_tool(place.tool_angle_rad, 0.0, 0.0, 0.0).rotation;
         let shift = runout_mm * (tool.x_axis * f64::cos(angle_rad) + tool.y_axis * f64::sin(angle_rad));
         // Machine x is counter-clockwise about the gear, y outwards, z against the gear's.
@@ -221,8 +235,8 @@ fn runout_of_the_hob_follows_its_angle() {
 /// the end at which uncut work arrives, for a right-hand thread runs against it.
 #[test]
 fn teeth_off_their_thread_leave_their_own_errors() {
-    let sound = job(&[]);
-    let geometry = sound.finishing().linkage.geometry();
+    let sound = Sound::new(&[], &[2, 9]);
+    let geometry = sound.job.finishing().linkage.geometry();
     let along = |place: &Place| {
         let axis = geometry.machine_from_tool(place.tool_angle_rad, 0.0, 0.0, 0.0).rotation.z_axis;
         place.shifted([axis.y, axis.x, -axis.z])
@@ -230,7 +244,7 @@ fn teeth_off_their_thread_leave_their_own_errors() {
     let error_mm = |gash: i64| 1e-3 * (8.0 * (gash * 7 % 24) as f64 / 23.0 - 4.0);
     let list: Vec<f64> = (0..24).map(|gash| 1e3 * error_mm(gash)).collect();
     let faulty = job(&[&format!("tool.hob.pitch_errors_um={list:?}")]);
-    let found = changes(&sound, &faulty, &[2, 9]);
+    let found = changes(&sound, &faulty);
     // Gashes cut one after the other: the one that looks at the gear at the hob's angle 0 is the first.
     let of_gash = |place: &Place| error_mm((24.0 * place.tool_angle_rad / TAU).round().rem_euclid(24.0) as i64);
     agree("pitch errors of a hob", &found, 2.0, |place| of_gash(place) * along(place));
@@ -240,9 +254,9 @@ fn teeth_off_their_thread_leave_their_own_errors() {
     let two = ["tool.hob.starts=2", "gear.teeth=25"];
     let second = [vec!["0.0"; 24], vec!["5.0"; 24]].concat().join(", ");
     let setting = format!("tool.hob.pitch_errors_um=[{second}]");
-    let (sound, faulty) = (job(&two), job(&[&two[..], &[&setting]].concat()));
-    let found = changes(&sound, &faulty, &[2, 9]);
-    let of_thread = |place: &Place| if sound.hob.teeth[place.tooth].start == 1 { 5e-3 } else { 0.0 };
+    let (sound, faulty) = (Sound::new(&two, &[2, 9]), job(&[&two[..], &[&setting]].concat()));
+    let found = changes(&sound, &faulty);
+    let of_thread = |place: &Place| if sound.job.hob.teeth[place.tooth].start == 1 { 5e-3 } else { 0.0 };
     agree("a thread off its place", &found, 2.0, |place| of_thread(place) * along(place));
     assert!(found.iter().any(|(place, _)| of_thread(place) == 0.0), "both threads leave places");
     let wrong: Vec<String> = vec!["tool.hob.pitch_errors_um=[1.0, 2.0]".to_owned()];
@@ -317,8 +331,8 @@ fn passes_follow_a_machine_with_errors_and_candidates_equal_brute_force() {
 fn equal_brute_force(name: &str, faulty: &HobbingJob) {
     let cutter = HobCutter::new(faulty).expect("passes");
     let target = cutter.target(4, Side::Right).expect("a flank");
-    let arcs_mm = (0..12).map(|i| 0.2 + 0.4 * f64::from(i)).collect();
-    let field = cutter.rays_over(target, arcs_mm, vec![-2.0, -1.0, 0.0, 1.0]).field;
+    let arcs_mm = (0..6).map(|i| 0.3 + 0.8 * f64::from(i)).collect();
+    let field = cutter.rays_over(target, arcs_mm, vec![-2.0, 1.0]).field;
     same_as_brute_force(name, &cutter.operations[0], &field, &field.blank_layer());
 }
 
