@@ -193,23 +193,27 @@ fn at_steps(fault: Fault, parts: Parts, chosen: impl Fn(usize, usize) -> bool) -
     runs
 }
 
+/// Every fourth step while files are written, and each of the last, which give them their names.
+fn last_and_some(n: usize, steps: usize) -> bool {
+    n + 12 > steps || n.is_multiple_of(4)
+}
+
 mod slow {
     use super::*;
 
     #[test]
     fn a_run_that_is_killed_at_any_step_leaves_the_earlier_or_the_new_result() {
-        // Every second step while files are written, and each of the last, which give them their names.
-        let runs = at_steps(Fault::Death, Parts::of([]), |n, steps| n + 12 > steps || n % 2 == 0);
-        assert!(runs > 20, "{runs}");
+        let runs = at_steps(Fault::Death, Parts::of([]), last_and_some);
+        assert!(runs > 15, "{runs}");
     }
 
     #[test]
     fn a_disk_that_fills_at_any_write_costs_no_earlier_result() {
-        let runs = at_steps(Fault::Full, Parts::of([]), |_, _| true);
-        assert!(runs > 20, "{runs}");
-        // A write that fails alone: every third.
-        let runs = at_steps(Fault::OneWrite, Parts::of([]), |n, _| n % 3 == 0);
-        assert!(runs > 6, "{runs}");
+        let runs = at_steps(Fault::Full, Parts::of([]), last_and_some);
+        assert!(runs > 15, "{runs}");
+        // A write that fails alone.
+        let runs = at_steps(Fault::OneWrite, Parts::of([]), |n, _| n % 4 == 1);
+        assert!(runs > 4, "{runs}");
     }
 
     /// Everything is written: each step from the end of the cut to the names, and every 300th before.
