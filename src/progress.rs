@@ -361,8 +361,12 @@ fn visible_bar(name: &str, total: u64, unit: &str, whole: Arc<Mutex<Whole>>) -> 
         };
         let _bar_only = out.write_str(&words);
     };
+    // Long names take room from the bar: the line fits the terminal with the longest time left as well.
+    let most = format!("{name} [] {total} of {total} {unit}  59 min 59 s left in all").chars().count();
+    let width = WIDTH.saturating_sub(most).clamp(4, 30);
+    let template = format!("{{prefix}} [{{bar:{width}}}] {{pos}} of {{len}} {{msg}}  {{time_left}}");
     // The template is ours; should the crate ever refuse it, its plain bar still shows the count.
-    let style = ProgressStyle::with_template("{prefix} [{bar:30}] {pos} of {len} {msg}  {time_left}")
+    let style = ProgressStyle::with_template(&template)
         .unwrap_or_else(|_| ProgressStyle::default_bar())
         .with_key("time_left", time_left)
         .progress_chars("=> ");

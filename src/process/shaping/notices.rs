@@ -28,7 +28,7 @@ notices! {
         "Draw back another way or further, as the notice says."
     /// The returning cutter scores flanks of the gear as it was cut.
     ReturnRubs: Warning "return.rubs", "blank.md", (operation, stroke, depth_um, tooth, side, volume_mm3, way_out),
-        "operation {operation}: in the gear as cut, the returning cutter is after stroke {stroke} {depth_um} um \
+        "operation {operation}: in the gear as cut, after stroke {stroke} the returning cutter is {depth_um} um \
          deep in tooth {tooth} {side}, and in {volume_mm3} mm^3 in all: {way_out}; gearcut check says where it clears";
         "Set another machine.retraction or machine.back_off_mm."
     /// The cutter is still in the way when the ram comes back through the face.

@@ -98,7 +98,7 @@ fn the_second_ctrl_c_ends_the_process_at_once() {
     use std::process::{Command, Stdio};
     let this = std::env::current_exe().expect("the running test");
     let mut child = Command::new(this)
-        .args(["progress::child_that_is_interrupted", "--exact", "--nocapture"])
+        .args(["output::progress::child_that_is_interrupted", "--exact", "--nocapture"])
         .env("GEARCUT_TEST_INTERRUPT", "1")
         .stdout(Stdio::null())
         .stderr(Stdio::piped())

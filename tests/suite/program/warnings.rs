@@ -154,8 +154,8 @@ fn a_cut_adds_only_what_no_scene_says() {
 fn depths_of_the_returning_cutter_say_whence_they_are() {
     let deep = ["operation.rough.offset_mm=-5"];
     let err = run("check", "scenes/shaping/elliptical_normal.toml", &deep, &[]).failed(3, &[]).err;
-    let line = err.lines().find(|line| line.contains("the returning cutter is")).expect("it rubs");
     let words = "by the surfaces that it generates, the returning cutter is ";
+    let line = err.lines().find(|line| line.contains(words)).expect("it rubs");
     let depth_um: f64 =
         line.split(words).nth(1).and_then(|rest| rest.split(' ').next()?.parse().ok()).expect("a depth");
     assert!((100.0..200.0).contains(&depth_um), "{line}: a cut of it finds 137 um");
