@@ -22,7 +22,7 @@ fn check_says_what_goes_in_radially_and_what_is_trimmed() {
     let fits = check(40, 22).done().says(&["largest for radial infeed     22 teeth"]);
     assert!(!fits.err.contains("trims the ring"), "{}", fits.err);
     for teeth in [24, 26] {
-        check(40, teeth).failed(3, &["fault: going in, the cutter trims the ring's teeth by", "use 22 cutter teeth"]);
+        check(40, teeth).failed(3, &["fault: going in, the cutter trims the ring's teeth by", "Use 22 cutter teeth"]);
     }
 }
 
