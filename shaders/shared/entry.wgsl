@@ -29,8 +29,8 @@ struct Entries {
 }
 
 // Falling root of x + k nx - U(y + k ny), U the record's polynomial. Where the residual rises, the search goes back to
-// `lowest_mm` (above the start height), where it falls if there is any entry above at all; a ray that gets there twice
-// has passed the bottom of a residual without roots and misses the segment.
+// `lowest_mm`, counted from the start height, where it falls if there is any entry above at all; a ray that gets there
+// twice has passed the bottom of a residual without roots and misses the segment.
 fn enter_curve(rays: Rays, record: FlankPass, lowest_mm: f32) -> Entries {
     let c = record.curve;
     let c5 = record.curve_5;

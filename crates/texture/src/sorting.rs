@@ -13,7 +13,7 @@ const IN_A_CLASS: usize = 256;
 /// Sign of a float among its bits.
 const SIGN: u64 = 1 << 63;
 
-/// Whole number that is the smaller the higher a point stands: whole numbers are sorted faster than floats.
+/// Whole number that is the smaller the higher a point lies: whole numbers are sorted faster than floats.
 fn key(height: f64) -> u64 {
     let bits = height.to_bits();
     if height.is_sign_negative() { bits } else { !(bits | SIGN) }

@@ -50,7 +50,7 @@ impl PowerSpectrum {
 /// One value of the spectrum.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct Wave {
-    /// Where it stands in [`PowerSpectrum::power`].
+    /// Its place in [`PowerSpectrum::power`].
     pub place: usize,
     /// Its power; 0 where there is no wave.
     pub power: f64,
