@@ -12,6 +12,9 @@ use glam::DVec2;
 
 use super::flank_chain::FlankChain;
 
+/// Squares of distances of one place from two sides that meet there differ by less than this share of them.
+const AS_NEAR: f64 = 1e-9;
+
 /// The outline of one space.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SpaceOutline {
@@ -49,20 +52,55 @@ impl SpaceOutline {
         if corner_mm.distance(self.center_mm) > self.reach_mm {
             return None;
         }
-        let mut nearest = (f64::INFINITY, 0, 0.0, 0.0);
+        // Two sides of one corner are as near as each other: the one that is passed farther from its line knows on which
+        // side the corner stands. A flank may meet its fillet with a step of some nanometres straight across.
+        let mut nearest = (f64::INFINITY, 0, 0.0, 0.0_f64);
         for (i, side) in self.points_mm.windows(2).enumerate() {
             let along = side[1] - side[0];
             let to = corner_mm - side[0];
             let share = (to.dot(along) / along.length_squared()).clamp(0.0, 1.0);
             let square = (to - share * along).length_squared();
-            if square < nearest.0 {
-                nearest = (square, i, share, along.perp_dot(to));
+            let left_mm = along.perp_dot(to) / along.length();
+            let is_as_near = square <= (1.0 + AS_NEAR) * nearest.0;
+            if square < (1.0 - AS_NEAR) * nearest.0 || (is_as_near && left_mm.abs() > nearest.3.abs()) {
+                nearest = (square, i, share, left_mm);
             }
         }
-        let (square, index, share, left) = nearest;
+        let (square, index, share, left_mm) = nearest;
         let at = index as f64 + share;
         let on_first = at < self.first as f64 - 0.5;
         let place = if on_first { ((self.first - 1) as f64 - at).max(0.0) } else { (at - self.first as f64).max(0.0) };
-        Some(CornerDepth { depth_mm: square.sqrt() * left.signum() * self.inside, on_first, place })
+        Some(CornerDepth { depth_mm: square.sqrt() * left_mm.signum() * self.inside, on_first, place })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The space between two teeth, upwards; its left flank meets the fillet with a step of 12 nm straight across, and
+    /// its right one with a ridge of 30 degrees. The side is that of the polygon which a chord over the tips closes.
+    #[test]
+    fn a_step_or_a_ridge_in_the_outline_turns_no_side() {
+        let point = DVec2::new;
+        let left = vec![point(-0.2, 0.0), point(-1.0, 1.0), point(-1.0 - 12e-6, 1.0), point(-2.0, 3.0)];
+        let right = vec![point(0.2, 0.0), point(1.2, 0.6), point(0.7, 1.1), point(1.2, 1.0), point(2.0, 3.0)];
+        let [first, second] = [&left, &right].map(|points_mm| FlankChain::straight(points_mm.clone()));
+        let closed: Vec<DVec2> = left.iter().rev().chain(&right).copied().collect();
+        let is_open = |p: DVec2| {
+            let sides = (0..closed.len()).map(|i| [closed[i], closed[(i + 1) % closed.len()]]);
+            let crosses =
+                |[a, b]: &[DVec2; 2]| (a.y > p.y) != (b.y > p.y) && p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x);
+            sides.filter(crosses).count() % 2 == 1
+        };
+        let outline = SpaceOutline::new(&first, &second, -1.0);
+        let mut seen = [0; 2];
+        for (i, j) in (0..100).flat_map(|i| (0..100).map(move |j| (i, j))) {
+            let place_mm = point(-1.5 + 0.0301 * f64::from(i), 0.0103 + 0.0207 * f64::from(j));
+            let found = outline.corner(place_mm).expect("within reach");
+            assert_eq!(found.depth_mm < 0.0, is_open(place_mm), "{place_mm}: {found:?}");
+            seen[usize::from(is_open(place_mm))] += 1;
+        }
+        assert!(seen.iter().all(|&count| count > 1000), "{seen:?}");
     }
 }
