@@ -86,7 +86,7 @@ fn print_hob(sheet: &mut Sheet, job: &HobbingJob) {
     );
 }
 
-/// Bands of flanks; of the blank the slice in the middle.
+/// Bands of flanks; of the blank some spaces in the slice in the middle, or that slice where its spaces are not apart.
 fn print_cost(sheet: &mut Sheet, cutter: &HobCutter) -> Result<()> {
     let job = cutter.job;
     let grid = job.blank_grid()?;
@@ -98,9 +98,13 @@ fn print_cost(sheet: &mut Sheet, cutter: &HobCutter) -> Result<()> {
         Ok(cutter.cut_field(&Cpu::default(), &rays.field)?.1)
     };
     let blank_s = || {
+        let share = 1.0 / slices as f64;
+        if let Some(of_slice) = foreseen_chips::share_of_slice(job) {
+            return whole_s(share * of_slice, || foreseen_chips::cut_spaces(cutter));
+        }
         let middle = BlankGrid { slices_z_mm: vec![grid.slices_z_mm[slices / 2]], ..grid.clone() };
         let field = BlankField::new(middle, &BlankOutline::new(&job.stock));
-        whole_s(1.0 / slices as f64, || cutter.cut_blank(&Cpu::default(), field, &|| true))
+        whole_s(share, || cutter.cut_blank(&Cpu::default(), field, &|| true))
     };
     let samples = ForecastSamples {
         job: cutter,

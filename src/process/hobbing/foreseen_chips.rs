@@ -14,9 +14,9 @@
 //! is fitted to standard racks on round gears, another number than the cut's, and says nothing of a gear that is not
 //! round.
 
-use super::HobCutter;
 use super::kept::ForeseenChip;
 use super::measure::hob_load::OperationLoad;
+use super::{HobCutter, HobbingJob};
 use gearcut_core::cut::Backend as _;
 use gearcut_core::cut::cpu::Cpu;
 use gearcut_core::dexel::blank_field::RayMaterial;
@@ -39,12 +39,26 @@ pub fn of<'a>(cutter: &HobCutter<'a>) -> Result<&'a [Option<ForeseenChip>]> {
     cutter.foreseen_chips(|| find(cutter))
 }
 
+/// Share of a slice that some spaces are, where they can be cut without the others: passes of others cut there as well
+/// where the hob cuts the tips, and under a linkage as printed.
+pub fn share_of_slice(job: &HobbingJob) -> Option<f64> {
+    let as_printed = job.operations.iter().any(|operation| operation.linkage.law().is_as_printed());
+    let teeth = job.scene.gear.teeth;
+    (!as_printed && !job.tops_the_gear()).then(|| f64::from(SPACES.min(teeth)) / f64::from(teeth))
+}
+
 fn find(cutter: &HobCutter) -> Result<Vec<Option<ForeseenChip>>> {
-    // Passes of other spaces would cut there as well: through the teeth, or over their tips.
-    let as_printed = cutter.job.operations.iter().any(|operation| operation.linkage.law().is_as_printed());
-    if as_printed || cutter.job.tops_the_gear() {
+    if share_of_slice(cutter.job).is_none() {
         return Ok(vec![None; cutter.operations.len()]);
     }
+    cut_spaces(cutter)
+}
+
+/// Cuts the spaces that are looked at.
+///
+/// # Errors
+/// A blank field that does not fit in memory.
+pub fn cut_spaces(cutter: &HobCutter) -> Result<Vec<Option<ForeseenChip>>> {
     let spaces: Vec<i64> = spaces(cutter.job.scene.gear.teeth).collect();
     let mut field = field(cutter, &spaces)?;
     let mut found = Vec::new();

@@ -100,7 +100,7 @@ mod slow {
                 scenes.map(|entry| entry.expect("a file").path()).filter(|p| p.extension().is_some_and(|e| e == "toml"))
             {
                 // The forecast cuts pieces of a narrow face.
-                let narrow = ["--set", "gear.face_width_mm=8"];
+                let narrow = ["--set", "gear.face_width_mm=4"];
                 let narrow = if process.name == "hobbing" { &narrow[..] } else { &[] };
                 let outcome = gearcut(&[&["check", &scene.display().to_string()][..], narrow].concat());
                 let outcome = outcome.done().says(&["Cost of the cut"]);
