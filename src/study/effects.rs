@@ -204,8 +204,8 @@ mod tests {
     }
 
     /// Of a linear budget the index is the square of each term over their sum.
-    /// Total indices by the design of a study: Ishigami's function has 0.5576, 0.4424 and 0.2437 (Saltelli et al., table
-    /// 1), of which the third is all of it what x and z do together; a sum of terms has its first-order indices again.
+    /// Total indices by the design of a study: Ishigami's function has 0.5576, 0.4424 and 0.2437 (Saltelli et al.), of
+    /// which the third is all of it what x and z do together; a sum of terms has its first-order indices again.
     #[test]
     fn total_indices_of_known_functions_are_within_their_intervals() {
         use super::super::parameter::{ParameterValues, StudyParameter, ValueRange};

@@ -13,6 +13,6 @@ notices! {
         "tables/missing.csv has the reasons; a draft is too coarse for marks of the tool."
     /// Words have no neighbours.
     ManyWords: Note "study.no_parts", "studies.md", (keys),
-        "no effect is stated of parameters with more than 32 words: {keys}";
-        "Take fewer values, or numbers."
+        "no effect is stated of parameters with more than 32 words, or with too few cases: {keys}";
+        "Take fewer values, numbers, or more samples."
 }

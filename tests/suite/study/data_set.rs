@@ -17,6 +17,11 @@ fn row(folder: &Path) -> BTreeMap<String, String> {
     heads.iter().map(str::to_owned).zip(all[0].iter().map(str::to_owned)).collect()
 }
 
+/// Equal but for the last bit, which `serde_json` may read otherwise than the standard library.
+fn same(a: f64, b: f64) -> bool {
+    (a - b).abs() <= f64::EPSILON * b.abs()
+}
+
 fn quantity<'a>(document: &'a serde_json::Value, path: &[&str]) -> &'a serde_json::Value {
     path.iter().fold(document, |of, key| &of[key])
 }
@@ -48,20 +53,20 @@ fn a_row_repeats_from_its_scene() {
     let value = |path: &[&str]| quantity(&results, path)["value"].as_f64().expect("a number");
     let cell = |head: &str| -> f64 { row[head].parse().unwrap_or_else(|_| panic!("{head}: {}", row[head])) };
     for figure in ["F_alpha", "f_H_alpha", "F_beta", "f_p", "F_p", "F_r"] {
-        assert_eq!(cell(&format!("{figure}_um")), value(&["headline", figure]), "{figure}");
+        assert!(same(cell(&format!("{figure}_um")), value(&["headline", figure])), "{figure}");
     }
     let mut pitches = 0;
     for tooth in 1..=24 {
         let key = format!("tooth_{tooth:02}");
         for side in ["left", "right"] {
             let head = format!("teeth.{key}.{side}.F_pi_um");
-            assert_eq!(cell(&head), value(&["sections", "teeth", &key, side, "F_pi"]), "{head}");
+            assert!(same(cell(&head), value(&["sections", "teeth", &key, side, "F_pi"])), "{head}");
             pitches += 1;
         }
     }
     assert_eq!(pitches, 48);
     let texture = ["sections", "texture", "finish", "tooth_01_left", "parameters", "Sa"];
-    assert_eq!(cell("texture.finish.tooth_01_left.parameters.Sa_um"), value(&texture));
+    assert!(same(cell("texture.finish.tooth_01_left.parameters.Sa_um"), value(&texture)));
 
     // Maps: rays of one's own at places of one's own reckoning.
     let loaded = process::load(Path::new(scene), &settings).expect("a scene");
