@@ -235,8 +235,8 @@ mod tests {
                 let found = total(&pairs).expect("pairs enough");
                 let [low, high] = found.interval;
                 assert!(low <= expected && expected <= high, "{found:?} for {expected}");
-                // Another program finds errors of 0.017 at most on these points, and ends of intervals 0.20 away at most
-                // over 200 ways to group the pairs.
+                // Another program finds errors of 0.017 at most on these points, and ends of intervals 0.20 away at
+                // most over 200 ways to group the pairs.
                 assert!((found.index - expected).abs() < 0.02 && high - low < 0.4, "{found:?} for {expected}");
                 // Planted: of the points alone, which have nothing to do with each other, every index would be 1.
                 let wrong: Vec<[f64; 3]> = pairs.iter().map(|[first, second, _]| [*first, *second, *second]).collect();
