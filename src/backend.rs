@@ -53,6 +53,13 @@ pub struct Choice {
     pub on_trial: bool,
 }
 
+impl Choice {
+    /// The backend of those who try none: the processor where a GPU would be on trial.
+    pub fn untried<'a>(&'a self, processor: &'a Cpu) -> &'a dyn Backend {
+        if self.on_trial { processor } else { self.backend.as_ref() }
+    }
+}
+
 /// The backend for a wish.
 ///
 /// # Errors

@@ -35,6 +35,7 @@ pub fn rows() -> impl Iterator<Item = &'static NoticeRow> {
         crate::pair_job::notices::NOTICES,
         crate::influence::notices::NOTICES,
         crate::scatter::notices::NOTICES,
+        crate::study::notices::NOTICES,
         crate::compare::notices::NOTICES,
     ];
     let of_processes = PROCESSES.iter().map(|process| process.notices);

@@ -95,7 +95,7 @@ impl<'a> Run<'a> {
         let (native, quiet) = (Cpu::default(), Progress::new(ProgressMode::Quiet));
         let tools = Tools {
             resolved: "",
-            backend: if self.choice.on_trial { &native } else { self.choice.backend.as_ref() },
+            backend: self.choice.untried(&native),
             backend_why: &self.choice.why,
             progress: self.progress.unwrap_or(&quiet),
             interrupt: &self.interrupt,

@@ -16,12 +16,15 @@ pub mod engine;
 pub mod file;
 mod findings;
 pub mod kept;
+pub mod map;
+pub(crate) mod notices;
 mod page;
+pub mod pair;
 pub mod parameter;
 pub mod plan;
 pub mod quantities;
 mod rows;
 
-pub use engine::{Study, StudyOutcome};
+pub use engine::{Study, StudyBase, StudyOutcome};
 pub use parameter::{ParameterValues, StudyParameter};
 pub use plan::{SampleDesign, Shard, StudyCommand, StudyPlan};

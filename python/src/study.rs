@@ -2,11 +2,11 @@
 
 use crate::failure;
 use crate::waiting::{EventWatch, waited};
+use gearcut::Result;
 use gearcut::backend::{BackendWish, OnFailure, choose};
 use gearcut::interrupt::Interrupt;
 use gearcut::study::file::{folder_of, read};
 use gearcut::study::plan::Shard;
-use gearcut::{Error, Result};
 use pyo3::exceptions::{PyKeyboardInterrupt, PyValueError};
 use pyo3::prelude::*;
 use std::path::PathBuf;
@@ -29,7 +29,7 @@ pub fn study(
     let out = out.unwrap_or_else(|| folder_of(&format!("{stem}_study"), shard));
     let (made, raised) = waited(py, &interrupt, || -> Result<_> {
         let file = read(&path, most_cases)?;
-        let base = file.base().map_err(|errors| Error::Scene(Box::new(errors)))?;
+        let base = file.base()?;
         let choice = choose(BackendWish::Cpu, OnFailure::default())?;
         file.study(&base, shard, &choice).run(&out, (&watch.progress, &interrupt))
     });

@@ -25,9 +25,11 @@ pub fn sweep(arguments: &SweepArguments) -> Result<(), Failure> {
     let file = StudyFile {
         scene: arguments.scene.scene.clone(),
         command: arguments.command.command(),
+        mate: arguments.mate.clone(),
         draft: arguments.draft,
         settings: arguments.scene.settings.clone(),
         keep: arguments.keep.clone(),
+        maps: Vec::new(),
         plan: StudyPlan::new(parameters, sampling, arguments.cases.most_cases)?,
     };
     let stem = arguments.scene.scene.file_stem().and_then(|stem| stem.to_str()).unwrap_or("scene");
@@ -39,12 +41,16 @@ fn run(file: StudyFile, stem: &str, arguments: &CasesArguments) -> Result<(), Fa
     let shard = arguments.shard;
     let out = arguments.out.clone().unwrap_or_else(|| folder_of(&format!("{stem}_study"), shard));
     let interrupt = Interrupt::listen().map_err(listening(&out))?;
-    let (choice, progress) = backend::of_few_places(&arguments.compute, false, &base.scene)?;
+    let (choice, progress) = backend::of_few_places(&arguments.compute, false, &base.scene.scene)?;
     let done = file.study(&base, shard, &choice).run(&out, (&progress, &interrupt))?;
     if done.rows < done.cases {
         return Err(Failure::to_go_on(&out, [done.rows, done.cases], "cases"));
     }
     let rows = done.path.join(table_file(ROWS));
     let failed = if done.failed == 0 { String::new() } else { format!(", {} of them failed", done.failed) };
-    Ok(print::sheet(&format!("{} cases{failed}; their rows are in {}\n", done.cases, rows.display()))?)
+    print::sheet(&format!("{} cases{failed}; their rows are in {}\n", done.cases, rows.display()))?;
+    if !done.notices.is_empty() {
+        print::warnings(&done.notices);
+    }
+    Ok(())
 }

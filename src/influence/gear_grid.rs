@@ -51,6 +51,30 @@ impl FlankGrid {
         Ok(Self { tooth, side, arcs_mm, rolls_mm, faces_mm, rays })
     }
 
+    /// So many places evenly over the evaluated part of the profile and over the face without its ends; of one the
+    /// middle.
+    ///
+    /// # Errors
+    /// The tool generates no flank there.
+    pub fn inspected(gear: &dyn GearJob, tooth: u32, side: Side, [columns, rows]: [usize; 2]) -> Result<Self> {
+        let half_mm = (0.5 - FACE_MARGIN) * gear.scene().gear.face_width_mm;
+        let profile_mm = gear.evaluated_profile_mm(tooth, side)?;
+        Self::new(gear, tooth, side, evenly(profile_mm, columns), evenly([-half_mm, half_mm], rows))
+    }
+
+    /// Heights of a gear over the target, um; NaN where no pass came.
+    ///
+    /// # Errors
+    /// The tool generates no flank there; the backend's.
+    pub fn heights_um(&self, gear: &dyn GearJob, backend: &dyn Backend) -> Result<Vec<f64>> {
+        let layers = gear.cut_flank(backend, self.tooth, self.side, &self.arcs_mm, &self.faces_mm)?;
+        let finished = layers.last().expect("a job has an operation");
+        let um = |(&height_mm, &pass): (&f32, &u32)| {
+            if pass == NO_PASS { f64::NAN } else { UM_PER_MM * f64::from(height_mm) }
+        };
+        Ok(finished.heights_mm.iter().zip(&finished.passes).map(um).collect())
+    }
+
     /// How many places it has.
     pub fn places(&self) -> usize {
         self.arcs_mm.len() * self.faces_mm.len()
@@ -96,11 +120,9 @@ impl GearGrid {
     pub fn inspected(gear: &dyn GearJob, whole: &[(u32, Side)], and_others: bool) -> Result<Self> {
         let mut asked = flanks_of(gear);
         asked.retain(|flank| and_others || whole.contains(flank));
-        let half_mm = (0.5 - FACE_MARGIN) * gear.scene().gear.face_width_mm;
         let flanks = asked.into_par_iter().map(|(tooth, side)| {
-            let profile_mm = gear.evaluated_profile_mm(tooth, side)?;
-            let [columns, rows] = if whole.contains(&(tooth, side)) { WHOLE_FLANK } else { [1, 1] };
-            FlankGrid::new(gear, tooth, side, evenly(profile_mm, columns), evenly([-half_mm, half_mm], rows))
+            let places = if whole.contains(&(tooth, side)) { WHOLE_FLANK } else { [1, 1] };
+            FlankGrid::inspected(gear, tooth, side, places)
         });
         Ok(Self { teeth: gear.scene().gear.teeth, flanks: flanks.collect::<Result<_>>()? })
     }
@@ -136,20 +158,13 @@ impl GearGrid {
     pub fn heights_of_um(&self, job: &dyn ProcessJob, backend: &dyn Backend) -> Result<Vec<f64>> {
         let mut heights = Vec::new();
         job.with_gear(&mut |gear| {
-            let flanks: Result<Vec<Vec<f64>>> = self.flanks.par_iter().map(|flank| cut(gear, backend, flank)).collect();
+            let heights_um = |flank: &FlankGrid| flank.heights_um(gear, backend);
+            let flanks: Result<Vec<Vec<f64>>> = self.flanks.par_iter().map(heights_um).collect();
             heights = flanks?.concat();
             Ok(())
         })?;
         Ok(heights)
     }
-}
-
-fn cut(gear: &dyn GearJob, backend: &dyn Backend, flank: &FlankGrid) -> Result<Vec<f64>> {
-    let layers = gear.cut_flank(backend, flank.tooth, flank.side, &flank.arcs_mm, &flank.faces_mm)?;
-    let finished = layers.last().expect("a job has an operation");
-    let um =
-        |(&height_mm, &pass): (&f32, &u32)| if pass == NO_PASS { f64::NAN } else { UM_PER_MM * f64::from(height_mm) };
-    Ok(finished.heights_mm.iter().zip(&finished.passes).map(um).collect())
 }
 
 /// What a turn of the gear counter-clockwise adds at the places of a grid, um per arc second.

@@ -48,3 +48,27 @@ pub mod view;
 pub mod watch;
 pub mod working;
 pub mod write;
+
+use crate::findings::Findings;
+use crate::scene::Scene;
+use gearcut_core::cut::Backend;
+use gearcut_core::error::Result;
+
+/// Rolls two gears on each other, or puts a shaft into its hub, and writes nothing.
+///
+/// # Errors
+/// Gears that do not belong together; geometry, the backend; Ctrl-C.
+pub fn found(
+    scenes: [&Scene; 2],
+    options: &options::PairOptions,
+    backend: &dyn Backend,
+    watch: &watch::Watch,
+) -> Result<Findings> {
+    let name = format!("{}_with_{}", scenes[0].name, scenes[1].name);
+    if spline::is_spline(scenes) {
+        let fit = spline::fit(scenes, options, backend, watch)?;
+        return Ok(spline::report::findings(&name, scenes, &fit));
+    }
+    let rolled = rolled::roll_pair(scenes, options, backend, watch)?;
+    Ok(findings::findings(&name, scenes, options, &rolled))
+}

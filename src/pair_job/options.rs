@@ -64,6 +64,49 @@ impl Default for PairOptions {
 }
 
 impl PairOptions {
+    /// Sets the option of this name, which is that of the command's argument with `_` for `-`; false if there is none.
+    ///
+    /// # Errors
+    /// In words: no such value.
+    pub fn set(&mut self, name: &str, value: &str) -> Result<bool, String> {
+        let number = |least: f64, allowed: &str| {
+            let number = value.parse::<f64>().ok().filter(|number| number.is_finite() && *number >= least);
+            number.ok_or_else(|| format!("`{name}` is {allowed}, not {value}"))
+        };
+        let any = || number(f64::NEG_INFINITY, "a number");
+        let size = || number(0.0, "0 or more");
+        let above = || number(f64::MIN_POSITIVE, "a number above 0");
+        let count = || {
+            let count = value.parse::<usize>().ok().filter(|&count| count > 0);
+            count.ok_or_else(|| format!("`{name}` is a whole number above 0, not {value}"))
+        };
+        match name {
+            "flanks" => {
+                self.source = match value {
+                    "cut" => FlankSource::Cut,
+                    "nominal" => FlankSource::Nominal,
+                    _ => return Err(format!("`{value}` are no flanks; give \"cut\" or \"nominal\"")),
+                }
+            }
+            "positions" => self.positions = Some(count()?),
+            "sections" => self.sections = Some(count()?),
+            "center_distance_mm" => self.center_distance_mm = Some(above()?),
+            "center_distance_error_um" => self.center_distance_error_um = any()?,
+            "eccentricity_a_um" => self.eccentricity_um_deg[0][0] = size()?,
+            "eccentricity_a_at_deg" => self.eccentricity_um_deg[0][1] = any()?,
+            "eccentricity_b_um" => self.eccentricity_um_deg[1][0] = size()?,
+            "eccentricity_b_at_deg" => self.eccentricity_um_deg[1][1] = any()?,
+            "parallelism_in_plane_um" => self.parallelism_um[0] = any()?,
+            "parallelism_out_of_plane_um" => self.parallelism_um[1] = any()?,
+            "phase_teeth" => {
+                self.phase_teeth = value.parse().map_err(|_| format!("`{name}` is a whole number, not {value}"))?;
+            }
+            "marking_um" => self.marking_um = above()?,
+            _ => return Ok(false),
+        }
+        Ok(true)
+    }
+
     /// Sections that are looked at.
     ///
     /// # Errors

@@ -115,6 +115,15 @@ impl KeyTable {
         self.keys().find(|(full, _)| full.replace("[]", "") == path).map(|(_, key)| key)
     }
 
+    /// The key that a setting of this path sets, the name of an operation left out: `operation.finish.offset_mm`.
+    pub fn of_setting(&self, path: &str) -> Option<&'static Key> {
+        let named = || {
+            let (list, rest) = path.split_once('.')?;
+            self.displayed(&format!("{list}.{}", rest.split_once('.')?.1))
+        };
+        self.displayed(path).or_else(named)
+    }
+
     /// Whether there is a section or key of this path, `[]` after the name of a list.
     pub(super) fn knows(&self, path: &str) -> bool {
         let (holder, name) = path.rsplit_once('.').unwrap_or(("", path));

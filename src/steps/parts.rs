@@ -81,14 +81,14 @@ impl Stage {
         }
     }
 
-    /// Whether it finds what is at a path.
+    /// Whether it finds what is at a path, or may find what a pattern with `*` means.
     fn finds(self, path: &str) -> bool {
         let mut keys = path.split('.');
         let place = match keys.next() {
             Some("operations") => keys.nth(1),
             first => first,
         };
-        place.is_some_and(|place| self.places().contains(&place))
+        place.is_some_and(|place| place.contains('*') || self.places().contains(&place))
     }
 }
 

@@ -7,13 +7,15 @@
 //! The law: nothing of a row depends on time, threads or machine. What a case refuses is its row; what the machine
 //! refuses (a full disk) ends the study.
 
-use super::kept::{CaseOutcome, LAST_HEADS, cells, columns};
+use super::kept::{CaseOutcome, LAST_HEADS, LAST_WORDS, cells, columns};
+use super::map::{self, FlankMap};
 use super::page;
+use super::pair::{self, PairBase};
 use super::plan::{Shard, StudyCommand, StudyPlan};
 use super::rows::StudyRows;
 use crate::backend::Choice;
 use crate::findings::table::table_file;
-use crate::findings::{Findings, TableColumn};
+use crate::findings::{Findings, Notice, TableColumn};
 use crate::interrupt::Interrupt;
 use crate::output::growing::LineFile;
 use crate::output::growing_folder::GrowingFolder;
@@ -22,6 +24,7 @@ use crate::progress::Progress;
 use crate::run::Run;
 use crate::scene::{LoadedScene, Scene, SceneErrors};
 use crate::steps::parts::Stages;
+use gearcut_core::cut::cpu::Cpu;
 use gearcut_core::error::{Error, Refusal, Result};
 use rayon::prelude::*;
 use serde_json::{Map, Value, json};
@@ -36,16 +39,27 @@ const COLUMNS: &str = "columns";
 /// Cases that may fail one after the other before the study itself is refused.
 const MOST_FAILURES: usize = 100;
 
+/// What cases change, settings of all cases included.
+#[derive(Debug)]
+pub struct StudyBase {
+    /// The scene.
+    pub scene: LoadedScene,
+    /// What pairs have beside it.
+    pub pair: Option<PairBase>,
+}
+
 /// A study.
 pub struct Study<'a> {
-    /// The scene that cases change, settings of all cases included.
-    pub base: &'a LoadedScene,
+    /// What cases change.
+    pub base: &'a StudyBase,
     /// What is done with every case.
     pub command: StudyCommand,
     /// The cases.
     pub plan: StudyPlan,
-    /// Quantities that are kept, by their paths.
+    /// Quantities that are kept, by their paths; `*` is any text without a dot. Those of maps are among them.
     pub keep: Vec<String>,
+    /// Maps of flanks that are kept.
+    pub maps: Vec<FlankMap>,
     /// Which of the cases are made.
     pub shard: Shard,
     /// What cuts.
@@ -65,6 +79,8 @@ pub struct StudyOutcome {
     pub cases: u64,
     /// Rows of cases that failed.
     pub failed: u64,
+    /// What must be known of the rows of a whole study.
+    pub notices: Vec<Notice>,
 }
 
 /// Lines by cases.
@@ -99,6 +115,7 @@ impl Study<'_> {
             }
             (None, None) => return Err(Error::Output { path: rows, reason: "somebody removed it".to_owned() }),
         };
+        let paths = kept_paths(&about)?;
         let file = LineFile::create(&rows, &heads, lines.values())?;
         let missing: Vec<u64> = cases.iter().copied().filter(|case| !lines.contains_key(case)).collect();
         let step = progress.step("cases", missing.len() as u64, self.command.name());
@@ -107,7 +124,7 @@ impl Study<'_> {
             .with_max_len(1)
             .map(|case| {
                 let Some(outcome) = self.outcome_of(case, interrupt)? else { return Ok(None) };
-                let line = self.line(case, &outcome)?;
+                let line = self.line(case, &outcome, &paths)?;
                 file.add(&line)?;
                 step.advance(1);
                 Ok(Some((case, line)))
@@ -120,6 +137,7 @@ impl Study<'_> {
         if outcome.rows < outcome.cases {
             return Ok(outcome);
         }
+        let mut notices = Vec::new();
         let finished = folder.finish(|new| {
             for (name, path) in [(ROWS, &rows), (COLUMNS, &about)] {
                 let place = new.path(table_file(name))?;
@@ -128,27 +146,41 @@ impl Study<'_> {
             if self.shard != Shard::WHOLE {
                 return Ok(());
             }
-            let parameters: Vec<String> = self.plan.parameters().iter().map(|of| of.key.clone()).collect();
-            let read = StudyRows::read([&rows, &about], &parameters, &self.keep)?;
-            page::write((&self.base.scene, &self.plan), &read, new)
+            let read = StudyRows::read([&rows, &about], self.plan.parameters().len())?;
+            notices = page::write((&self.base.scene.scene, &self.plan), &read, new)?;
+            Ok(())
         })?;
-        Ok(StudyOutcome { path: finished, ..outcome })
+        Ok(StudyOutcome { path: finished, notices, ..outcome })
     }
 
     /// The first cases, one after the other, until one has findings, from which the columns of what is kept follow.
-    /// Nothing after Ctrl-C.
+    /// Where patterns are kept, they are the first of the whole study: shares have the same columns. Nothing after
+    /// Ctrl-C.
     fn begin(&self, cases: &[u64], interrupt: &Interrupt) -> Result<Option<(Lines, Vec<TableColumn>)>> {
-        let mut lines = Lines::new();
-        let mut first_reason = None;
-        for &case in cases.iter().take(MOST_FAILURES) {
+        let first: Vec<u64> = if self.keep.iter().any(|path| path.contains('*')) {
+            (0..self.plan.cases()).take(MOST_FAILURES).collect()
+        } else {
+            cases.iter().copied().take(MOST_FAILURES).collect()
+        };
+        let mut reasons: Vec<(u64, CaseOutcome)> = Vec::new();
+        for case in first {
             let Some(outcome) = self.outcome_of(case, interrupt)? else { return Ok(None) };
-            lines.insert(case, self.line(case, &outcome)?);
-            match outcome {
-                Ok(found) => return Ok(Some((lines, columns(&found, &self.keep)?))),
-                Err(reason) => first_reason = first_reason.or(Some(format!("case {case}: {reason}"))),
-            }
+            let Ok(found) = &outcome else {
+                reasons.push((case, outcome));
+                continue;
+            };
+            let kept = columns(found, &self.keep)?;
+            let paths: Vec<String> = kept.iter().map(|of| of.key.to_string()).collect();
+            let made = reasons.into_iter().chain([(case, outcome)]).filter(|(case, _)| self.shard.has(*case));
+            let lines = made.map(|(case, outcome)| Ok((case, self.line(case, &outcome, &paths)?)));
+            return Ok(Some((lines.collect::<Result<_>>()?, kept)));
         }
-        let problem = format!("the first {} cases all fail; {}", lines.len(), first_reason.unwrap_or_default());
+        let why = |(case, outcome): &(u64, CaseOutcome)| Some(format!("case {case}: {}", outcome.as_ref().err()?));
+        let problem = format!(
+            "the first {} cases all fail; {}",
+            reasons.len(),
+            reasons.first().and_then(why).unwrap_or_default()
+        );
         Err(Refusal::new("study", problem, "change the scene or the values of its parameters").into())
     }
 
@@ -162,6 +194,8 @@ impl Study<'_> {
             Ok(found) => Ok(Some(Ok(found))),
             Err(Error::Interrupted) => Ok(None),
             Err(Error::Scene(errors)) => Ok(Some(Err(in_one_line(errors.as_ref())))),
+            // Of a pair it lies in two scenes, or in how they are mounted.
+            Err(Error::Refused(refusal)) => Ok(Some(Err(refusal.problem))),
             Err(Error::NotConverged(reason)) => Ok(Some(Err(reason.to_string()))),
             Err(other) => Err(other),
         }
@@ -169,14 +203,23 @@ impl Study<'_> {
 
     fn found(&self, case: u64, interrupt: &Interrupt) -> Result<Findings> {
         let settings = self.plan.settings(case);
-        let scene = self.base.with_settings(&settings, process::table())?;
+        let base = &self.base.scene;
+        let processor = Cpu::default();
+        if let Some(pair) = &self.base.pair {
+            let backend = self.choice.untried(&processor);
+            return pair::found((base, pair), &settings, backend, interrupt);
+        }
+        let scene = base.with_settings(&settings, process::table())?;
         let found = match self.command {
             StudyCommand::Axes => process::axis_peaks(&scene.scene),
-            StudyCommand::Cut => self.prepared(&scene.scene).and_then(|prepared| {
-                Run::new(&scene, prepared.as_ref(), self.choice)
-                    .until(interrupt)
-                    .stages(Stages::of_paths(&self.keep))
-                    .found()
+            StudyCommand::Cut | StudyCommand::Pair => self.prepared(&scene.scene).and_then(|prepared| {
+                let run = Run::new(&scene, prepared.as_ref(), self.choice);
+                let mut found = run.until(interrupt).stages(Stages::of_paths(&self.keep)).found()?;
+                if !self.maps.is_empty() {
+                    let backend = self.choice.untried(&processor);
+                    prepared.with_gear(&mut |gear| map::add(&mut found, gear, &self.maps, backend))?;
+                }
+                Ok(found)
             }),
         };
         found.map_err(|error| match error {
@@ -187,7 +230,7 @@ impl Study<'_> {
 
     /// A scene made ready. What it shares with the base, such as targets of teeth, is found once.
     fn prepared(&self, scene: &Scene) -> Result<Box<dyn ProcessJob>> {
-        let base = &self.base.scene;
+        let base = &self.base.scene.scene;
         match self.shared.get_or_init(|| process::prepare(base).ok()) {
             Some(shared) if base.process_name() == scene.process_name() => shared.with_errors_of(scene),
             _ => process::prepare(scene),
@@ -202,9 +245,9 @@ impl Study<'_> {
         sound.then(|| (case, line.to_owned()))
     }
 
-    fn line(&self, case: u64, outcome: &CaseOutcome) -> Result<String> {
+    fn line(&self, case: u64, outcome: &CaseOutcome, paths: &[String]) -> Result<String> {
         let values = self.plan.values(case).into_iter().map(|value| value.trim_matches('"').to_owned());
-        csv_line([case.to_string()].into_iter().chain(values).chain(cells(outcome, &self.keep)))
+        csv_line([case.to_string()].into_iter().chain(values).chain(cells(outcome, paths)))
     }
 
     fn heads(&self, kept: &[TableColumn]) -> Result<String> {
@@ -214,24 +257,24 @@ impl Study<'_> {
         csv_line(["case".to_owned()].into_iter().chain(parameters).chain(kept).chain(last))
     }
 
-    /// What each column is: its head, unit and definition.
+    /// What each column is: its head, unit, definition, and of kept quantities the path.
     fn write_columns(&self, path: &Path, kept: &[TableColumn]) -> Result<()> {
-        let row = |head: String, unit: &str, definition: &str| [head, unit.to_owned(), definition.to_owned()];
-        let parameter = |key: &String| {
-            let known = process::table().displayed(key);
-            row(key.clone(), known.map_or("", |of| of.unit), known.map_or("key of the scene", |of| of.teach))
+        let row =
+            |head: &str, [unit, definition]: [&str; 2], path: &str| [head, unit, definition, path].map(str::to_owned);
+        let parameter = |key: &str| {
+            let known = process::table().of_setting(pair::key_of_scene(key));
+            let other = if self.base.pair.is_some() { "option of the pair" } else { "key of the scene" };
+            row(key, known.map_or(["", other], |of| [of.unit, of.teach]), "")
         };
-        let rows = [row("case".to_owned(), "1", "number of the case, from 0")]
+        let rows = [row("case", ["1", "number of the case, from 0"], "")]
             .into_iter()
             .chain(self.plan.parameters().iter().map(|of| parameter(&of.key)))
-            .chain(kept.iter().map(|of| row(of.head(), of.unit.as_deref().unwrap_or_default(), &of.definition)))
-            .chain([
-                row("faults".to_owned(), "1", "faults among the notices"),
-                row("warnings".to_owned(), "1", "warnings among the notices"),
-                row("notices".to_owned(), "", "ids of all notices: docs/notices.md"),
-                row("error".to_owned(), "", "why the case could not be made"),
-            ]);
-        let heads = csv_line(["column", "unit", "definition"].map(str::to_owned))?;
+            .chain(
+                kept.iter()
+                    .map(|of| row(&of.head(), [of.unit.as_deref().unwrap_or_default(), &of.definition], &of.key)),
+            )
+            .chain(LAST_HEADS.into_iter().zip(LAST_WORDS).map(|(head, words)| row(head, words, "")));
+        let heads = csv_line(["column", "unit", "definition", "path"].map(str::to_owned))?;
         let lines = rows.map(csv_line).collect::<Result<Vec<_>>>()?;
         LineFile::create(path, &heads, lines).map(drop)
     }
@@ -253,16 +296,27 @@ impl Study<'_> {
             ("keep", json!(self.keep)),
             ("shard", json!([self.shard.number, self.shard.of])),
             ("backend", json!(self.choice.backend.name_in_files())),
-            ("scene", json!(self.base.resolved_toml())),
+            ("scene", json!(self.base.scene.resolved_toml())),
         ];
-        entries.into_iter().map(|(key, value)| (key.to_owned(), value)).collect()
+        let pair = self.base.pair.iter().flat_map(|pair| {
+            [("mate", json!(pair.mate.resolved_toml())), ("mounting", json!(format!("{:?}", pair.options)))]
+        });
+        entries.into_iter().chain(pair).map(|(key, value)| (key.to_owned(), value)).collect()
     }
 }
 
 /// What there is.
 fn outcome(path: &Path, lines: &Lines, cases: usize) -> StudyOutcome {
     let failed = lines.values().filter(|line| !line.trim_end().ends_with(',')).count() as u64;
-    StudyOutcome { path: path.to_owned(), rows: lines.len() as u64, cases: cases as u64, failed }
+    StudyOutcome { path: path.to_owned(), rows: lines.len() as u64, cases: cases as u64, failed, notices: Vec::new() }
+}
+
+/// Paths of the kept quantities, from the file that says what columns are.
+fn kept_paths(about: &Path) -> Result<Vec<String>> {
+    let unreadable = |reason: csv::Error| Error::Unreadable { path: about.to_owned(), reason: reason.to_string() };
+    let records = csv::Reader::from_path(about).and_then(|mut reader| reader.records().collect::<Result<Vec<_>, _>>());
+    let paths = records.map_err(unreadable)?.into_iter().filter_map(|of| Some(of.get(3)?.to_owned()));
+    Ok(paths.filter(|path| !path.is_empty()).collect())
 }
 
 /// Problems of a scene in one line.

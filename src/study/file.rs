@@ -3,13 +3,15 @@
 //! In: the path of a file. Out: [`StudyFile`]. Unknown names are refused with their line, and paths in the file are
 //! those beside it.
 
-use super::engine::Study;
+use super::engine::{Study, StudyBase};
+use super::map::FlankMap;
+use super::pair::PairBase;
 use super::parameter::{NormalValues, ParameterValues, StudyParameter, ValueRange};
 use super::plan::{SampleDesign, Shard, StudyCommand, StudyPlan};
 use crate::backend::Choice;
 use crate::process;
-use crate::scene::{LoadedScene, SceneErrors};
 use gearcut_core::error::{Error, Refusal, Result};
+use gearcut_core::terms::Side;
 use serde::Deserialize;
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
@@ -22,30 +24,53 @@ pub struct StudyFile {
     pub scene: PathBuf,
     /// What is done with every case.
     pub command: StudyCommand,
+    /// The gear that the scene's is rolled with, of pairs alone.
+    pub mate: Option<PathBuf>,
     /// Whether cases are drafts.
     pub draft: bool,
     /// Settings of all cases.
     pub settings: Vec<String>,
     /// Quantities that are kept.
     pub keep: Vec<String>,
+    /// Maps of flanks that are kept.
+    pub maps: Vec<FlankMap>,
     /// The cases.
     pub plan: StudyPlan,
 }
 
 impl StudyFile {
-    /// The scene that cases change.
+    /// What cases change.
     ///
     /// # Errors
-    /// All problems of the scene.
-    pub fn base(&self) -> Result<LoadedScene, SceneErrors> {
+    /// All problems of the scenes; a command and keys that do not belong together.
+    pub fn base(&self) -> Result<StudyBase> {
         let load = if self.draft { process::load_draft } else { process::load };
-        load(&self.scene, &self.settings)
+        let refuse = |problem: &str, way_out: &str| Err(Refusal::new("study", problem, way_out).into());
+        match (&self.mate, self.command) {
+            (None, StudyCommand::Pair) => {
+                return refuse("a pair is a gear and its mate", "give the scene of the mate: mate = \"mate.toml\"");
+            }
+            (Some(_), StudyCommand::Cut | StudyCommand::Axes) => {
+                return refuse("a mate belongs to pairs", "take command = \"pair\", or leave the mate out");
+            }
+            _ => {}
+        }
+        if self.command != StudyCommand::Cut && !self.maps.is_empty() {
+            return refuse("a map is cut", "take command = \"cut\", or leave [[map]] out");
+        }
+        let Some(mate) = &self.mate else {
+            return Ok(StudyBase { scene: load(&self.scene, &self.settings)?, pair: None });
+        };
+        let [own, of_mate, of_pair] = super::pair::parted(&self.settings);
+        let pair = PairBase { mate: load(mate, &of_mate)?, options: super::pair::options(&of_pair)? };
+        Ok(StudyBase { scene: load(&self.scene, &own)?, pair: Some(pair) })
     }
 
     /// A share of the study, with its base.
-    pub fn study<'a>(self, base: &'a LoadedScene, shard: Shard, choice: &'a Choice) -> Study<'a> {
-        let Self { command, keep, plan, .. } = self;
-        Study { base, command, plan, keep, shard, choice, shared: OnceLock::new() }
+    pub fn study<'a>(self, base: &'a StudyBase, shard: Shard, choice: &'a Choice) -> Study<'a> {
+        let Self { command, mut keep, maps, plan, .. } = self;
+        keep.extend(maps.iter().flat_map(|map| map.paths()));
+        Study { base, command, plan, keep, maps, shard, choice, shared: OnceLock::new() }
     }
 }
 
@@ -55,6 +80,8 @@ struct StudyDocument {
     study: StudyHead,
     #[serde(default)]
     parameter: Vec<ParameterTable>,
+    #[serde(default)]
+    map: Vec<MapTable>,
 }
 
 #[derive(Deserialize)]
@@ -63,10 +90,12 @@ struct StudyHead {
     scene: PathBuf,
     #[serde(default)]
     command: StudyCommand,
+    mate: Option<PathBuf>,
     #[serde(default)]
     draft: bool,
     #[serde(default)]
     settings: Vec<String>,
+    #[serde(default)]
     keep: Vec<String>,
     samples: Option<u32>,
     #[serde(default)]
@@ -87,6 +116,37 @@ struct ParameterTable {
     log: bool,
 }
 
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct MapTable {
+    tooth: u32,
+    flank: FlankWord,
+    #[serde(default = "one")]
+    columns: usize,
+    #[serde(default = "one")]
+    rows: usize,
+}
+
+fn one() -> usize {
+    1
+}
+
+#[derive(Clone, Copy, Deserialize)]
+#[serde(rename_all = "snake_case")]
+enum FlankWord {
+    Left,
+    Right,
+}
+
+impl From<FlankWord> for Side {
+    fn from(word: FlankWord) -> Self {
+        match word {
+            FlankWord::Left => Self::Left,
+            FlankWord::Right => Self::Right,
+        }
+    }
+}
+
 /// Reads a study; `most` is the largest number of cases.
 ///
 /// # Errors
@@ -95,7 +155,7 @@ pub fn read(path: &Path, most: u64) -> Result<StudyFile> {
     let text = std::fs::read_to_string(path).map_err(Error::reading(path))?;
     let unreadable = |reason: String| Error::Unreadable { path: path.to_owned(), reason };
     let document: StudyDocument = toml::from_str(&text).map_err(|wrong| unreadable(wrong.to_string()))?;
-    let StudyHead { scene, command, draft, settings, keep, samples, design, seed } = document.study;
+    let StudyHead { scene, command, mate, draft, settings, keep, samples, design, seed } = document.study;
     let parameter = |table: ParameterTable| {
         let key = table.key.clone();
         let refuse = |why: String| {
@@ -107,8 +167,16 @@ pub fn read(path: &Path, most: u64) -> Result<StudyFile> {
     };
     let parameters = document.parameter.into_iter().map(parameter).collect::<Result<Vec<_>, Refusal>>()?;
     let plan = StudyPlan::new(parameters, (samples, design, seed), most)?;
-    let scene = path.parent().unwrap_or(Path::new("")).join(scene);
-    Ok(StudyFile { scene, command, draft, settings, keep, plan })
+    let map = |MapTable { tooth, flank, columns, rows }: MapTable| {
+        FlankMap::new(tooth, flank.into(), [columns, rows]).map_err(|why| {
+            let way_out = "write tooth, flank = \"left\" or \"right\", columns and rows";
+            Refusal::new("map", format!("{}: [[map]] of tooth {tooth}: {why}", path.display()), way_out)
+        })
+    };
+    let maps = document.map.into_iter().map(map).collect::<Result<Vec<_>, Refusal>>()?;
+    let beside = |scene: PathBuf| path.parent().unwrap_or(Path::new("")).join(scene);
+    let (scene, mate) = (beside(scene), mate.map(beside));
+    Ok(StudyFile { scene, command, mate, draft, settings, keep, maps, plan })
 }
 
 fn choice(table: ParameterTable) -> Result<ParameterValues, String> {

@@ -1,11 +1,12 @@
 //! The page of a study: which parameter moves which quantity, means along the parameters, pairs of parameters, and the
 //! best cases; and all that is written beside the rows.
 
-use super::effects::Effect;
+use super::effects::{Effect, VarianceShare};
 use super::findings::{ParetoFront, StudyEffects, findings};
+use super::kept::counted_missing;
 use super::plan::StudyPlan;
 use super::rows::{StudyColumn, StudyRows};
-use crate::findings::{Findings, RESULTS_FILE, unit};
+use crate::findings::{Findings, Notice, RESULTS_FILE, unit};
 use crate::number_text::significant;
 use crate::output::bar_chart::BarSeries;
 use crate::output::bar_panels::{BarPanel, BarPanels};
@@ -25,21 +26,24 @@ const DIGITS: u32 = 3;
 const MOST_OF_A_PAIR: usize = 12;
 /// Most rows of a table of best cases.
 const MOST_BEST: usize = 25;
+/// Most quantities on a page.
+const MOST_QUANTITIES: usize = 24;
 /// Shares below this are rounding, per cent.
 const LEAST_PERCENT: f64 = 0.1;
 
-/// Writes results, tables and the page beside the rows.
+/// Writes results, tables and the page beside the rows; gives what must be known of them.
 ///
 /// # Errors
 /// Files that cannot be written.
-pub fn write((base, plan): (&Scene, &StudyPlan), rows: &StudyRows, folder: &OutputFolder) -> Result<()> {
-    let found = StudyEffects::of(rows);
+pub fn write((base, plan): (&Scene, &StudyPlan), rows: &StudyRows, folder: &OutputFolder) -> Result<Vec<Notice>> {
+    let found = StudyEffects::of(plan, rows);
     let tree = findings(base, rows, &found);
     write_tables(&tree, folder)?;
     let mut files = folder.written()?;
     files.push(RESULTS_FILE.to_owned());
     page((base, plan), rows, (&found, &tree), files).write(&folder.path(REPORT_FILE)?)?;
-    folder.write_json(RESULTS_FILE, &tree.to_json())
+    folder.write_json(RESULTS_FILE, &tree.to_json())?;
+    Ok(tree.warnings)
 }
 
 fn page(
@@ -48,13 +52,23 @@ fn page(
     (found, tree): (&StudyEffects, &Findings),
     files: Vec<String>,
 ) -> Page {
+    let more = found.of.len().saturating_sub(MOST_QUANTITIES);
+    let left_out = (more > 0).then(|| {
+        Block::Note(format!(
+            "{more} of {} quantities are not on this page; tables/effects.csv and tables/means.csv have all of them.",
+            found.of.len()
+        ))
+    });
+    let found = &found.first(MOST_QUANTITIES);
     let charts = [shares(rows, found), swings(rows, found)].into_iter().flatten().map(Block::Panels);
+    let charts = left_out.into_iter().chain(charts);
     let effects = PageSection::new(
         "effects",
         "What moves what",
         "Share: the part of a quantity's variance over all cases that a parameter makes alone (Sobol's first-order \
          index) with its 95 % interval. What the shares lack of 100 % is what parameters do together, and chance. \
-         Swing: largest less smallest mean of the quantity along the parameter.",
+         Total share: what the parameter makes alone and together with others; only designs with pairs of cases \
+         have it. Swing: largest less smallest mean of the quantity along the parameter.",
         charts.chain(found.of.iter().map(effects_table)).collect(),
     );
     let along = rows.parameters.iter().filter_map(|parameter| means_chart(parameter, found));
@@ -81,6 +95,26 @@ fn page(
         "Time against each quantity: no other case is as fast and smaller in size, or as small and faster. The \
          settings repeat a case: gearcut cut with the scene of the study and --set for each of them.",
         found.fronts.iter().map(|front| Block::Table(front_table(plan, rows, front))).collect(),
+    ));
+    let missing = counted_missing(rows.missing.iter().map(String::as_str));
+    let row = |([path, why], cases): (&[String; 2], &usize)| vec![path.clone(), cases.to_string(), why.clone()];
+    let caption = if missing.len() > MOST_BEST {
+        format!("Kept quantities without a value: {MOST_BEST} of {}; tables/missing.csv has all", missing.len())
+    } else {
+        "Kept quantities without a value".to_owned()
+    };
+    let without = (!missing.is_empty()).then(|| {
+        Block::Table(PageTable {
+            caption,
+            columns: ["Quantity", "Cases", "Why"].map(str::to_owned).to_vec(),
+            rows: missing.iter().take(MOST_BEST).map(row).collect(),
+        })
+    });
+    sections.extend(add(
+        "missing",
+        "What has no value",
+        "Cases in which a kept quantity has no value are not in what is said of it above.",
+        without.into_iter().collect(),
     ));
     let links = FileLinks { what: "Beside this page".to_owned(), files, more: 0 };
     sections.push(PageSection::new("files", "Files", "", vec![Block::Files(vec![links])]));
@@ -142,18 +176,24 @@ fn swings(rows: &StudyRows, found: &StudyEffects) -> Option<BarPanels> {
 fn effects_table((quantity, on): &(&StudyColumn, Vec<(&StudyColumn, Effect)>)) -> Block {
     let mut on: Vec<&(&StudyColumn, Effect)> = on.iter().collect();
     on.sort_by(|a, b| b.1.swing().total_cmp(&a.1.swing()));
-    let rows = on.into_iter().map(|(parameter, effect)| {
+    let cells = |share: Option<VarianceShare>| {
         let percent = |share: f64| significant(100.0 * share.clamp(0.0, 1.0), DIGITS);
-        let [share, interval] = effect.share.map_or(["–".to_owned(), "–".to_owned()], |share| {
+        share.map_or(["–".to_owned(), "–".to_owned()], |share| {
             let [low, high] = share.interval.map(percent);
             [percent(share.index), format!("{low} to {high}")]
-        });
-        vec![parameter.name.clone(), share, interval, shown(effect.swing())]
+        })
+    };
+    let paired = on.iter().any(|(_, effect)| effect.total.is_some());
+    let rows = on.into_iter().map(|(parameter, effect)| {
+        let total = paired.then(|| cells(effect.total)).into_iter().flatten();
+        let own = std::iter::once(parameter.name.clone()).chain(cells(effect.share)).chain(total);
+        own.chain([shown(effect.swing())]).collect()
     });
-    let heads = ["Parameter", "Share [%]", "95 % interval [%]"].map(str::to_owned);
+    let total = if paired { &["Total share [%]", "95 % interval [%]"][..] } else { &[] };
+    let heads = ["Parameter", "Share [%]", "95 % interval [%]"].iter().chain(total).map(|&head| head.to_owned());
     Block::Table(PageTable {
         caption: quantity.name.clone(),
-        columns: heads.into_iter().chain([format!("Swing [{}]", unit::signs(&quantity.unit))]).collect(),
+        columns: heads.chain([format!("Swing [{}]", unit::signs(&quantity.unit))]).collect(),
         rows: rows.collect(),
     })
 }
@@ -218,8 +258,11 @@ fn front_table(plan: &StudyPlan, rows: &StudyRows, front: &ParetoFront) -> PageT
         vec![case.to_string(), shown(*time), shown(*value), plan.settings(case).join("; ")]
     };
     let named = |column: &StudyColumn| format!("{} [{}]", column.name, unit::signs(&column.unit));
+    let all = front.best.len();
+    let cut_off =
+        if all > MOST_BEST { format!(": {MOST_BEST} of {all}; tables/fronts.csv has all") } else { String::new() };
     PageTable {
-        caption: format!("{} and {}", front.time.name, front.quantity.name),
+        caption: format!("{} and {}{cut_off}", front.time.name, front.quantity.name),
         columns: vec!["Case".to_owned(), named(front.time), named(front.quantity), "Settings".to_owned()],
         rows: front.best.iter().take(MOST_BEST).map(row).collect(),
     }

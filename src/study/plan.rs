@@ -3,7 +3,8 @@
 //! In: parameters, samples and their design. Out: the number of cases, and the settings of case `i`.
 //!
 //! The law: a case is one combination of the values of all listed parameters, and one sample of all others. The last
-//! listed parameter changes fastest, samples faster still. Case numbers begin with 0.
+//! listed parameter changes fastest, samples faster still, and the cases of a pair of samples fastest of all. Case
+//! numbers begin with 0.
 
 use super::design::{MOST_OF_SOBOL, latin_hypercube, sobol};
 use super::parameter::{ParameterValues, StudyParameter};
@@ -12,6 +13,9 @@ use gearcut_core::error::Refusal;
 use serde::Deserialize;
 use std::str::FromStr;
 
+/// Places of the second point of a pair, and of the first case between both, among the cases of a sample.
+const SECOND: u32 = 1;
+const FIRST_OF_PAIRS: u32 = 2;
 /// Cases of a study that is not asked back.
 pub const USUAL_CASES: u64 = 100_000;
 
@@ -24,6 +28,8 @@ pub enum StudyCommand {
     Cut,
     /// The machine's axes alone.
     Axes,
+    /// The gear is rolled with another one.
+    Pair,
 }
 
 impl StudyCommand {
@@ -32,6 +38,7 @@ impl StudyCommand {
         match self {
             Self::Cut => "cut",
             Self::Axes => "axes",
+            Self::Pair => "pair",
         }
     }
 }
@@ -45,6 +52,10 @@ pub enum SampleDesign {
     LatinHypercube,
     /// Sobol's sequence.
     Sobol,
+    /// Two points of Sobol's sequence for each sample, and for each parameter the first one with that parameter of the
+    /// second: cases in pairs that differ in one parameter alone, for total shares (Saltelli, *Comput. Phys. Commun.*
+    /// 145, 2002).
+    SobolPairs,
 }
 
 /// A share of a study: every `of`-th case.
@@ -82,9 +93,13 @@ impl Shard {
 #[derive(Debug, Clone, PartialEq)]
 pub struct StudyPlan {
     parameters: Vec<StudyParameter>,
+    /// Points of all sampled parameters together.
     samples: u32,
+    /// Cases of each of them: more than one where they come in pairs.
+    cases_of_a_sample: u32,
     cases: u64,
-    /// For each parameter that is sampled, where its samples lie in its range; none for the others.
+    /// For each parameter that is sampled, where its samples lie in its range, of pairs those of the second points
+    /// behind those of the first ones; none for the others.
     shares: Vec<Option<Vec<f64>>>,
 }
 
@@ -126,16 +141,23 @@ impl StudyPlan {
             }
             (Some(samples), _) => samples,
         };
-        if design == SampleDesign::Sobol && sampled > MOST_OF_SOBOL {
+        let is_paired = design == SampleDesign::SobolPairs;
+        let most_sampled = if is_paired { MOST_OF_SOBOL / 2 } else { MOST_OF_SOBOL };
+        if design != SampleDesign::LatinHypercube && sampled > most_sampled {
+            let each = if is_paired { "two points of " } else { "" };
             return refuse(
-                format!("{sampled} parameters are more than the {MOST_OF_SOBOL} that Sobol's sequence has here"),
+                format!("{sampled} parameters are more than the {most_sampled} that {each}Sobol's sequence has here"),
                 "take a Latin hypercube",
             );
         }
+        if is_paired && sampled == 0 {
+            return refuse("no parameter is sampled in pairs".to_owned(), "give a range without a number of values");
+        }
+        let cases_of_a_sample = if is_paired { sampled as u32 + 2 } else { 1 };
         let mut counts = parameters
             .iter()
             .map(|of| if let ParameterValues::Values(list) = &of.choice { list.len() as u64 } else { 1 });
-        let cases = counts.try_fold(u64::from(samples), u64::checked_mul);
+        let cases = counts.try_fold(u64::from(samples) * u64::from(cases_of_a_sample), u64::checked_mul);
         let cases = match cases {
             Some(cases) if cases <= most => cases,
             _ => {
@@ -150,14 +172,16 @@ impl StudyPlan {
             is_sampled(of).then(|| {
                 let dimension = place;
                 place += 1;
+                let sobol = |dimension| (0..samples).map(move |sample| sobol(dimension, sample));
                 match design {
                     SampleDesign::LatinHypercube => latin_hypercube(seed, dimension, samples),
-                    SampleDesign::Sobol => (0..samples).map(|sample| sobol(dimension, sample)).collect(),
+                    SampleDesign::Sobol => sobol(dimension).collect(),
+                    SampleDesign::SobolPairs => sobol(dimension).chain(sobol(sampled + dimension)).collect(),
                 }
             })
         });
         let shares = shares.collect();
-        Ok(Self { parameters, samples, cases, shares })
+        Ok(Self { parameters, samples, cases_of_a_sample, cases, shares })
     }
 
     /// The parameters.
@@ -172,14 +196,22 @@ impl StudyPlan {
 
     /// The value of every parameter in a case, as texts of TOML.
     pub fn values(&self, case: u64) -> Vec<String> {
-        let sample = (case % u64::from(self.samples)) as usize;
-        let mut rest = case / u64::from(self.samples);
+        let (mut rest, point, place) = self.place(case);
+        let mut sampled = self.shares.iter().flatten().count();
         let mut values: Vec<String> = Vec::with_capacity(self.parameters.len());
         for (parameter, shares) in self.parameters.iter().zip(&self.shares).rev() {
             values.push(match (&parameter.choice, shares) {
-                (ParameterValues::Between(range), Some(shares)) => range.at(shares[sample]),
-                (ParameterValues::Normal(normal), Some(shares)) => normal.at(shares[sample]),
-                (ParameterValues::Values(list), _) => {
+                (choice, Some(shares)) => {
+                    sampled -= 1;
+                    let is_second = place == SECOND || place == FIRST_OF_PAIRS + sampled as u32;
+                    let share = shares[point as usize + if is_second { self.samples as usize } else { 0 }];
+                    match choice {
+                        ParameterValues::Between(range) => range.at(share),
+                        ParameterValues::Normal(normal) => normal.at(share),
+                        ParameterValues::Values(_) => unreachable!("listed values are not sampled"),
+                    }
+                }
+                (ParameterValues::Values(list), None) => {
                     let place = (rest % list.len() as u64) as usize;
                     rest /= list.len() as u64;
                     list[place].clone()
@@ -191,9 +223,30 @@ impl StudyPlan {
         values
     }
 
+    /// A case as the combination of listed values, the sample and the place among the cases of that sample.
+    fn place(&self, case: u64) -> (u64, u32, u32) {
+        let [samples, own] = [self.samples, self.cases_of_a_sample].map(u64::from);
+        (case / (samples * own), (case / own % samples) as u32, (case % own) as u32)
+    }
+
+    /// Whether a case is one of the points themselves, which have nothing to do with each other; those that differ from
+    /// them in one parameter are not.
+    pub fn is_a_point(&self, case: u64) -> bool {
+        self.place(case).2 < FIRST_OF_PAIRS
+    }
+
+    /// Of the first point of each pair, by the number of the parameter: its second point, and the case that differs
+    /// from it in this parameter alone. None of other cases, designs and parameters.
+    pub fn partners(&self, case: u64, parameter: usize) -> Option<[u64; 2]> {
+        self.shares.get(parameter)?.as_ref()?;
+        let sampled = self.shares[..parameter].iter().flatten().count();
+        let is_first = self.cases_of_a_sample > 1 && self.place(case).2 == 0;
+        is_first.then(|| [u64::from(SECOND), u64::from(FIRST_OF_PAIRS) + sampled as u64].map(|place| case + place))
+    }
+
     /// What tells this plan from others.
     pub fn checksum(&self) -> String {
-        let text = format!("{:?}", (&self.parameters, self.samples, &self.shares));
+        let text = format!("{:?}", (&self.parameters, self.samples, self.cases_of_a_sample, &self.shares));
         sha256_hex(text.as_bytes())
     }
 

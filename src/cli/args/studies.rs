@@ -30,12 +30,16 @@ pub struct SweepArguments {
     /// without /N one value between them for each sample; may be repeated.
     #[arg(long, value_name = "KEY=A..B/N")]
     pub range: Vec<RangeWords>,
-    /// Quantities that become columns: keys of the headline, or paths below `sections` of results.json.
+    /// Quantities that become columns: keys of the headline, or paths below `sections` of results.json; `*` is any text
+    /// without a dot.
     #[arg(long, value_name = "KEYS", value_delimiter = ',', required = true)]
     pub keep: Vec<String>,
     /// What is done with every case.
     #[arg(long, value_enum, default_value_t = CommandChoice::Cut)]
     pub command: CommandChoice,
+    /// The scene of the other gear of pairs; its keys begin with mate., options of `gearcut pair` with pair.
+    #[arg(long, value_name = "SCENE")]
+    pub mate: Option<PathBuf>,
     /// Cut drafts: coarse dexels and rays.
     #[arg(long)]
     pub draft: bool,
@@ -77,6 +81,8 @@ pub enum CommandChoice {
     Cut,
     /// Move the axes alone.
     Axes,
+    /// Roll the gear with the one of --mate.
+    Pair,
 }
 
 impl CommandChoice {
@@ -85,6 +91,7 @@ impl CommandChoice {
         match self {
             Self::Cut => StudyCommand::Cut,
             Self::Axes => StudyCommand::Axes,
+            Self::Pair => StudyCommand::Pair,
         }
     }
 }
@@ -96,6 +103,8 @@ pub enum DesignChoice {
     LatinHypercube,
     /// Sobol's sequence.
     Sobol,
+    /// Pairs of its points, and cases between them that differ in one parameter alone: total shares.
+    SobolPairs,
 }
 
 impl DesignChoice {
@@ -104,6 +113,7 @@ impl DesignChoice {
         match self {
             Self::LatinHypercube => SampleDesign::LatinHypercube,
             Self::Sobol => SampleDesign::Sobol,
+            Self::SobolPairs => SampleDesign::SobolPairs,
         }
     }
 }

@@ -57,7 +57,7 @@ fn a_row_has_its_parameters_and_what_is_kept() {
     swept(folder.path(), &["--out", "s"]).done().says(&["12 cases, 6 of them failed; their rows are in s/rows.csv"]);
     let rows = rows(&folder.path().join("s"));
     let head = "case,gear.teeth,machine.double_strokes_per_minute,operations.finish.axes.work_speed.peak_deg_per_s,\
-        faults,warnings,notices,error";
+        faults,warnings,notices,missing,error";
     assert_eq!(rows[0], head);
     for (case, row) in rows[1..7].iter().enumerate() {
         let fields: Vec<&str> = row.split(',').collect();
@@ -65,7 +65,7 @@ fn a_row_has_its_parameters_and_what_is_kept() {
         assert_eq!(fields[..3], [case.to_string().as_str(), "24", &strokes.to_string()]);
         let speed: f64 = fields[3].parse().expect("a number");
         assert!((speed - 360.0 * strokes / 60.0 / 2400.0).abs() < 1e-12, "{row}");
-        assert_eq!((fields[4], fields[7]), ("0", ""), "{row}");
+        assert_eq!((fields[4], fields[7], fields[8]), ("0", "", ""), "{row}");
     }
     for row in &rows[7..] {
         assert!(row.contains(",2,") && row.contains(",,,,,") && row.contains("`gear.teeth`"), "{row}");
@@ -236,8 +236,8 @@ fn a_page_says_what_moves_what() {
     let number = |row: usize, column: usize| effects[row][column].parse::<f64>().expect("a number");
     assert_eq!(effects[0][1..3], ["key", "first_order_share_percent"]);
     assert_eq!([&effects[1][1], &effects[2][1]], ["tool.shaper_cutter.teeth", "machine.double_strokes_per_minute"]);
-    assert!(number(1, 2) < 0.0 && number(1, 5) < 1e-12, "{effects:?}");
-    assert!((number(2, 2) - 100.0).abs() < 1e-9 && (number(2, 5) - 1.0).abs() < 1e-12, "{effects:?}");
+    assert!(number(1, 2) < 0.0 && number(1, 8) < 1e-12, "{effects:?}");
+    assert!((number(2, 2) - 100.0).abs() < 1e-9 && (number(2, 8) - 1.0).abs() < 1e-12, "{effects:?}");
     let page = fs::read_to_string(whole.join("report.html")).expect("a page");
     for words in ["What moves what", "Along the parameters", "Two parameters together", "18 cases of 2 parameters"] {
         assert!(page.contains(words), "{words}");
@@ -247,6 +247,66 @@ fn a_page_says_what_moves_what() {
     assert_eq!(results["headline"]["cases"]["value"], 18);
     let share = sweep("share", &["--shard", "1/2"]);
     assert!(share.join("rows.csv").exists() && !share.join("report.html").exists());
+}
+
+/// Dexels half a millimetre apart see no scallop: rows, page, table and terminal say that there is none, and why. A
+/// case that cannot be made is said there as well.
+#[test]
+fn what_has_no_value_is_said() {
+    let folder = folder();
+    let keep = ["--keep", "scallop_height,F_al*", "--grid", "gear.face_width_mm=4,5,-1", "--out", "s"];
+    let swept = gearcut_in(folder.path(), &[&["sweep", "round.toml", "--quiet"], &keep[..]].concat());
+    assert!(swept.err.contains("2 cases have no value of kept quantities"), "{}", swept.err);
+    assert!(
+        swept.err.contains("scallop_height") && swept.err.contains("1 of 3 cases could not be made"),
+        "{}",
+        swept.err
+    );
+    swept.done().says(&["3 cases, 1 of them failed"]);
+    let rows = rows(&folder.path().join("s"));
+    assert!(rows[0].contains("scallop_height_um,F_alpha_um,faults"), "{}", rows[0]);
+    for row in &rows[1..3] {
+        assert!(row.contains(",scallop_height: no cusp between facets"), "{row}");
+    }
+    let missing = fs::read_to_string(folder.path().join("s/tables/missing.csv")).expect("a table");
+    assert!(missing.contains("scallop_height,2,no cusp between facets"), "{missing}");
+    let page = fs::read_to_string(folder.path().join("s/report.html")).expect("a page");
+    for words in ["What has no value", "no cusp between facets", "could not be made", "`gear.face_width_mm`"] {
+        assert!(page.contains(words), "{words}");
+    }
+}
+
+/// Nominal gears stand m (z_1 + z_2) / 2 apart, and 2 da tan(alpha) more play comes of da more distance, along their
+/// pitch circles (to first order; 20 um are a hundredth of what the second one would see).
+#[test]
+fn pairs_are_cases() {
+    let folder = folder();
+    let sweep = |more: &[&str]| {
+        let pair = ["sweep", "round.toml", "--quiet", "--command", "pair", "--set", "pair.flanks=nominal"];
+        gearcut_in(folder.path(), &[&pair[..], more].concat())
+    };
+    let grid = ["--grid", "mate.gear.teeth=24,30", "--grid", "pair.center_distance_error_um=0,20"];
+    let keep = ["--keep", "pair.center_distance,backlash.smallest", "--out", "p"];
+    sweep(&[&["--mate", "round.toml"], &grid[..], &keep].concat()).done().says(&["4 cases; their rows"]);
+    let rows = rows(&folder.path().join("p"));
+    assert!(
+        rows[0].starts_with("case,mate.gear.teeth,pair.center_distance_error_um,pair.center_distance_mm,"),
+        "{rows:?}"
+    );
+    let number = |row: usize, column: usize| -> f64 {
+        rows[row].split(',').nth(column).and_then(|cell| cell.parse().ok()).expect("a number")
+    };
+    for (row, teeth) in [(1, 24.0), (3, 30.0)] {
+        assert!((number(row, 3) - 3.0 * (24.0 + teeth) / 2.0).abs() < 1e-9, "{rows:?}");
+        let more_um = number(row + 1, 4) - number(row, 4);
+        let expected_um = 2.0 * 20.0 * 20_f64.to_radians().tan();
+        assert!((more_um - expected_um).abs() < 0.01 * expected_um, "{more_um} um, not {expected_um}");
+    }
+    let about = fs::read_to_string(folder.path().join("p/columns.csv")).expect("columns");
+    assert!(about.contains("mate.gear.teeth,,Number of teeth"), "{about}");
+    let wrong = |more: &[&str]| sweep(&[more, &keep[..3], &["q"]].concat());
+    wrong(&grid).failed(1, &["a pair is a gear and its mate"]);
+    wrong(&["--mate", "round.toml", "--grid", "pair.center_distanc_error_um=0,20"]).failed(1, &["no such option"]);
 }
 
 /// Every shipped study is read, and its cases are scenes.

@@ -2,4 +2,5 @@
 
 mod cases;
 mod command;
+mod data_set;
 mod left_out;
