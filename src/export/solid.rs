@@ -15,6 +15,7 @@
 //! no distance is smaller than in space: for helical walls at both ends and half way between all fitted sections. While
 //! that is too far, there are twice as many sections.
 
+use super::arcs::distinct;
 use super::b_spline::CubicKnots;
 use super::section::{ProfileSource, SectionWish, profile_mm, spacing_mm, target_parts_mm};
 use crate::job::CylindricalGear;
@@ -31,6 +32,12 @@ use rayon::prelude::*;
 const PROFILE_SHARE: f64 = 0.7;
 /// Spacing of measured points over that of fitted ones.
 const MEASURED_SHARE: f64 = 0.37;
+/// A corner of a cut profile turns by so much, rad: tip corners by 0.7 and more.
+const CORNER_RAD: f64 = 0.4;
+/// Within such a reach to either side, modules: edges of marks turn by a tenth, fillets of a fifth of a module, too.
+const CORNER_REACH_MODULES: f64 = 0.02;
+/// Points of a cut profile that are nearer than this share of the tolerance are one.
+const NEAREST_SHARE: f64 = 0.05;
 /// Pieces of a chord of a cut profile where it is measured.
 const CHORD_PIECES: u32 = 4;
 /// Points that either half of a span must have in every section for it to be halved.
@@ -96,9 +103,8 @@ impl GearSolid {
             let stage = watch.stage("profile", gear.scene().gear.teeth as usize, "teeth")?;
             let chain_mm = profile_mm(gear, backend, wish, &stage)?;
             stage.finish();
-            // The contour is its chords: the fit knows their middles, and what is measured lies between these.
             let round_mm = [&chain_mm[..], &chain_mm[..1]].concat();
-            let walls = fitted(&[vec![divided(&round_mm, 2)]], wish)?;
+            let walls = fitted(&[cut_parts(&chain_mm, gear.scene().gear.module_mm, wish)], wish)?;
             let off_mm = off_mm(&in_plane(&walls, None, 0.0), &divided(&round_mm, CHORD_PIECES));
             return solid(walls, None, off_mm);
         }
@@ -153,30 +159,71 @@ fn fitted(sections: &[Vec<Vec<DVec2>>], wish: &SectionWish) -> Result<Vec<SolidW
     }
     let walls_of = |i: usize| {
         let rows: Vec<PartPoints> = sections.iter().map(|parts| PartPoints::new(&parts[i])).collect();
-        walls_of(&rows, PROFILE_SHARE * wish.tolerance_mm).map_err(|off_mm| too_coarse(wish, off_mm).into())
+        walls_of(rows, PROFILE_SHARE * wish.tolerance_mm).map_err(|off_mm| too_coarse(wish, off_mm).into())
     };
     let walls: Vec<Vec<SolidWall>> = (0..count).into_par_iter().map(walls_of).collect::<Result<_>>()?;
     Ok(walls.into_iter().flatten().collect())
 }
 
-/// Walls of a part. A straight part is cut where spans as narrow as they can be do not meet it: at the sharpest point
-/// there, which is a corner of a cut profile. How far others are off is the error, mm.
-fn walls_of(rows: &[PartPoints], tolerance_mm: f64) -> Result<Vec<SolidWall>, f64> {
-    let missed = match wall(rows, tolerance_mm) {
-        Ok(wall) => return Ok(vec![wall]),
-        Err(missed) => missed,
+/// Parts of a cut profile between its corners, from one of them round to itself. A corner is where the chain turns by
+/// more than [`CORNER_RAD`] within a reach that no mark's edge and no fillet turns so much in. Middles of chords are
+/// points, too.
+fn cut_parts(chain_mm: &[DVec2], module_mm: f64, wish: &SectionWish) -> Vec<Vec<DVec2>> {
+    let mut chain_mm = distinct(chain_mm, true, NEAREST_SHARE * wish.tolerance_mm);
+    let (count, reach_mm) = (chain_mm.len(), CORNER_REACH_MODULES * module_mm);
+    // Turn at a point between those that are the reach away on either side.
+    let turn_rad = |i: usize| {
+        let away = |step: usize| {
+            let place = |k: usize| chain_mm[(i + k * step) % count];
+            (1..count).map(place).find(|p| p.distance(chain_mm[i]) >= reach_mm).unwrap_or(chain_mm[i])
+        };
+        (chain_mm[i] - away(count - 1)).angle_to(away(1) - chain_mm[i]).abs()
     };
-    let [part] = rows else { return Err(missed.off_mm) };
-    let mut cuts: Vec<usize> = missed.spans.iter().filter_map(|&span| part.sharpest(span)).collect();
-    cuts.dedup();
-    let last = part.points_mm.len() - 1;
-    let ends: Vec<usize> = [0].into_iter().chain(cuts).chain([last]).collect();
-    if ends.len() == 2 {
-        return Err(missed.off_mm);
+    let turns_rad: Vec<f64> = (0..count).into_par_iter().map(turn_rad).collect();
+    // The sharpest place of each stretch that turns so much.
+    let is_corner = |i: usize| {
+        let near = |step: usize| {
+            let places = (1..count).map(move |k| (i + k * step) % count);
+            places.take_while(|&k| chain_mm[k].distance(chain_mm[i]) < reach_mm)
+        };
+        turns_rad[i] > CORNER_RAD
+            && near(1).all(|k| turns_rad[k] <= turns_rad[i])
+            && near(count - 1).all(|k| turns_rad[k] < turns_rad[i])
+    };
+    let corners: Vec<usize> = (0..count).filter(|&i| is_corner(i)).collect();
+    let first = corners.first().copied().unwrap_or_default();
+    chain_mm.rotate_left(first);
+    chain_mm.push(chain_mm[0]);
+    let starts = if corners.is_empty() { vec![0] } else { corners };
+    let ends: Vec<usize> = starts.into_iter().map(|corner| corner - first).chain([count]).collect();
+    ends.windows(2).map(|ends| divided(&chain_mm[ends[0]..=ends[1]], 2)).collect()
+}
+
+/// Walls of a part. A straight part is cut where spans as narrow as they can be do not meet it, at the sharpest point
+/// there. How far others are off is the error, mm.
+fn walls_of(rows: Vec<PartPoints>, tolerance_mm: f64) -> Result<Vec<SolidWall>, f64> {
+    let mut walls = Vec::new();
+    let mut open = vec![rows];
+    while let Some(rows) = open.pop() {
+        let missed = match wall(&rows, tolerance_mm) {
+            Ok(wall) => {
+                walls.push(wall);
+                continue;
+            }
+            Err(missed) => missed,
+        };
+        let [part] = &rows[..] else { return Err(missed.off_mm) };
+        let mut cuts: Vec<usize> = missed.spans.iter().filter_map(|&span| part.sharpest(span)).collect();
+        cuts.dedup();
+        if cuts.is_empty() {
+            return Err(missed.off_mm);
+        }
+        let ends: Vec<usize> = [0].into_iter().chain(cuts).chain([part.points_mm.len() - 1]).collect();
+        let parts = ends.windows(2).map(|ends| vec![PartPoints::new(&part.points_mm[ends[0]..=ends[1]])]);
+        // The first one is next.
+        open.extend(parts.rev());
     }
-    let walls =
-        ends.windows(2).map(|ends| walls_of(&[PartPoints::new(&part.points_mm[ends[0]..=ends[1]])], tolerance_mm));
-    Ok(walls.collect::<Result<Vec<_>, f64>>()?.concat())
+    Ok(walls)
 }
 
 /// Points of a part with their shares of its arc.

@@ -251,8 +251,8 @@ impl InstanceWriter {
         let columns = (0..rows[0].len()).map(column).collect::<Vec<_>>().join(",");
         let [[times_u, places_u], [times_v, places_v]] = knots.map(multiplicities);
         self.add(&format!(
-            "B_SPLINE_SURFACE_WITH_KNOTS('',{DEGREE},{DEGREE},({columns}),.UNSPECIFIED.,.F.,.F.,.F.,{times_u},{times_v},\
-             {places_u},{places_v},.UNSPECIFIED.)"
+            "B_SPLINE_SURFACE_WITH_KNOTS('',{DEGREE},{DEGREE},({columns}),.UNSPECIFIED.,.F.,.F.,.F.,\
+             {times_u},{times_v},{places_u},{places_v},.UNSPECIFIED.)"
         ))
     }
 

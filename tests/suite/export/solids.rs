@@ -44,10 +44,6 @@ impl StepText {
         self.0.iter().filter(move |(_, (of, _))| of == name).map(|(&id, _)| id)
     }
 
-    fn name(&self, id: usize) -> &str {
-        &self.0[&id].0
-    }
-
     /// Instances that one refers to.
     fn references(&self, id: usize) -> Vec<usize> {
         let number = |text: &str| text.chars().take_while(char::is_ascii_digit).collect::<String>().parse().ok();
