@@ -99,7 +99,7 @@
 //! - [`pair_job`]: two scenes rolled on each other, and what is written about it
 //! - [`run`]: the order of a whole run
 //! - `influence`: what errors of the machine do to a gear, and which errors a measured gear shows
-//! - `export`: sections, points and programs for other people's programs
+//! - `export`: sections, solids, points and programs for other people's programs
 //! - `scatter`: how gears of one scene scatter, layer by layer of errors
 //! - [`study`]: many scenes that differ in a few keys, one row of quantities each
 //! - `library`: the few items that other programs need

@@ -7,10 +7,12 @@ use crate::export::drawing::Drawing;
 use crate::export::dxf::dxf;
 use crate::export::points::{self, PointsWish};
 use crate::export::section::{GearSection, ProfileSource, SectionCurve, SectionWish, profile_mm};
+use crate::export::solid::GearSolid;
+use crate::export::step::{StepWords, step};
 use crate::export::unit::FileUnit;
 use crate::export::wire::{WireProgram, WireWish};
 use crate::interrupt::Interrupt;
-use crate::job::GearJob;
+use crate::job::{CylindricalGear, GearJob};
 use crate::number_text::{plain, significant};
 use crate::output::atomic::write_bytes_atomically;
 use crate::output::text::Sheet;
@@ -37,6 +39,7 @@ pub fn run(arguments: &ExportArguments) -> Result<(), Failure> {
     for (option, path, ending) in [
         ("--dxf", &arguments.dxf, "dxf"),
         ("--tool-dxf", &arguments.tool_dxf, "dxf"),
+        ("--step", &arguments.step, "step"),
         ("--points", &arguments.points, "csv"),
         ("--wire", &arguments.wire, "ngc"),
     ] {
@@ -75,7 +78,8 @@ impl Exporter<'_> {
     fn export(&mut self, gear: &dyn GearJob) -> Result<()> {
         let arguments = self.arguments;
         let cylinder = gear.cylindrical();
-        let wants_cylinder = arguments.dxf.is_some() || arguments.tool_dxf.is_some() || arguments.wire.is_some();
+        let wants_cylinder =
+            [&arguments.dxf, &arguments.tool_dxf, &arguments.step, &arguments.wire].into_iter().any(Option::is_some);
         if wants_cylinder && cylinder.is_none() {
             let way_out =
                 "export a shaped or hobbed gear; of a bevel gear there are --points, and mesh/ of `gearcut cut`";
@@ -87,6 +91,9 @@ impl Exporter<'_> {
         let Some(gear) = cylinder.filter(|_| wants_cylinder) else { return Ok(()) };
         if let Some(path) = &arguments.tool_dxf {
             self.drawing(path, &Drawing::of_tool(gear, self.wish.tolerance_mm), "")?;
+        }
+        if let Some(path) = &arguments.step {
+            self.solid(gear, path)?;
         }
         if arguments.dxf.is_none() && arguments.wire.is_none() {
             return Ok(());
@@ -132,6 +139,18 @@ impl Exporter<'_> {
         Ok(())
     }
 
+    fn solid(&mut self, gear: &dyn CylindricalGear, path: &Path) -> Result<()> {
+        let solid = GearSolid::new(gear, self.choice.backend.as_ref(), &self.wish, &self.watch)?;
+        let file = step(&solid, &StepWords::new(gear, &self.wish));
+        self.watch.check()?;
+        write_bytes_atomically(path, file.text.as_bytes())?;
+        self.sheet.heading(&path.display().to_string());
+        let kb = file.text.len().div_ceil(1000);
+        self.sheet.line("solid", format!("{} faces, {kb} kB", file.faces));
+        self.sheet.line("off the profile", format!("{} um at most", significant(solid.off_mm * UM_PER_MM, 2)));
+        Ok(())
+    }
+
     fn drawing(&mut self, path: &Path, drawing: &Drawing, more: &str) -> Result<()> {
         self.watch.check()?;
         write_bytes_atomically(path, dxf(drawing, unit(self.arguments)).as_bytes())?;
@@ -147,11 +166,13 @@ fn unit(arguments: &ExportArguments) -> FileUnit {
     }
 }
 
-/// The wire; programs are in mm.
+/// The wire; programs and solids are in mm.
 fn wire_wish(arguments: &ExportArguments, section: &SectionWish) -> Result<WireWish, Refusal> {
-    if arguments.wire.is_some() && arguments.units == LengthUnitChoice::Inch {
-        let way_out = "leave --units out, or write drawing and program with two commands";
-        return Err(Refusal::new("--units", "programs of wire erosion are in mm", way_out));
+    for (path, what) in [(&arguments.wire, "programs of wire erosion"), (&arguments.step, "STEP files")] {
+        if path.is_some() && arguments.units == LengthUnitChoice::Inch {
+            let way_out = "leave --units out, or write the files in inches with a command of their own";
+            return Err(Refusal::new("--units", format!("{what} are in mm"), way_out));
+        }
     }
     for (option, value, [least, most]) in [
         ("--wire-diameter-um", arguments.wire_diameter_um, [10.0, 1000.0]),

@@ -62,25 +62,10 @@ impl ArcPath {
     /// Fewer than two points.
     pub fn fit(points_mm: &[DVec2], is_closed: bool, tolerance_mm: f64, pieces: PathPieces) -> Self {
         assert!(points_mm.len() >= 2, "a chain has a beginning and an end");
-        let mut chain = distinct(points_mm, is_closed, NEAREST_MM);
-        let mut corners: Vec<usize> = (0..chain.len()).filter(|&i| is_corner(&chain, i, is_closed)).collect();
-        if is_closed {
-            // From corner to corner, and round to the first one.
-            let first = corners.first().copied().unwrap_or(0);
-            chain.rotate_left(first);
-            for corner in &mut corners {
-                *corner -= first;
-            }
-            chain.push(chain[0]);
-        }
-        let ends = [0].into_iter().chain(corners.into_iter().filter(|&i| i > 0)).chain([chain.len() - 1]);
-        let ends: Vec<usize> = ends.collect();
-        let mut vertices: Vec<ArcVertex> = Vec::new();
-        for pair in ends.windows(2).filter(|pair| pair[1] > pair[0]) {
-            vertices.extend(evened(&chain[pair[0]..=pair[1]], tolerance_mm, pieces));
-        }
+        let parts = smooth_parts(points_mm, is_closed);
+        let mut vertices: Vec<ArcVertex> = parts.iter().flat_map(|part| evened(part, tolerance_mm, pieces)).collect();
         if !is_closed {
-            vertices.push(ArcVertex { point_mm: chain[chain.len() - 1], bulge: 0.0 });
+            vertices.push(ArcVertex { point_mm: points_mm[points_mm.len() - 1], bulge: 0.0 });
         }
         Self { vertices, is_closed }
     }
@@ -127,6 +112,27 @@ pub fn distinct(points_mm: &[DVec2], is_closed: bool, nearest_mm: f64) -> Vec<DV
         chain.pop();
     }
     chain
+}
+
+/// A chain cut at its corners: each part begins with the point with which the one before ends. A closed chain without a
+/// corner is one part, which ends where it begins; a chain whose points are all the same has none.
+pub fn smooth_parts(points_mm: &[DVec2], is_closed: bool) -> Vec<Vec<DVec2>> {
+    let mut chain = distinct(points_mm, is_closed, NEAREST_MM);
+    let mut corners: Vec<usize> = (0..chain.len()).filter(|&i| is_corner(&chain, i, is_closed)).collect();
+    if is_closed {
+        // From corner to corner, and round to the first one.
+        let first = corners.first().copied().unwrap_or(0);
+        chain.rotate_left(first);
+        for corner in &mut corners {
+            *corner -= first;
+        }
+        chain.push(chain[0]);
+    } else if let (Some(last), Some(&end)) = (chain.last_mut(), points_mm.last()) {
+        *last = end;
+    }
+    let ends = [0].into_iter().chain(corners.into_iter().filter(|&i| i > 0)).chain([chain.len() - 1]);
+    let ends: Vec<usize> = ends.collect();
+    ends.windows(2).filter(|pair| pair[1] > pair[0]).map(|pair| chain[pair[0]..=pair[1]].to_vec()).collect()
 }
 
 fn is_corner(chain: &[DVec2], i: usize, is_closed: bool) -> bool {

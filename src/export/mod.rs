@@ -8,14 +8,20 @@
 //! | [`section`] | profile, pitch curve and stock of a transverse section as such paths |
 //! | [`drawing`] | layers of paths, with what is said about them |
 //! | [`dxf`] | the drawing as a DXF file |
+//! | [`b_spline`] | cubic B-splines through points |
+//! | [`solid`] | the gear as a solid of such faces |
+//! | [`step`] | the solid as a STEP file |
 //! | [`points`] | points of flanks with their normals as CSV |
 //! | [`wire`] | programs of wire erosion |
 //! | [`mod@unit`] | units of length, and how numbers are written |
 
 pub mod arcs;
+pub mod b_spline;
 pub mod drawing;
 pub mod dxf;
 pub mod points;
 pub mod section;
+pub mod solid;
+pub mod step;
 pub mod unit;
 pub mod wire;

@@ -9,7 +9,7 @@
 //! Points of the target are so close together that a fillet of a fifth of a module bends by a fortieth of the tolerance
 //! between two of them. That and the digits of files is what [`FIT_SHARE`] leaves room for.
 
-use super::arcs::{ArcPath, PathPieces};
+use super::arcs::{ArcPath, PathPieces, smooth_parts};
 use crate::job::{CylindricalGear, ToothSection};
 use crate::measure::round_gear::is_round;
 use crate::pair_job::outline::{cut_flank, cut_root, joined};
@@ -104,7 +104,7 @@ impl GearSection {
 }
 
 /// Distance of points along the target, mm.
-fn spacing_mm(gear: &dyn CylindricalGear, wish: &SectionWish) -> f64 {
+pub fn spacing_mm(gear: &dyn CylindricalGear, wish: &SectionWish) -> f64 {
     SPACING_SHARE * (wish.tolerance_mm * gear.scene().gear.module_mm).sqrt()
 }
 
@@ -124,6 +124,35 @@ pub fn profile_mm(
         ProfileSource::Target => target_profile_mm(gear, [first, last], wish, stage),
         ProfileSource::Cut => cut_profile_mm(gear, backend, [first, last], wish.z_mm, stage),
     }
+}
+
+/// The target all round at `z_mm`, points about `spacing_mm` apart, cut at its corners and where flanks end: parts from
+/// each such place to the next, counter-clockwise from the form point of the right flank of tooth 1.
+///
+/// # Errors
+/// A flank whose target is not known in closed form; Ctrl-C.
+pub fn target_parts_mm(
+    gear: &dyn CylindricalGear,
+    z_mm: f64,
+    spacing_mm: f64,
+    stage: &WatchedUnits,
+) -> Result<Vec<Vec<DVec2>>> {
+    let section = |tooth: u32| {
+        let section = gear.target_section(tooth, z_mm, spacing_mm)?;
+        stage.count()?;
+        Ok(section)
+    };
+    let sections: Vec<ToothSection> =
+        (1..=gear.scene().gear.teeth).into_par_iter().map(section).collect::<Result<_>>()?;
+    let next = sections.iter().cycle().skip(1);
+    let parts = sections.iter().zip(next).flat_map(|(section, next)| {
+        // Ends of the root belong to the flanks.
+        let (mut root_mm, tooth_mm) = (section.root_mm.clone(), &section.tooth_mm);
+        let last = root_mm.len() - 1;
+        (root_mm[0], root_mm[last]) = (tooth_mm[tooth_mm.len() - 1], next.tooth_mm[0]);
+        [smooth_parts(tooth_mm, false), smooth_parts(&root_mm, false)].concat()
+    });
+    Ok(parts.collect())
 }
 
 /// The number of a tooth or space from 1 on.

@@ -142,4 +142,5 @@ def pairs(polyline):
     return list(zip(vertices, vertices[1:] + ([vertices[0]] if polyline.closed else [])))
 
 
-main()
+if __name__ == "__main__":
+    main()

@@ -7,7 +7,7 @@ use super::{ComputeArguments, SceneArguments};
 
 /// Arguments of `export`.
 #[derive(Debug, Args)]
-#[command(group = ArgGroup::new("files").required(true).multiple(true).args(["dxf", "tool_dxf", "points", "wire"]))]
+#[command(group = ArgGroup::new("files").required(true).multiple(true).args(["dxf", "tool_dxf", "step", "points", "wire"]))]
 pub struct ExportArguments {
     /// The scene.
     #[command(flatten)]
@@ -18,6 +18,9 @@ pub struct ExportArguments {
     /// DXF of the tool to write: the whole shaper cutter, or the edge of one hob tooth.
     #[arg(long, value_name = "FILE")]
     pub tool_dxf: Option<PathBuf>,
+    /// STEP file of the whole gear to write: one closed solid of smooth faces.
+    #[arg(long, value_name = "FILE", conflicts_with = "teeth")]
+    pub step: Option<PathBuf>,
     /// Points of the flanks with their normals to write, as CSV: of all gears, bevel gears too.
     #[arg(long, value_name = "FILE")]
     pub points: Option<PathBuf>,

@@ -5,6 +5,7 @@
 
 mod points;
 mod sections;
+mod solids;
 mod wire;
 
 use crate::fixtures::command::gearcut;

@@ -8,8 +8,8 @@ use glam::DVec2;
 use std::f64::consts::{PI, TAU};
 use std::path::Path;
 
-/// The target round a tooth and the root before it, by the library.
-fn target(scene: &str, settings: &[&str], tooth: u32, spacing_mm: f64) -> Vec<DVec2> {
+/// The target round a tooth and the root before it at `z_mm`, by the library.
+pub fn target(scene: &str, settings: &[&str], tooth: u32, z_mm: f64, spacing_mm: f64) -> Vec<DVec2> {
     let settings: Vec<String> = settings.iter().map(|&setting| setting.to_owned()).collect();
     let loaded = process::load(Path::new(scene), &settings).expect("a scene");
     let mut chain = Vec::new();
@@ -17,7 +17,7 @@ fn target(scene: &str, settings: &[&str], tooth: u32, spacing_mm: f64) -> Vec<DV
     job.with_gear(&mut |gear| {
         let gear = gear.cylindrical().expect("a cylinder");
         let [before, own]: [ToothSection; 2] =
-            [tooth - 1, tooth].map(|tooth| gear.target_section(tooth, 0.0, spacing_mm).expect("a target"));
+            [tooth - 1, tooth].map(|tooth| gear.target_section(tooth, z_mm, spacing_mm).expect("a target"));
         let half = before.root_mm.len() / 2;
         chain.extend(&before.root_mm[half..]);
         chain.extend(&own.tooth_mm);
@@ -53,7 +53,7 @@ fn a_profile_is_within_the_tolerance_of_the_target_everywhere() {
         let gap = pieces.windows(2).map(|pair| pair[0].end.distance(pair[1].start)).fold(0.0, f64::max);
         assert_eq!(gap, 0.0);
         // The fit has points some 10 um apart.
-        let fine = target(scene, settings, tooth, 1e-4);
+        let fine = target(scene, settings, tooth, 0.0, 1e-4);
         assert!(fine.len() > 50_000);
         let from_file = fine.iter().map(|&p| from_path_mm(&pieces, p)).fold(0.0, f64::max);
         let chain: Vec<[DVec2; 2]> = fine.windows(2).map(|pair| [pair[0], pair[1]]).collect();

@@ -1,0 +1,365 @@
+//! STEP: a solid as a file of ISO 10303-21 after AP214 (`AUTOMOTIVE_DESIGN`), in mm.
+//!
+//! In: a [`GearSolid`]. Out: the text of the file: one `MANIFOLD_SOLID_BREP` whose shell is closed. Every edge belongs
+//! to two faces, which run through it in opposite senses.
+//!
+//! Straight walls are cubic B-splines swept along z (`SURFACE_OF_LINEAR_EXTRUSION`), helical ones bicubic B-spline
+//! surfaces, ends planes. The bore or the rim is two half cylinders, so that no face closes upon itself.
+//!
+//! The accuracy in the head is what readers join edges by: the tolerance, and at most [`LARGEST_ACCURACY_MM`], so that
+//! no tip land of a coarse file is taken for a point.
+//!
+//! Road not taken: the crate `truck-stepio` (0.3.0). It writes the topology of its own modelling kernel, five crates
+//! more, and puts the time into each file: the same scene would no longer give the same bytes.
+
+use super::b_spline::{CubicKnots, DEGREE};
+use super::section::{ProfileSource, SectionWish};
+use super::solid::GearSolid;
+use super::unit::fixed;
+use crate::job::CylindricalGear;
+use crate::number_text::plain;
+use gearcut_core::gear::GearKind;
+use gearcut_core::units::UM_PER_MM;
+use glam::{DVec2, DVec3};
+use std::fmt::Write as _;
+
+/// Digits of lengths in mm and of knots.
+const DIGITS: [usize; 2] = [9, 12];
+/// Accuracy that the head says at most, mm.
+const LARGEST_ACCURACY_MM: f64 = 1e-3;
+
+/// What is said of the solid.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StepWords {
+    /// Name of the product.
+    pub name: String,
+    /// Lines of the description in the head.
+    pub notes: Vec<String>,
+    /// The tolerance of the faces, mm.
+    pub tolerance_mm: f64,
+}
+
+impl StepWords {
+    /// What is said of a gear.
+    pub fn new(gear: &dyn CylindricalGear, wish: &SectionWish) -> Self {
+        let name = gear.scene().name.clone();
+        let what = match wish.source {
+            ProfileSource::Target => "target: the envelope of the finishing operation".to_owned(),
+            ProfileSource::Cut => format!("as cut {} mm from the middle of the face, swept straight", plain(wish.z_mm)),
+        };
+        let within = format!("faces are within {} um of the profile", plain(wish.tolerance_mm * UM_PER_MM));
+        let notes = vec![
+            format!("{name}: {what}"),
+            within,
+            "gear frame: axis along z, z = 0 in the middle of the face, a tooth space on the x axis".to_owned(),
+        ];
+        Self { name, notes, tolerance_mm: wish.tolerance_mm }
+    }
+}
+
+/// A file and how many faces its solid has.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StepFile {
+    /// Its text.
+    pub text: String,
+    /// Faces.
+    pub faces: usize,
+}
+
+/// Number of an instance.
+type InstanceId = usize;
+
+/// Edges in the order of a loop, each with whether it is run through from its start.
+type EdgeLoop = Vec<(InstanceId, bool)>;
+
+/// Instances of the data section.
+#[derive(Default)]
+struct InstanceWriter {
+    text: String,
+    count: usize,
+    faces: Vec<InstanceId>,
+}
+
+/// Edges of a closed wall: at the lower and at the upper end and between faces, counter-clockwise.
+struct WallEdges {
+    lower: Vec<InstanceId>,
+    upper: Vec<InstanceId>,
+    seams: Vec<InstanceId>,
+}
+
+/// The solid as a file.
+pub fn step(solid: &GearSolid, words: &StepWords) -> StepFile {
+    let mut file = InstanceWriter::default();
+    let is_external = solid.back.kind == GearKind::External;
+    let half_mm = solid.half_face_mm;
+    let (edges, surfaces) = file.profile(solid);
+    file.wall(&edges, &surfaces, is_external);
+    let back = (solid.back.radius_mm > 0.0).then(|| {
+        let (edges, surface) = file.back(solid.back.radius_mm, half_mm);
+        file.wall(&edges, &[surface; 2], !is_external);
+        edges
+    });
+    for (z_mm, is_upper) in [(-half_mm, false), (half_mm, true)] {
+        let loop_of = |edges: &WallEdges, is_forward: bool| -> EdgeLoop {
+            let own = if is_upper { &edges.upper } else { &edges.lower };
+            oriented(own.iter().map(|&edge| (edge, true)).collect(), is_forward == is_upper)
+        };
+        let mut loops = vec![loop_of(&edges, is_external)];
+        loops.extend(back.iter().map(|edges| loop_of(edges, !is_external)));
+        if !is_external {
+            loops.reverse();
+        }
+        let up = if is_upper { DVec3::Z } else { DVec3::NEG_Z };
+        let place = file.placement(DVec3::Z * z_mm, up);
+        let plane = file.add(&format!("PLANE('',#{place})"));
+        file.face(plane, true, loops);
+    }
+    let faces = file.faces.len();
+    file.product(words);
+    StepFile { text: whole(&file.text, words), faces }
+}
+
+/// A loop, or the same backwards.
+fn oriented(mut edges: EdgeLoop, is_forward: bool) -> EdgeLoop {
+    if !is_forward {
+        edges.reverse();
+        edges.iter_mut().for_each(|(_, sense)| *sense = !*sense);
+    }
+    edges
+}
+
+impl InstanceWriter {
+    /// One more instance.
+    fn add(&mut self, body: &str) -> InstanceId {
+        self.count += 1;
+        let _ = writeln!(self.text, "#{}={body};", self.count);
+        self.count
+    }
+
+    fn point(&mut self, place_mm: DVec3) -> InstanceId {
+        let numbers = place_mm.to_array().map(|mm| real(mm, DIGITS[0])).join(",");
+        self.add(&format!("CARTESIAN_POINT('',({numbers}))"))
+    }
+
+    fn direction(&mut self, direction: DVec3) -> InstanceId {
+        let numbers = direction.to_array().map(|part| real(part, DIGITS[0])).join(",");
+        self.add(&format!("DIRECTION('',({numbers}))"))
+    }
+
+    /// Axes with their origin at a place, z along `up`, x as in the gear.
+    fn placement(&mut self, place_mm: DVec3, up: DVec3) -> InstanceId {
+        let (place, up, x) = (self.point(place_mm), self.direction(up), self.direction(DVec3::X));
+        self.add(&format!("AXIS2_PLACEMENT_3D('',#{place},#{up},#{x})"))
+    }
+
+    fn vertex(&mut self, point: InstanceId) -> InstanceId {
+        self.add(&format!("VERTEX_POINT('',#{point})"))
+    }
+
+    fn edge(&mut self, [from, to]: [InstanceId; 2], curve: InstanceId) -> InstanceId {
+        self.add(&format!("EDGE_CURVE('',#{from},#{to},#{curve},.T.)"))
+    }
+
+    fn curve(&mut self, knots: &CubicKnots, controls: &[InstanceId]) -> InstanceId {
+        let [times, places] = multiplicities(knots);
+        let controls = references(controls);
+        self.add(&format!(
+            "B_SPLINE_CURVE_WITH_KNOTS('',{DEGREE},{controls},.UNSPECIFIED.,.F.,.F.,{times},{places},.UNSPECIFIED.)"
+        ))
+    }
+
+    /// A length along z.
+    fn upwards(&mut self, length_mm: f64) -> InstanceId {
+        let up = self.direction(DVec3::Z);
+        self.add(&format!("VECTOR('',#{up},{})", real(length_mm, DIGITS[0])))
+    }
+
+    fn face(&mut self, surface: InstanceId, is_forward: bool, loops: Vec<EdgeLoop>) {
+        let mut bounds = Vec::new();
+        for (i, edges) in loops.into_iter().enumerate() {
+            let mut uses = Vec::new();
+            for (edge, is_forward) in edges {
+                uses.push(self.add(&format!("ORIENTED_EDGE('',*,*,#{edge},{})", logical(is_forward))));
+            }
+            let edges = self.add(&format!("EDGE_LOOP('',{})", references(&uses)));
+            let kind = if i == 0 { "FACE_OUTER_BOUND" } else { "FACE_BOUND" };
+            bounds.push(self.add(&format!("{kind}('',#{edges},.T.)")));
+        }
+        let bounds = references(&bounds);
+        let face = self.add(&format!("ADVANCED_FACE('',{bounds},#{surface},{})", logical(is_forward)));
+        self.faces.push(face);
+    }
+
+    /// Faces round the axis; `is_forward`: the material lies on the side of the axis. Surfaces look away from it.
+    fn wall(&mut self, edges: &WallEdges, surfaces: &[InstanceId], is_forward: bool) {
+        for (i, &surface) in surfaces.iter().enumerate() {
+            let next = edges.seams[(i + 1) % edges.seams.len()];
+            let around = vec![(edges.lower[i], true), (next, true), (edges.upper[i], false), (edges.seams[i], false)];
+            self.face(surface, is_forward, vec![oriented(around, is_forward)]);
+        }
+    }
+
+    /// Edges and surfaces round the teeth.
+    fn profile(&mut self, solid: &GearSolid) -> (WallEdges, Vec<InstanceId>) {
+        let half_mm = solid.half_face_mm;
+        let heights_mm: Vec<f64> = match &solid.across {
+            None => vec![-half_mm, half_mm],
+            Some(across) => (0..across.count()).map(|row| across.greville(row)).collect(),
+        };
+        let last = heights_mm.len() - 1;
+        let mut points: Vec<Vec<Vec<InstanceId>>> = Vec::new();
+        for wall in &solid.walls {
+            let row = |(row, &z_mm): (usize, &f64)| {
+                let own_mm: &[DVec2] = &wall.rows_mm[row.min(wall.rows_mm.len() - 1)];
+                // The last one is the first of the next wall.
+                own_mm[..own_mm.len() - 1].iter().map(|point_mm| self.point(point_mm.extend(z_mm))).collect()
+            };
+            points.push(heights_mm.iter().enumerate().map(row).collect());
+        }
+        let firsts: Vec<Vec<InstanceId>> = points.iter().map(|rows| rows.iter().map(|row| row[0]).collect()).collect();
+        for (i, rows) in points.iter_mut().enumerate() {
+            for (row, &first) in rows.iter_mut().zip(&firsts[(i + 1) % firsts.len()]) {
+                row.push(first);
+            }
+        }
+        let ends: Vec<[InstanceId; 2]> =
+            firsts.iter().map(|column| [column[0], column[last]].map(|point| self.vertex(point))).collect();
+        let mut edges = WallEdges { lower: Vec::new(), upper: Vec::new(), seams: Vec::new() };
+        let mut surfaces = Vec::new();
+        let upwards = self.upwards(2.0 * half_mm);
+        for (i, wall) in solid.walls.iter().enumerate() {
+            let next = ends[(i + 1) % ends.len()];
+            let [lower, upper] = [0, last].map(|row| self.curve(&wall.along, &points[i][row]));
+            edges.lower.push(self.edge([ends[i][0], next[0]], lower));
+            edges.upper.push(self.edge([ends[i][1], next[1]], upper));
+            let (seam, surface) = match &solid.across {
+                None => (
+                    self.add(&format!("LINE('',#{},#{upwards})", firsts[i][0])),
+                    self.add(&format!("SURFACE_OF_LINEAR_EXTRUSION('',#{lower},#{upwards})")),
+                ),
+                Some(across) => (self.curve(across, &firsts[i]), self.surface([&wall.along, across], &points[i])),
+            };
+            edges.seams.push(self.edge(ends[i], seam));
+            surfaces.push(surface);
+        }
+        (edges, surfaces)
+    }
+
+    /// A surface through rows of control points, each along the profile.
+    fn surface(&mut self, knots: [&CubicKnots; 2], rows: &[Vec<InstanceId>]) -> InstanceId {
+        let column = |i: usize| references(&rows.iter().map(|row| row[i]).collect::<Vec<_>>());
+        let columns = (0..rows[0].len()).map(column).collect::<Vec<_>>().join(",");
+        let [[times_u, places_u], [times_v, places_v]] = knots.map(multiplicities);
+        self.add(&format!(
+            "B_SPLINE_SURFACE_WITH_KNOTS('',{DEGREE},{DEGREE},({columns}),.UNSPECIFIED.,.F.,.F.,.F.,\
+             {times_u},{times_v},{places_u},{places_v},.UNSPECIFIED.)"
+        ))
+    }
+
+    /// Edges of two half cylinders about the axis, and their surface.
+    fn back(&mut self, radius_mm: f64, half_mm: f64) -> (WallEdges, InstanceId) {
+        let upwards = self.upwards(2.0 * half_mm);
+        let mut edges = WallEdges { lower: Vec::new(), upper: Vec::new(), seams: Vec::new() };
+        let mut columns = Vec::new();
+        for side in [1.0, -1.0] {
+            let points = [-half_mm, half_mm].map(|z_mm| self.point(DVec3::new(side * radius_mm, 0.0, z_mm)));
+            let ends = points.map(|point| self.vertex(point));
+            let line = self.add(&format!("LINE('',#{},#{upwards})", points[0]));
+            edges.seams.push(self.edge(ends, line));
+            columns.push(ends);
+        }
+        let radius = real(radius_mm, DIGITS[0]);
+        for (end, z_mm) in [-half_mm, half_mm].into_iter().enumerate() {
+            let place = self.placement(DVec3::Z * z_mm, DVec3::Z);
+            let circle = self.add(&format!("CIRCLE('',#{place},{radius})"));
+            for side in [0, 1] {
+                let edge = self.edge([columns[side][end], columns[1 - side][end]], circle);
+                if end == 0 { edges.lower.push(edge) } else { edges.upper.push(edge) }
+            }
+        }
+        let place = self.placement(DVec3::Z * -half_mm, DVec3::Z);
+        (edges, self.add(&format!("CYLINDRICAL_SURFACE('',#{place},{radius})")))
+    }
+
+    /// The solid of all faces, its representation in mm, and the product whose shape it is.
+    fn product(&mut self, words: &StepWords) {
+        let faces = references(&self.faces);
+        let shell = self.add(&format!("CLOSED_SHELL('',{faces})"));
+        let name = text(&words.name);
+        let brep = self.add(&format!("MANIFOLD_SOLID_BREP({name},#{shell})"));
+        let axes = self.placement(DVec3::ZERO, DVec3::Z);
+        let mm = self.add("(LENGTH_UNIT()NAMED_UNIT(*)SI_UNIT(.MILLI.,.METRE.))");
+        let rad = self.add("(NAMED_UNIT(*)PLANE_ANGLE_UNIT()SI_UNIT($,.RADIAN.))");
+        let sr = self.add("(NAMED_UNIT(*)SI_UNIT($,.STERADIAN.)SOLID_ANGLE_UNIT())");
+        let accuracy = real(words.tolerance_mm.min(LARGEST_ACCURACY_MM), DIGITS[0]);
+        let accuracy = self.add(&format!(
+            "UNCERTAINTY_MEASURE_WITH_UNIT(LENGTH_MEASURE({accuracy}),#{mm},'distance_accuracy_value','')"
+        ));
+        let context = self.add(&format!(
+            "(GEOMETRIC_REPRESENTATION_CONTEXT(3)GLOBAL_UNCERTAINTY_ASSIGNED_CONTEXT((#{accuracy}))\
+             GLOBAL_UNIT_ASSIGNED_CONTEXT((#{mm},#{rad},#{sr}))REPRESENTATION_CONTEXT('',''))"
+        ));
+        let shape = self.add(&format!("ADVANCED_BREP_SHAPE_REPRESENTATION({name},(#{axes},#{brep}),#{context})"));
+        let application = self.add("APPLICATION_CONTEXT('core data for automotive mechanical design processes')");
+        self.add(&format!(
+            "APPLICATION_PROTOCOL_DEFINITION('international standard','automotive_design',2000,#{application})"
+        ));
+        let of = self.add(&format!("PRODUCT_CONTEXT('',#{application},'mechanical')"));
+        let product = self.add(&format!("PRODUCT({name},{name},'',(#{of}))"));
+        self.add(&format!("PRODUCT_RELATED_PRODUCT_CATEGORY('part',$,(#{product}))"));
+        let formation = self.add(&format!("PRODUCT_DEFINITION_FORMATION('','',#{product})"));
+        let of = self.add(&format!("PRODUCT_DEFINITION_CONTEXT('part definition',#{application},'design')"));
+        let definition = self.add(&format!("PRODUCT_DEFINITION('design','',#{formation},#{of})"));
+        let of = self.add(&format!("PRODUCT_DEFINITION_SHAPE('','',#{definition})"));
+        self.add(&format!("SHAPE_DEFINITION_REPRESENTATION(#{of},#{shape})"));
+    }
+}
+
+/// Head, data, end.
+fn whole(data: &str, words: &StepWords) -> String {
+    let notes = words.notes.iter().map(|note| text(note)).collect::<Vec<_>>().join(",");
+    let program = text(&format!("gearcut {}", env!("CARGO_PKG_VERSION")));
+    let name = text(&words.name);
+    format!(
+        "ISO-10303-21;\nHEADER;\nFILE_DESCRIPTION(({notes}),'2;1');\n\
+         FILE_NAME({name},'',(''),(''),{program},{program},'');\n\
+         FILE_SCHEMA(('AUTOMOTIVE_DESIGN {{ 1 0 10303 214 1 1 1 1 }}'));\nENDSEC;\nDATA;\n{data}ENDSEC;\n\
+         END-ISO-10303-21;\n"
+    )
+}
+
+/// How often each knot counts, and the knots.
+fn multiplicities(knots: &CubicKnots) -> [String; 2] {
+    let places = knots.places();
+    let times = |i: usize| if i == 0 || i == places.len() - 1 { DEGREE + 1 } else { 1 };
+    let list = |items: Vec<String>| format!("({})", items.join(","));
+    [
+        list((0..places.len()).map(|i| times(i).to_string()).collect()),
+        list(places.iter().map(|&place| real(place, DIGITS[1])).collect()),
+    ]
+}
+
+fn references(of: &[InstanceId]) -> String {
+    format!("({})", of.iter().map(|id| format!("#{id}")).collect::<Vec<_>>().join(","))
+}
+
+fn logical(is_true: bool) -> &'static str {
+    if is_true { ".T." } else { ".F." }
+}
+
+/// A number with a point, without zeros behind it.
+fn real(value: f64, digits: usize) -> String {
+    fixed(value, digits).trim_end_matches('0').to_owned()
+}
+
+/// A string: quotes and backslashes doubled, other characters than those of ASCII by their number.
+fn text(of: &str) -> String {
+    let one = |c: char| match c {
+        '\'' | '\\' => format!("{c}{c}"),
+        ' '..='~' => c.to_string(),
+        c if c.is_control() => " ".to_owned(),
+        c if u32::from(c) <= 0xFFFF => format!("\\X2\\{:04X}\\X0\\", u32::from(c)),
+        c => format!("\\X4\\{:08X}\\X0\\", u32::from(c)),
+    };
+    format!("'{}'", of.chars().map(one).collect::<String>())
+}
