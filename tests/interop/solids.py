@@ -25,16 +25,16 @@ from OCP.TopAbs import TopAbs_FACE, TopAbs_SOLID
 from OCP.TopExp import TopExp_Explorer
 from OCP.TopoDS import TopoDS
 
-HELICAL = ["gear.teeth=20", "gear.face_width_mm=15"]
+HELICAL = ["gear.teeth=15", "gear.face_width_mm=6"]
 # Name, scene, settings, teeth whose flanks have points, points on each, face width in mm; all along the tooth the
 # section has the same area.
 CASES = [
-    ("round", "scenes/shaping/circular_m3_z24.toml", [], "1..12", "15x3", 20.0),
-    ("elliptical", "scenes/shaping/elliptical_normal.toml", [], "1..14", "15x3", 30.0),
+    ("round", "scenes/shaping/circular_m3_z24.toml", [], "1..4", "15x3", 20.0),
+    ("elliptical", "scenes/shaping/elliptical_normal.toml", [], "1..7", "15x3", 30.0),
     ("ring", "scenes/shaping/internal_circle.toml", [], "1..4", "15x3", 16.0),
-    ("helical", "scenes/hobbing/circular_helical.toml", HELICAL, "1..4", "15x5", 15.0),
+    ("helical", "scenes/hobbing/circular_helical.toml", HELICAL, "1..4", "15x5", 6.0),
 ]
-TOLERANCE_MM = 5e-4
+TOLERANCE_MM = 1e-3
 
 
 def parts(shape, kind):
