@@ -52,8 +52,8 @@ impl SpaceOutline {
         if corner_mm.distance(self.center_mm) > self.reach_mm {
             return None;
         }
-        // Two sides of one corner are as near as each other: the one that is passed farther from its line knows on which
-        // side the corner stands. A flank may meet its fillet with a step of some nanometres straight across.
+        // Two sides that meet nearest to the corner are as near as each other: the one whose line is farther off knows
+        // on which side the corner is. A flank may meet its fillet with a step of some nanometres straight across.
         let mut nearest = (f64::INFINITY, 0, 0.0, 0.0_f64);
         for (i, side) in self.points_mm.windows(2).enumerate() {
             let along = side[1] - side[0];

@@ -5,9 +5,12 @@ use std::path::PathBuf;
 
 use super::{ComputeArguments, SceneArguments};
 
+/// What can be written; one of them at least.
+const FILES: [&str; 5] = ["dxf", "tool_dxf", "step", "points", "wire"];
+
 /// Arguments of `export`.
 #[derive(Debug, Args)]
-#[command(group = ArgGroup::new("files").required(true).multiple(true).args(["dxf", "tool_dxf", "step", "points", "wire"]))]
+#[command(group = ArgGroup::new("files").required(true).multiple(true).args(FILES))]
 pub struct ExportArguments {
     /// The scene.
     #[command(flatten)]

@@ -214,7 +214,8 @@ fn a_solid_is_closed_and_within_the_tolerance_of_the_target() {
         let fine = target(scene, &narrow[1..], tooth, z_mm, 5e-3);
         let [from_file, from_target] = off_mm(&file, &fine, z_mm);
         let said_mm = 1e-3 * said_um(&out);
-        assert!(from_file <= said_mm + 2e-6 && said_mm <= TOLERANCE_MM, "{scene}: {from_file}, said {said_mm} mm");
+        // Said to a hundredth of a micrometre.
+        assert!(from_file <= said_mm + 5e-6 && said_mm <= TOLERANCE_MM, "{scene}: {from_file}, said {said_mm} mm");
         assert!(from_target <= TOLERANCE_MM, "{scene}: {from_target} mm");
         assert!(said_mm > 0.05 * TOLERANCE_MM, "{scene}: far fewer knots would do: {said_mm} mm");
     }

@@ -97,7 +97,7 @@ fn a_row_repeats_from_its_scene() {
         }
     }
     assert_eq!(compared, 21 * 9 + 41);
-    assert!(about.contains("map.tooth_01_left.u00_v0_um,um,normal deviation of the finished flank"), "{about}");
+    assert!(about.contains("map.tooth_01_left.u00_v0_um,um,\"normal deviation of the finished flank"));
     // Planted: the same gear without its eccentricity is another one.
     let other = settings.iter().filter(|setting| !setting.starts_with("mounting.ecc")).cloned().collect::<Vec<_>>();
     assert_eq!(other.len(), 13);
