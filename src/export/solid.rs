@@ -89,7 +89,7 @@ impl GearSolid {
         watch: &Watch<'_>,
     ) -> Result<Self> {
         let half_face_mm = 0.5 * gear.scene().gear.face_width_mm;
-        let is_straight = gear.view_rows_z_mm().len() == 2;
+        let is_straight = gear.scene().gear.helix_angle_rad == 0.0;
         let fine_mm = MEASURED_SHARE * spacing_mm(gear, wish);
         let solid = |walls, across, off_mm| {
             let solid = Self { walls, across, half_face_mm, back: gear.blank().back, off_mm };
