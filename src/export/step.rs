@@ -123,7 +123,9 @@ pub fn step(solid: &GearSolid, words: &StepWords) -> StepFile {
 fn oriented(mut edges: EdgeLoop, is_forward: bool) -> EdgeLoop {
     if !is_forward {
         edges.reverse();
-        edges.iter_mut().for_each(|(_, sense)| *sense = !*sense);
+        for (_, sense) in &mut edges {
+            *sense = !*sense;
+        }
     }
     edges
 }
