@@ -210,12 +210,13 @@ mod tests {
     fn total_indices_of_known_functions_are_within_their_intervals() {
         use super::super::parameter::{ParameterValues, StudyParameter, ValueRange};
         use super::super::plan::{SampleDesign, StudyPlan};
+        type Known<'a> = (&'a dyn Fn(&[f64]) -> f64, [f64; 3]);
         let ishigami = |x: &[f64]| {
             let [x, y, z] = [x[0], x[1], x[2]].map(|share| PI * (2.0 * share - 1.0));
             x.sin() + 7.0 * y.sin().powi(2) + 0.1 * z.powi(4) * x.sin()
         };
         let linear = |x: &[f64]| 4.0 * x[0] + 2.0 * x[1] + x[2];
-        let functions: [(&dyn Fn(&[f64]) -> f64, _); 2] =
+        let functions: [Known<'_>; 2] =
             [(&ishigami, [0.5576, 0.4424, 0.2437]), (&linear, [16.0 / 21.0, 4.0 / 21.0, 1.0 / 21.0])];
         let range = ValueRange::new([0.0, 1.0], false, false).expect("a range");
         let parameter = |key: &str| StudyParameter { key: key.to_owned(), choice: ParameterValues::Between(range) };

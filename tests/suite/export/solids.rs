@@ -242,7 +242,7 @@ fn planted_faults_of_a_solid_are_seen() {
     });
     let control = wall.expect("a wall of the tooth").controls[1];
     let id = file.all("CARTESIAN_POINT").find(|&id| file.point(id) == control).expect("its point");
-    let moved = file.point(id) + 5e-3 * DVec3::from(control.truncate().perp().normalize().extend(0.0));
+    let moved = file.point(id) + 5e-3 * control.truncate().perp().normalize().extend(0.0);
     file.0.insert(id, ("CARTESIAN_POINT".to_owned(), format!("'',({},{},{})", moved.x, moved.y, moved.z)));
     let [from_file, _] = off_mm(&file, &fine, 0.0);
     assert!(from_file > 1.2 * TOLERANCE_MM, "{from_file} mm");

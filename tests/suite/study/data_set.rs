@@ -46,7 +46,7 @@ fn a_row_repeats_from_its_scene() {
     let scene = "studies/defects_gear.toml";
     let mut words = vec!["cut", scene, "--quiet", "--backend", "cpu", "--only", "numbers", "--out"];
     words.push(cut.to_str().expect("a path"));
-    settings.iter().for_each(|setting| words.extend(["--set", setting]));
+    words.extend(settings.iter().flat_map(|setting| ["--set", setting]));
     gearcut(&words).done();
     let results = fs::read_to_string(cut.join("results.json")).expect("results");
     let results: serde_json::Value = serde_json::from_str(&results).expect("JSON");
