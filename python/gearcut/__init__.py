@@ -18,7 +18,7 @@ from ._flank import Flank
 from ._job import Axes, Checked, Job, Texture, axes, check, cut, pair, texture
 from ._native import NO_PASS, __version__
 from ._scene import Scene
-from ._study import read_study, study
+from ._study import maps, read_study, study
 
 __all__ = [
     "NO_PASS",
@@ -40,6 +40,7 @@ __all__ = [
     "axes",
     "check",
     "cut",
+    "maps",
     "pair",
     "read",
     "read_study",

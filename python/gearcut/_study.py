@@ -5,7 +5,12 @@ from __future__ import annotations
 import csv
 import json
 import os
+import re
 from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
 
 from . import _native
 from ._errors import GearcutError
@@ -48,9 +53,13 @@ def read_study(folder: str | os.PathLike[str]) -> Table:
     folder = Path(folder)
     parts = sorted(path.parent for path in folder.glob("shard_*_of_*/rows.csv")) or [folder]
     cells: list[list[str]] = []
+    heads: list[str] = []
     for part in parts:
         with (part / "rows.csv").open(newline="", encoding="utf-8") as file:
-            heads, *rows = csv.reader(file)
+            own, *rows = csv.reader(file)
+        heads = heads or own
+        if own != heads:
+            raise GearcutError(f"{part} has other columns than {parts[0]}: they are shares of two studies")
         cells.extend(rows)
     cases = json.loads((parts[0] / "run.json").read_text(encoding="utf-8"))["cases"]
     cells.sort(key=lambda row: int(row[0]))
@@ -61,3 +70,24 @@ def read_study(folder: str | os.PathLike[str]) -> Table:
     columns = {key: column_of([parsed(row[place]) for row in cells]) for place, key in enumerate(heads)}
     units = {key: about[key]["unit"] or None for key in heads}
     return Table("rows", f"Cases of {folder.name}", columns, units, {key: about[key]["definition"] for key in heads})
+
+
+def maps(rows: Table) -> dict[str, NDArray[np.float64]]:
+    """The maps of flanks that a study keeps, by their flanks, such as ``tooth_01_left``.
+
+    Each is an array of the shape ``[cases, places along the profile, places along the tooth]``, um, NaN where no pass
+    came: from the form point to the tip, and from one end of the tooth to the other.
+    """
+    cells: dict[str, dict[tuple[int, int], NDArray[Any]]] = {}
+    for key in rows:
+        place = re.fullmatch(r"map\.(\w+)\.u(\d+)_v(\d+)_um", key)
+        if place:
+            cells.setdefault(place[1], {})[int(place[2]), int(place[3])] = rows[key]
+    found = {}
+    for flank, columns in cells.items():
+        last_u, last_v = max(columns)
+        heights = np.empty((rows.rows, last_u + 1, last_v + 1))
+        for (u, v), column in columns.items():
+            heights[:, u, v] = column
+        found[flank] = heights
+    return found

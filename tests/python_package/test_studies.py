@@ -6,6 +6,8 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+import duckdb
+import numpy as np
 import pandas
 import polars
 import pyarrow.parquet
@@ -75,3 +77,32 @@ def test_a_study_that_was_stopped_goes_on(study_file: Path) -> None:
     assert gearcut.read_study("out/speeds_study")["case"].tolist() == list(range(299))
     with pytest.raises(gearcut.RefusedError, match="299 cases are more than 5"):
         gearcut.study(study_file, most_cases=5)
+
+
+def test_maps_are_arrays_and_a_row_is_the_gear_of_its_parameters(study_file: Path, gear: dict[str, Any]) -> None:
+    maps = "".join(f'[[map]]\ntooth = {tooth}\nflank = "left"\ncolumns = 5\nrows = 3\n' for tooth in (1, 4))
+    parameter = '[[parameter]]\nkey = "mounting.eccentricity_um"\nvalues = [0, 8]\n'
+    study_file.write_text(f'[study]\nscene = "round.toml"\nkeep = ["teeth.*.left.F_pi"]\n{parameter}{maps}')
+    rows = gearcut.read_study(gearcut.study(study_file))
+    found = gearcut.maps(rows)
+    assert list(found) == ["tooth_01_left", "tooth_04_left"] and found["tooth_04_left"].shape == (2, 5, 3)
+    assert sum(key.startswith("teeth.") for key in rows) == 12
+    # Straight teeth are alike along their length; the eccentric gear's are higher on one side.
+    assert np.ptp(found["tooth_04_left"], axis=2).max() < 1e-6
+    eccentric = gearcut.cut(gear, {"mounting.eccentricity_um": 8})
+    assert rows["teeth.tooth_04.left.F_pi_um"][1] == eccentric["teeth.tooth_04.left.F_pi"].value
+    job = gearcut.Job(gear, {"mounting.eccentricity_um": 8})
+    ends_mm = [float(eccentric[f"teeth.tooth_04.left.evaluated_{end}"]) for end in ("from", "to")]
+    flank = job.flank(4, "left", u_mm=np.linspace(*ends_mm, 5), v_mm=[-1.8, 0.0, 1.8])
+    assert np.allclose(found["tooth_04_left"][1], 1e3 * flank.deviation_mm("finish"), atol=1e-3)
+
+
+def test_duckdb_reads_rows_and_parquet_keeps_units(study_file: Path) -> None:
+    rows = gearcut.read_study(gearcut.study(study_file))
+    pyarrow.parquet.write_table(rows.to_arrow(), "rows.parquet")
+    speed = "operations.finish.axes.work_speed.peak_deg_per_s"
+    [(largest,)] = duckdb.sql(f"""select max("{speed}") from 'rows.parquet'""").fetchall()
+    assert largest == rows[speed].max()
+    metadata = duckdb.sql("select value from parquet_kv_metadata('rows.parquet') where key = 'ARROW:schema'").fetchall()
+    assert len(metadata) == 1
+    assert pyarrow.parquet.read_schema("rows.parquet").field(speed).metadata[b"unit"] == b"deg/s"
