@@ -1,7 +1,7 @@
 //! Cubic B-splines with clamped ends, in the plane: places, and least squares through points.
 //!
 //! In: parameters and points. Out: control points, the first and the last of them the first and the last point. So two
-//! faces that meet in a line of points have one edge to the last bit, whatever lies beside it.
+//! faces that meet in a line of points have one edge to the last bit, next to any others.
 //!
 //! The normal equations of B-splines are banded and well conditioned (de Boor, *A Practical Guide to Splines*, XIV):
 //! a Cholesky factor of four diagonals solves them. With as many points as control points they interpolate.
@@ -148,7 +148,7 @@ impl CubicKnots {
 mod tests {
     use super::*;
 
-    /// A cubic is its own spline whatever the knots, so is the identity; the derivative is that of the polynomial.
+    /// A cubic is its own spline on any knots, so is the identity; the derivative is that of the polynomial.
     #[test]
     fn cubics_are_met_to_rounding() {
         let cubic = |t: f64| DVec2::new(1.0 + t - 2.0 * t * t * t, 3.0 * t * t - t);

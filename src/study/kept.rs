@@ -11,7 +11,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 /// Cells behind the quantities of a row.
 pub const LAST_HEADS: [&str; 5] = ["faults", "warnings", "notices", "missing", "error"];
-/// What a reader is told of each of them.
+/// What a reader sees of each of them.
 pub const LAST_WORDS: [[&str; 2]; 5] = [
     ["1", "faults among the notices"],
     ["1", "warnings among the notices"],
@@ -84,7 +84,7 @@ fn column(path: &str, of: &Quantity) -> TableColumn {
 
 fn unknown(path: &str, all: &[String]) -> Refusal {
     let last = path.rsplit('.').next().unwrap_or(path);
-    // Who knows the key and not the section is told the section.
+    // Who knows the key and not the section gets the section.
     let same = all.iter().find(|known| known.rsplit('.').next() == Some(last));
     let hint = match same {
         Some(same) => format!("; did you mean {same}?"),

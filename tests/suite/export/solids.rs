@@ -21,7 +21,7 @@ const SCENES: [(&str, u32); 6] = [
 /// Places of a wall between two knots that are compared with the target.
 const PLACES: u32 = 60;
 
-/// Instances of a file: name and what stands in its brackets.
+/// Instances of a file: name and contents of its brackets.
 struct StepText(HashMap<usize, (String, String)>);
 
 /// A B-spline of a file.

@@ -276,7 +276,7 @@ fn what_has_no_value_is_said() {
     }
 }
 
-/// Nominal gears stand m (z_1 + z_2) / 2 apart, and 2 da tan(alpha) more play comes of da more distance, along their
+/// Nominal gears are m (z_1 + z_2) / 2 apart, and 2 da tan(alpha) more play comes of da more distance, along their
 /// pitch circles (to first order; 20 um are a hundredth of what the second one would see).
 #[test]
 fn pairs_are_cases() {
