@@ -299,7 +299,10 @@ mod slow {
         for (scene, sets) in [
             ("circular_spur", vec!["operation.finish.axial_feed_mm_per_revolution=1.0", "fields.blank.spacing_mm=0.8"]),
             ("circular_helical", vec!["fields.blank.spacing_mm=0.8"]),
-            ("third_order_plain", vec!["fields.blank.spacing_mm=1.0", "fields.blank.slice_spacing_mm=12.5"]),
+            (
+                "third_order_plain",
+                vec!["fields.blank.spacing_mm=1.0", "fields.blank.slice_spacing_mm=12.5", "gear.face_width_mm=25"],
+            ),
         ] {
             let mut all = SMALL.to_vec();
             if scene == "third_order_plain" {

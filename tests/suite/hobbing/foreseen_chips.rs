@@ -54,7 +54,7 @@ mod slow {
     fn a_foreseen_chip_is_one_of_the_cut() {
         for (name, spacing_mm) in [("circular_spur", 0.4), ("third_order_plain", 0.5), ("circular_helical", 0.3)] {
             let spacing = format!("fields.blank.spacing_mm={spacing_mm}");
-            let job = scene(name, &["gear.face_width_mm=12", "fields.blank.slice_spacing_mm=6", &spacing]);
+            let job = scene(name, &["gear.face_width_mm=8", "fields.blank.slice_spacing_mm=4", &spacing]);
             let cutter = HobCutter::new(&job).expect("passes");
             let foreseen = foreseen_chips::of(&cutter).expect("they are found");
             let middle = |grid: BlankGrid| {
@@ -80,7 +80,7 @@ mod slow {
     /// `check` tells it before the cut, `cut` in the same words and not a second time; of thin chips nothing is told.
     #[test]
     fn thick_chips_are_told_once_and_before_the_cut() {
-        let set = FEW.iter().chain(&["gear.face_width_mm=10"]).flat_map(|&of| ["--set", of]).collect::<Vec<_>>();
+        let set = FEW.iter().chain(&["gear.face_width_mm=6"]).flat_map(|&of| ["--set", of]).collect::<Vec<_>>();
         let check = |name: &str| {
             let file = format!("scenes/hobbing/{name}.toml");
             gearcut(&[&["check", &file][..], &set].concat()).done()

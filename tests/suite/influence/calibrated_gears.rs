@@ -13,6 +13,7 @@ use gearcut::progress::{Progress, ProgressMode};
 use gearcut::scene::LoadedScene;
 use gearcut::terms::Side;
 use std::f64::consts::PI;
+use std::sync::LazyLock;
 
 const SIDES: [Side; 2] = [Side::Left, Side::Right];
 
@@ -51,6 +52,9 @@ struct Bench {
     laid: LaidCharts,
     choice: Choice,
 }
+
+/// Made once for all tests: its influences are most of a test.
+static BENCH: LazyLock<Bench> = LazyLock::new(Bench::new);
 
 impl Bench {
     fn new() -> Self {
@@ -92,7 +96,7 @@ mod slow {
 
     #[test]
     fn errors_of_gears_that_were_cut_are_in_their_intervals() {
-        let bench = Bench::new();
+        let bench = &*BENCH;
         let mut random = Random(20_261_125);
         let (mut tally, mut planted) = (Tally::default(), Tally::default());
         for gear in 0..GEARS {
@@ -116,7 +120,7 @@ mod slow {
     /// What no fitted error makes: profiles of one tooth hollow by 4 um.
     #[test]
     fn an_error_outside_of_the_model_is_called_unexplained() {
-        let bench = Bench::new();
+        let bench = &*BENCH;
         let mut random = Random(12);
         let errors = KnownErrors::draw(&bench.loaded, &mut random);
         let sound = bench.measured(&errors, &mut random);
