@@ -189,8 +189,12 @@ impl Study<'_> {
         if interrupt.is_raised() {
             return Ok(None);
         }
-        match self.found(case, interrupt) {
-            Ok(found) if !found.complete => Ok(None),
+        let found = self.found(case, interrupt);
+        // What is broken off may lack flanks, windows or places of maps; the case is made again.
+        if interrupt.is_raised() {
+            return Ok(None);
+        }
+        match found {
             Ok(found) => Ok(Some(Ok(found))),
             Err(Error::Interrupted) => Ok(None),
             Err(Error::Scene(errors)) => Ok(Some(Err(in_one_line(errors.as_ref())))),

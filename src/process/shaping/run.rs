@@ -45,7 +45,7 @@ pub(super) fn run(job: &ShapingJob, tools: &Tools, frames: Option<u32>) -> Resul
     let cut_blank = wanted.has(Stage::Blank) && !gear.work.interrupted;
     let blank = if cut_blank { blank::cut(job, backend, progress, interrupt) } else { Ok(None) };
     let blank = attempts.of("whole blank", blank)?;
-    let mut interrupted = wanted.has(Stage::Blank) && matches!(blank, Some(None));
+    let mut interrupted = gear.work.interrupted || wanted.has(Stage::Blank) && matches!(blank, Some(None));
     let whole = blank.flatten();
     let mut sections = findings::sections(job, &gear.report, &gear.chips, &motion)?;
     let inspected = Inspected::new(job, &gear.report.flanks, &gear.report.inspection)?;

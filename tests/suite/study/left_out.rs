@@ -2,7 +2,9 @@
 
 use gearcut::backend::{BackendWish, OnFailure, choose};
 use gearcut::findings::{Findings, Quantity};
+use gearcut::interrupt::Interrupt;
 use gearcut::process;
+use gearcut::progress::{Event, Progress};
 use gearcut::run::Run;
 use gearcut::steps::parts::{Stage, Stages};
 use std::collections::BTreeMap;
@@ -89,5 +91,27 @@ fn of_axes() {
         for (path, quantity) in axes {
             assert_eq!(cut.get(&path), Some(&quantity), "{}: {path}", scene.scene.name);
         }
+    }
+}
+
+/// A gear that Ctrl-C broke off says so, whatever is left out: its row must not be kept.
+#[test]
+fn a_broken_off_gear_is_not_complete() {
+    let scene = process::load(Path::new("scenes/shaping/circular_m3_z24.toml"), &[]).expect("a scene");
+    let choice = choose(BackendWish::Cpu, OnFailure::Stop).expect("the processor");
+    let prepared = process::prepare(&scene.scene).expect("a gear");
+    for stages in [Stages::of_paths(&[]), Stages::ALL] {
+        let interrupt = Interrupt::default();
+        let raised = interrupt.clone();
+        let progress = Progress::watched(move |event| {
+            if matches!(event, Event::Progress { unit, .. } if unit == "flanks") {
+                raised.raise();
+            }
+        });
+        let run = Run::new(&scene, prepared.as_ref(), &choice).stages(stages).until(&interrupt).show(&progress);
+        let found = run.found().expect("findings of some flanks");
+        assert!(interrupt.is_raised(), "the flanks were cut before there was an event");
+        let is_stopped = found.warnings.iter().any(|notice| notice.id == "cut.stopped");
+        assert!(!found.complete && is_stopped, "{:?}", found.warnings);
     }
 }
