@@ -1,9 +1,12 @@
-//! Points of a pitch curve from a CSV file, checked as those written in the scene.
+//! Points of a pitch curve from a file: a table (CSV), or the closed curve of a drawing (DXF).
 //!
-//! Read by hand: the two numbers of a line need no quoting rules, and every problem keeps its line and column.
+//! Tables are read by hand: the two numbers of a line need no quoting rules, and every problem keeps its line and
+//! column. The curve of a drawing runs round the origin, the axis of the gear. Vertices of a polyline of lines are
+//! taken as points of a smooth curve; arcs, ellipses and splines give a point every [`POINT_DEG`].
 
 use std::path::Path;
 
+use super::drawn_contour;
 use super::errors::Problem;
 use super::keys::{self, Kind};
 use super::problems::Problems;
@@ -11,6 +14,7 @@ use super::sources::line_place;
 use super::table::KeyTable;
 use super::values::{Checked, Held, Values};
 use crate::regular_file;
+use glam::DVec2;
 
 /// Sections that may name a file.
 const SECTIONS: [&str; 2] = ["gear.pitch_curve.table", "gear.pitch_curve.mate.driver.table"];
@@ -18,6 +22,12 @@ const SECTIONS: [&str; 2] = ["gear.pitch_curve.table", "gear.pitch_curve.mate.dr
 const HEADER: &str = "phi_deg,radius_mm";
 /// Largest text read, for scenes and tables: a hundred thousand points take 4 MB.
 const MOST_BYTES: u64 = 16 << 20;
+
+/// Between points of a drawn curve, deg: near enough to follow it, and so far apart that the last digits of a drawing
+/// do not bend the spline.
+const POINT_DEG: f64 = 0.5;
+/// Largest turn from one line of a polyline to the next, and where arcs and splines meet, deg; beyond are corners.
+const LARGEST_TURN_DEG: [f64; 2] = [30.0, 5.0];
 
 /// The text of a file, or why there is none.
 pub(super) fn read_text(path: &Path) -> Result<String, String> {
@@ -32,13 +42,24 @@ pub(super) fn read_points(values: &mut Values, table: &KeyTable, base_dir: &Path
         let Some(name) = values.view(section).text("file").map(str::to_owned) else { continue };
         let at = values.place_of(&keys::join(section, "file"));
         let Some(key) = table.section(section).and_then(|section| section.key("points_deg_mm")) else { continue };
-        match read_text(&base_dir.join(&name)) {
+        let is_drawing = Path::new(&name).extension().is_some_and(|end| end.eq_ignore_ascii_case("dxf"));
+        let path = base_dir.join(&name);
+        // Names of layers may be in any character set; numbers are not.
+        let text = if is_drawing {
+            regular_file::read(&path, MOST_BYTES).map(|bytes| String::from_utf8_lossy(&bytes).into_owned())
+        } else {
+            read_text(&path)
+        };
+        let read = if is_drawing { drawn } else { parse };
+        match text {
             Err(why) => problems.add(
                 &at,
                 format!("cannot read the points file {name}: {why}"),
-                "the path is relative to the scene file; the file has the header phi_deg,radius_mm".to_owned(),
+                "the path is relative to the scene file; the file is a table with the header phi_deg,radius_mm, or a \
+                 drawing (.dxf)"
+                    .to_owned(),
             ),
-            Ok(text) => match parse(&shown(base_dir, &name), &text, key.kind) {
+            Ok(text) => match read(&shown(base_dir, &name), &text, key.kind) {
                 Ok(points) => {
                     let held = Held { value: Checked::Points(points), at: Some(at) };
                     values.held.insert(keys::join(section, "points_deg_mm"), held);
@@ -114,4 +135,63 @@ fn parse(name: &str, text: &str, kind: Kind) -> Result<Vec<[f64; 2]>, Box<Proble
         return Err(Box::new(Problem { place, message: format!("{} points are too few", points.len()), way_out }));
     }
     Ok(points)
+}
+
+/// The points of the closed curve that `text`, a drawing, has round its origin.
+fn drawn(name: &str, text: &str, kind: Kind) -> Result<Vec<[f64; 2]>, Box<Problem>> {
+    let Kind::Points { radius, fewest, most, .. } = kind else { return Ok(Vec::new()) };
+    let contour = drawn_contour::contour(name, text)?;
+    let refuse = |message: String, way_out: &str| {
+        let place = line_place(name, text, 0..0).without_excerpt();
+        Err(Box::new(Problem { place, message, way_out: way_out.to_owned() }))
+    };
+    let mut points = contour.points_mm;
+    if !(fewest..=most).contains(&points.len()) {
+        let message = format!("the drawn curve has {} points, {fewest} to {most} are allowed", points.len());
+        return refuse(message, "draw it as a spline, or with more or fewer points");
+    }
+    if let Some(mm) = points.iter().map(|at| at.length()).find(|mm| !radius.contains(*mm)) {
+        return refuse(
+            format!("a radius of the drawn curve, {mm:.4e} mm, is out of range, {radius} mm"),
+            "check the unit of the drawing; its origin is the axis of the gear",
+        );
+    }
+    let turns = |points: &[DVec2], i: usize| {
+        let next = |i: usize| points[i % points.len()];
+        (next(i + 1) - next(i)).angle_to(next(i + 2) - next(i + 1))
+    };
+    let largest_deg = LARGEST_TURN_DEG[usize::from(contour.is_curved)];
+    if let Some(corner) = (0..points.len()).find(|&i| turns(&points, i).abs().to_degrees() > largest_deg) {
+        let (at, turn_deg) = (points[(corner + 1) % points.len()], turns(&points, corner).abs().to_degrees());
+        return refuse(
+            format!("the drawn curve has a corner of {turn_deg:.1} deg at x {:.4}, y {:.4} mm", at.x, at.y),
+            "a pitch curve is smooth: draw it as a spline or with arcs that are tangent",
+        );
+    }
+    // Counter-clockwise from the smallest polar angle on.
+    if (0..points.len()).map(|i| points[i].perp_dot(points[(i + 1) % points.len()])).sum::<f64>() < 0.0 {
+        points.reverse();
+    }
+    let step_deg = |i: usize| points[i].angle_to(points[(i + 1) % points.len()]).to_degrees();
+    let back = (0..points.len()).find(|&i| step_deg(i) <= 0.0);
+    if let Some(at) = back.map(|i| points[i]) {
+        return refuse(
+            format!("the polar angle does not grow along the drawn curve at x {:.4}, y {:.4} mm", at.x, at.y),
+            "the origin of the drawing is the axis of the gear: the curve runs round it, and every ray from it meets \
+             the curve once",
+        );
+    }
+    let polar = |at: &DVec2| [at.y.atan2(at.x).to_degrees().rem_euclid(360.0) % 360.0, at.length()];
+    let mut polar: Vec<[f64; 2]> = points.iter().map(polar).collect();
+    polar.sort_by(|a, b| a[0].total_cmp(&b[0]));
+    if contour.is_curved {
+        let end_deg = polar[0][0] + 360.0 - 0.5 * POINT_DEG;
+        let mut last_deg = f64::NEG_INFINITY;
+        polar.retain(|[deg, _]| {
+            let is_kept = *deg >= last_deg + POINT_DEG && *deg < end_deg;
+            last_deg = if is_kept { *deg } else { last_deg };
+            is_kept
+        });
+    }
+    Ok(polar)
 }

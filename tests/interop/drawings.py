@@ -1,4 +1,6 @@
-"""Opens what `gearcut export` writes with ezdxf: audits files, closes contours, compares flanks with involutes."""
+"""Opens what `gearcut export` writes with ezdxf: audits files, closes contours, compares flanks with involutes.
+
+Draws with ezdxf what a scene takes for its pitch curve."""
 
 import argparse
 import subprocess
@@ -9,7 +11,7 @@ from pathlib import Path
 import ezdxf
 import numpy as np
 import shapely
-from ezdxf.math import bulge_to_arc
+from ezdxf.math import bulge_to_arc, global_bspline_interpolation
 
 SHAPING, HOBBING = "scenes/shaping", "scenes/hobbing"
 # Name, scene, arguments.
@@ -94,6 +96,7 @@ def main():
             one(name, path, said, more)
             if arguments.keep:
                 drawn(ezdxf.readfile(path), path.with_suffix(".png"))
+        taken(arguments.program, folder)
         for name, scene in [("cutter", CASES[0][1]), ("hob", CASES[-1][1])]:
             path = folder / f"{name}.dxf"
             command = [arguments.program, "export", scene, "--tool-dxf", path, "--force"]
@@ -102,6 +105,33 @@ def main():
             check(f"{name}: a sound file", not audit.errors and not audit.fixes)
             if arguments.keep:
                 drawn(ezdxf.readfile(path), path.with_suffix(".png"))
+
+
+def taken(program, folder):
+    """Pitch curves that gearcut takes from drawings: a spline by ezdxf in inches, and what gearcut drew itself."""
+    angles = np.linspace(0, 2 * np.pi, 361)
+    known = lambda angle: 60 + 4 * np.cos(2 * angle) + np.sin(3 * angle)
+    polar = lambda r, angle: np.stack([r * np.cos(angle), r * np.sin(angle)], axis=1)
+    spline, own = folder / "spline.dxf", folder / "taken.dxf"
+    document = ezdxf.new("R2010", units=ezdxf.units.IN)
+    tool = global_bspline_interpolation(polar(known(angles) / 25.4, angles), degree=3)
+    document.modelspace().add_spline().apply_construction_tool(tool)
+    document.saveas(spline)
+    scene = f"{SHAPING}/table_of_points.toml"
+    fine = np.linspace(0, 2 * np.pi, 100001)
+    perimeter = np.hypot(*np.diff(polar(known(fine), fine), axis=0).T).sum()
+    scale = np.pi * 2.5 * 48 / perimeter
+    for name, source in [("taken from ezdxf", spline), ("taken from gearcut", own)]:
+        setting = f"gear.pitch_curve.table.file={source.resolve()}"
+        path = folder / "out.dxf"
+        command = [program, "export", scene, "--dxf", path, "--set", setting, "--tolerance-um", "0.5", "--force"]
+        subprocess.run(command, check=True, capture_output=True)
+        curve = ezdxf.readfile(path).modelspace().query('LWPOLYLINE[layer=="PITCH_CURVE"]')[0]
+        points = flattened(curve, 1.0)
+        off = np.abs(np.hypot(*points.T) - scale * known(np.arctan2(points[:, 1], points[:, 0]))).max()
+        # Half a micrometre of arcs each time that the curve is drawn.
+        check(f"{name}: its pitch curve", off < (0.6e-3 if source == spline else 1.2e-3), f"{1000 * off:.3f} um")
+        path.rename(own)
 
 
 def one(name, path, said, more):

@@ -208,8 +208,8 @@ const fn table(path: &'static str) -> KeySection {
             unit: "",
             default: Default::OneOfGroup,
             example: "\"points.csv\"",
-            teach: "The same points from a CSV file with the header phi_deg,radius_mm; the path is relative to the \
-                scene, # begins a comment.",
+            teach: "The same points from a CSV file with the header phi_deg,radius_mm (# begins a comment), or the \
+                closed curve round the origin of a drawing (.dxf); the path is relative to the scene.",
         },
         Key {
             name: "scale_to_close",

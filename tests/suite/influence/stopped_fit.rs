@@ -1,66 +1,17 @@
 //! A fit that Ctrl-C ends early: what is finished is kept.
 
-use super::round::{backend, loaded};
+use super::round::loaded;
+use crate::fixtures::stopping::Stopping;
 use gearcut::backend::Choice;
-use gearcut::cut::cpu::Cpu;
-use gearcut::cut::sweep_chips::SweepsCut;
-use gearcut::cut::{Backend, BlankCut, BlankOperation, CutStats};
-use gearcut::dexel::{BlankField, Field, Layer, SpatialField};
 use gearcut::influence::budget::chosen;
 use gearcut::influence::calibrate::{Calibration, MeasuredGear};
 use gearcut::influence::charts::{LaidCharts, MeasuredLine};
 use gearcut::influence::known_cuts::KnownCuts;
 use gearcut::influence::measured::{Chart, MeasuredPoint};
 use gearcut::interrupt::Interrupt;
-use gearcut::passes::sections::swept_sections::SweptSections;
-use gearcut::passes::{CutPlan, SweepPlan};
 use gearcut::process;
 use gearcut::progress::{Progress, ProgressMode};
 use gearcut::terms::Side;
-use std::ops::Range;
-use std::sync::atomic::{AtomicUsize, Ordering};
-
-/// The processor, with Ctrl-C at one of its cuts.
-struct Stopping {
-    cuts_left: AtomicUsize,
-    interrupt: Interrupt,
-}
-
-impl Backend for Stopping {
-    fn name(&self) -> String {
-        "stopping".to_owned()
-    }
-
-    fn cut(&self, field: &Field, plan: &CutPlan, layer: &mut Layer) -> gearcut::Result<CutStats> {
-        if self.cuts_left.fetch_sub(1, Ordering::SeqCst) == 1 {
-            self.interrupt.raise();
-        }
-        backend().cut(field, plan, layer)
-    }
-
-    fn cut_blank(
-        &self,
-        field: &mut BlankField,
-        operation: &BlankOperation,
-        advance: &(dyn Fn() -> bool + Sync),
-    ) -> gearcut::Result<Option<BlankCut>> {
-        backend().cut_blank(field, operation, advance)
-    }
-
-    fn cut_blank_sweeps(
-        &self,
-        field: &mut BlankField,
-        sections: &SweptSections,
-        passes: Range<u32>,
-        advance: &(dyn Fn() -> bool + Sync),
-    ) -> gearcut::Result<Option<SweepsCut>> {
-        backend().cut_blank_sweeps(field, sections, passes, advance)
-    }
-
-    fn cut_spatial(&self, field: &SpatialField, plan: &SweepPlan, layer: &mut Layer) -> gearcut::Result<CutStats> {
-        Cpu::default().cut_spatial(field, plan, layer)
-    }
-}
 
 /// Ctrl-C keeps the rounds that are done, and what none is done of is an interruption.
 #[test]
@@ -79,7 +30,7 @@ fn a_fit_that_is_stopped_keeps_its_rounds() {
     let measured = MeasuredGear { lines: vec![line.clone()], noise_um: 0.1, ..MeasuredGear::default() };
     let fit = |cuts: usize| {
         let interrupt = Interrupt::default();
-        let backend = Stopping { cuts_left: AtomicUsize::new(cuts), interrupt: interrupt.clone() };
+        let backend = Stopping::at(cuts, &interrupt);
         let choice = Choice { backend: Box::new(backend), why: String::new(), on_trial: false };
         let quiet = Progress::new(ProgressMode::Quiet);
         Calibration::new(&loaded, &parameters, &measured, &choice, &quiet, &interrupt, &KnownCuts::default())

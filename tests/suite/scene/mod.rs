@@ -2,6 +2,7 @@
 
 mod broken;
 mod core_words;
+mod drawn_curve;
 mod hostile;
 mod keys;
 mod load;

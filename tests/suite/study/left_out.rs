@@ -1,10 +1,10 @@
 //! What studies leave out changes nothing of what they keep: bit for bit, whatever is kept.
 
-use gearcut::backend::{BackendWish, OnFailure, choose};
+use crate::fixtures::stopping::Stopping;
+use gearcut::backend::{BackendWish, Choice, OnFailure, choose};
 use gearcut::findings::{Findings, Quantity};
 use gearcut::interrupt::Interrupt;
 use gearcut::process;
-use gearcut::progress::{Event, Progress};
 use gearcut::run::Run;
 use gearcut::steps::parts::{Stage, Stages};
 use std::collections::BTreeMap;
@@ -98,19 +98,15 @@ fn of_axes() {
 #[test]
 fn a_broken_off_gear_is_not_complete() {
     let scene = process::load(Path::new("scenes/shaping/circular_m3_z24.toml"), &[]).expect("a scene");
-    let choice = choose(BackendWish::Cpu, OnFailure::Stop).expect("the processor");
     let prepared = process::prepare(&scene.scene).expect("a gear");
     for stages in [Stages::of_paths(&[]), Stages::ALL] {
         let interrupt = Interrupt::default();
-        let raised = interrupt.clone();
-        let progress = Progress::watched(move |event| {
-            if matches!(event, Event::Progress { unit, .. } if unit == "flanks") {
-                raised.raise();
-            }
-        });
-        let run = Run::new(&scene, prepared.as_ref(), &choice).stages(stages).until(&interrupt).show(&progress);
+        // At the fifth of 48 flanks.
+        let backend = Box::new(Stopping::at(5, &interrupt));
+        let choice = Choice { backend, why: String::new(), on_trial: false };
+        let run = Run::new(&scene, prepared.as_ref(), &choice).stages(stages).until(&interrupt);
         let found = run.found().expect("findings of some flanks");
-        assert!(interrupt.is_raised(), "the flanks were cut before there was an event");
+        assert!(interrupt.is_raised());
         let is_stopped = found.warnings.iter().any(|notice| notice.id == "cut.stopped");
         assert!(!found.complete && is_stopped, "{:?}", found.warnings);
     }
