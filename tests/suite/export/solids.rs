@@ -234,11 +234,19 @@ fn planted_faults_of_a_solid_are_seen() {
     assert!(!StepText::read(&text.replace(shell, &format!("{kept}));"))).faults().is_empty());
     let fine = target(scene, &[], tooth, 0.0, 5e-3);
     let mut file = StepText::read(&text);
-    let wall = file.section(0.0).into_iter().find(|wall| {
+    let of_the_tooth = file.section(0.0).into_iter().filter(|wall| {
         wall.controls.iter().all(|control| {
             let p = control.truncate();
             fine[0].perp_dot(p) > 0.0 && p.perp_dot(fine[fine.len() - 1]) > 0.0
         })
+    });
+    // A flank: along a tip or a root the displaced point would stay on the profile.
+    let wall = of_the_tooth.max_by(|a, b| {
+        let height_mm = [a, b].map(|wall| {
+            let radii_mm = wall.controls.iter().map(|control| control.truncate().length());
+            radii_mm.clone().fold(0.0, f64::max) - radii_mm.fold(f64::INFINITY, f64::min)
+        });
+        height_mm[0].total_cmp(&height_mm[1])
     });
     let control = wall.expect("a wall of the tooth").controls[1];
     let id = file.all("CARTESIAN_POINT").find(|&id| file.point(id) == control).expect("its point");
