@@ -170,6 +170,8 @@ impl<'a> DxfText<'a> {
 
     /// The one contour that the pieces are; lengths in mm.
     fn joined(&self, mut pieces: Vec<ContourPiece>) -> Result<DrawnContour, Refused> {
+        // A line without length closes nothing.
+        pieces.retain(|piece| piece.points.iter().any(|point| point.distance(piece.points[0]) > JOINED_MM));
         let alone = format!("put the curve alone into the drawing, or on a layer {LAYER}");
         if pieces.is_empty() {
             let message = "the drawing has no polyline, line, arc, circle, ellipse or spline in model space";

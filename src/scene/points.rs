@@ -173,13 +173,15 @@ fn drawn(name: &str, text: &str, kind: Kind) -> Result<Vec<[f64; 2]>, Box<Proble
         points.reverse();
     }
     let step_deg = |i: usize| points[i].angle_to(points[(i + 1) % points.len()]).to_degrees();
-    let back = (0..points.len()).find(|&i| step_deg(i) <= 0.0);
-    if let Some(at) = back.map(|i| points[i]) {
-        return refuse(
-            format!("the polar angle does not grow along the drawn curve at x {:.4}, y {:.4} mm", at.x, at.y),
-            "the origin of the drawing is the axis of the gear: the curve runs round it, and every ray from it meets \
-             the curve once",
-        );
+    let round_once = "the origin of the drawing is the axis of the gear: the curve runs round it, and every ray from \
+        it meets the curve once";
+    if let Some(at) = (0..points.len()).find(|&i| step_deg(i) <= 0.0).map(|i| points[i]) {
+        let message = format!("the polar angle does not grow along the drawn curve at x {:.4}, y {:.4} mm", at.x, at.y);
+        return refuse(message, round_once);
+    }
+    let rounds = (0..points.len()).map(step_deg).sum::<f64>() / 360.0;
+    if rounds > 1.5 {
+        return refuse(format!("the drawn curve runs {rounds:.0} times round the origin"), round_once);
     }
     let polar = |at: &DVec2| [at.y.atan2(at.x).to_degrees().rem_euclid(360.0) % 360.0, at.length()];
     let mut polar: Vec<[f64; 2]> = points.iter().map(polar).collect();

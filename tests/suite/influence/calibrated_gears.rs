@@ -53,7 +53,7 @@ struct Bench {
     choice: Choice,
 }
 
-/// Made once for all tests: its influences are most of a test.
+/// One for all tests.
 static BENCH: LazyLock<Bench> = LazyLock::new(Bench::new);
 
 impl Bench {

@@ -18,9 +18,9 @@ use std::path::Path;
 /// Standard deviation of every measured value, as on the machine of a good gauge room.
 pub const NOISE_UM: f64 = 0.5;
 /// Gears of a statistic.
-pub const GEARS: usize = 30;
+pub const GEARS: usize = 50;
 /// Gears of which the sources must be named rightly.
-pub const NAMED_AT_LEAST: usize = 27;
+pub const NAMED_AT_LEAST: usize = 45;
 /// Share of sizes within their 95 % intervals.
 const HELD: std::ops::RangeInclusive<f64> = 0.90..=0.99;
 /// Few teeth and strokes, for time.

@@ -149,10 +149,17 @@ fn drawings_that_are_not_clear_are_refused() {
         };
         (from..24).map(line).collect::<String>()
     };
-    assert_eq!(read("4", &ring(0, 0.0)).len(), 24);
+    let without_length = " 0\nLINE\n 8\n0\n 10\n36\n 20\n0\n 11\n36\n 21\n0\n";
+    assert_eq!(read("4", &(without_length.to_owned() + &ring(0, 0.0))).len(), 24);
     let near = CIRCLE.replace("CIRCLE", "ARC") + " 50\n0\n 51\n359.998\n";
     let square = polyline("0", [[36.0, 0.0, 0.0], [0.0, 36.0, 0.0], [-36.0, 0.0, 0.0], [0.0, -36.0, 0.0]]);
-    let cases: [(&str, String, &str, &str); 16] = [
+    let twice = (0..96).map(|i| {
+        let at = TAU * f64::from(i) / 48.0;
+        let mm = 36.0 + 3.0 * (0.5 * at).cos();
+        [mm * at.cos(), mm * at.sin(), 0.0]
+    });
+    let cases: [(&str, String, &str, &str); 17] = [
+        ("twice", drawing("4", &polyline("0", twice)), "runs 2 times round the origin", "meets the curve once"),
         ("no unit", drawing("0", CIRCLE), "the drawing has no unit", "inches (1)"),
         ("foot", drawing("2", CIRCLE), "$INSUNITS 2 is no unit of gears", "mm (4)"),
         ("silent", drawing("4", CIRCLE).replace("$INSUNITS", "$ACADVER"), "does not say what its unit is", "mm (4)"),

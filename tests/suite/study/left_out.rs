@@ -94,7 +94,7 @@ fn of_axes() {
     }
 }
 
-/// A gear that Ctrl-C broke off says so, whatever is left out: its row must not be kept.
+/// A gear that Ctrl-C broke off says so, with all stages and with none: its row must not be kept.
 #[test]
 fn a_broken_off_gear_is_not_complete() {
     let scene = process::load(Path::new("scenes/shaping/circular_m3_z24.toml"), &[]).expect("a scene");
