@@ -72,30 +72,51 @@ impl RollingPicture {
 /// Fills an area, blended by how many places of each pixel belong to it.
 fn fill(raster: &mut Raster, (width, height): (u32, u32), polygons: &[Vec<DVec2>], colour: [u8; 3]) {
     let columns = width as usize * FINER;
-    let sides: Vec<[DVec2; 2]> = polygons
-        .iter()
-        .flat_map(|polygon| (0..polygon.len()).map(|i| [polygon[i], polygon[(i + 1) % polygon.len()]]))
-        .filter(|[a, b]| a.y.max(b.y) >= 0.0 && a.y.min(b.y) <= f64::from(height))
-        .collect();
+    let crossings = crossings(polygons, height as usize);
     let mut hits = vec![0_u8; width as usize];
-    for y in 0..height {
+    for (y, lines) in crossings.chunks_exact(FINER).enumerate() {
         hits.fill(0);
-        for k in 0..FINER {
-            let at = f64::from(y) + (k as f64 + 0.5) / FINER as f64;
-            let crossing = |[a, b]: &[DVec2; 2]| {
-                ((a.y <= at) != (b.y <= at)).then(|| a.x + (at - a.y) / (b.y - a.y) * (b.x - a.x))
-            };
-            let mut crossings: Vec<f64> = sides.iter().filter_map(crossing).collect();
-            crossings.sort_unstable_by(f64::total_cmp);
-            for pair in crossings.chunks_exact(2) {
-                let first = |x: f64| (x * FINER as f64 - 0.5).ceil().clamp(0.0, columns as f64) as usize;
-                (first(pair[0])..first(pair[1])).for_each(|column| hits[column / FINER] += 1);
+        for pair in lines.iter().flat_map(|line| line.chunks_exact(2)) {
+            let [from, to] = [pair[0], pair[1]]
+                .map(|x| (x * FINER as f64 - 0.5).ceil().clamp(0.0, columns as f64) as usize)
+                .map(|column| (column / FINER, (column % FINER) as u8));
+            if from.0 == to.0 {
+                if from.0 < hits.len() {
+                    hits[from.0] += to.1 - from.1;
+                }
+                continue;
+            }
+            hits[from.0..to.0].iter_mut().for_each(|count| *count += FINER as u8);
+            hits[from.0] -= from.1;
+            if to.1 > 0 {
+                hits[to.0] += to.1;
             }
         }
         for (x, &count) in hits.iter().enumerate().filter(|(_, count)| **count > 0) {
             raster.blend((x as i32, y as i32), colour, f64::from(count) / (FINER * FINER) as f64);
         }
     }
+}
+
+/// Where the polygons cross each line of places, from left to right; a side is looked at on the lines that it reaches.
+fn crossings(polygons: &[Vec<DVec2>], height: usize) -> Vec<Vec<f64>> {
+    let mut lines = vec![Vec::new(); height * FINER];
+    let count = lines.len() as f64;
+    for polygon in polygons {
+        for (i, a) in polygon.iter().enumerate() {
+            let b = polygon[(i + 1) % polygon.len()];
+            let reach = |y: f64| (y * FINER as f64).clamp(0.0, count) as usize;
+            let (first, last) = (reach(a.y.min(b.y)).saturating_sub(1), (reach(a.y.max(b.y)) + 1).min(lines.len()));
+            for (line, crossings) in lines.iter_mut().enumerate().take(last).skip(first) {
+                let at = (line / FINER) as f64 + ((line % FINER) as f64 + 0.5) / FINER as f64;
+                if (a.y <= at) != (b.y <= at) {
+                    crossings.push(a.x + (at - a.y) / (b.y - a.y) * (b.x - a.x));
+                }
+            }
+        }
+    }
+    lines.iter_mut().for_each(|line| line.sort_unstable_by(f64::total_cmp));
+    lines
 }
 
 #[cfg(test)]

@@ -7,6 +7,7 @@
 //! away than the marking compound is thick are grey: nothing is rubbed off there.
 
 use glam::DVec2;
+use rayon::prelude::*;
 use std::f64::consts::TAU;
 
 use super::fit::SIDES;
@@ -151,7 +152,7 @@ pub fn write_animation(rolled: &RolledPair, marking_um: f64, folder: &OutputFold
     let low = DVec2::new(facts.smallest_radius_mm - beside[0], -0.5 * beside[1]);
     let high = DVec2::new(facts.largest_radius_mm + beside[0], 0.5 * beside[1]);
     let stage = watch.stage(PICTURES, count, "frames")?;
-    let frames = (0..count).map(|k| {
+    let frames = (0..count).into_par_iter().map(|k| {
         stage.count()?;
         let moment = &rolled.period.moments[k * per_frame];
         let section = &rolled.meshing.sections[middle];

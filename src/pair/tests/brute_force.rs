@@ -21,16 +21,19 @@ fn brute(
     // Pairs half a pitch off belong to the neighbouring tooth space.
     let window = 0.25 * pair.pitch_mm() / at.radius_mm[1];
     let mut most = f64::NEG_INFINITY;
+    // Distances of the driven points from their axis, once for all points of the driver.
+    let polar = |chain: &Vec<glam::DVec2>| chain.iter().map(|p| (p.length(), *p)).collect::<Vec<_>>();
+    let driven: Vec<Vec<(f64, glam::DVec2)>> = driven.iter().map(polar).collect();
     for point in driver.iter().flatten() {
         let d = turn.rotate(*point) - axis;
         let radius = d.length();
-        for chain in driven {
+        for chain in &driven {
             for segment in chain.windows(2) {
-                let (a, b) = (segment[0].length(), segment[1].length());
+                let [(a, from), (b, to)] = [segment[0], segment[1]];
                 if radius < a.min(b) || radius > a.max(b) {
                     continue;
                 }
-                let on = segment[0].lerp(segment[1], (radius - a) / (b - a));
+                let on = from.lerp(to, (radius - a) / (b - a));
                 let error = d.to_angle() - on.to_angle() - nominal;
                 let error = pair.sign() * (error - TAU * (error / TAU).round());
                 if error.abs() < window {

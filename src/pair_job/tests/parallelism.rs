@@ -32,7 +32,7 @@ fn gaps_grow_evenly_over_the_face() {
             let meshing = flanks.meshing(&fit, &a.scene.gear, &mounting);
             // All flanks of the driver pass the pitch point, at its middle and at the ends of its path of contact.
             let moments: Vec<_> =
-                (0..180).map(|i| meshing.at(TAU * f64::from(i) / 180.0).expect("flanks that touch")).collect();
+                (0..90).map(|i| meshing.at(TAU * f64::from(i) / 90.0).expect("flanks that touch")).collect();
             let gaps = smallest_gaps(&meshing, &moments, 30.0, || Ok(())).expect("nobody stops it");
             for side in [Side::Right, Side::Left] {
                 // What opens from one end of the face to the other, positive towards +z.

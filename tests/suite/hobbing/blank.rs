@@ -301,7 +301,7 @@ mod slow {
             ("circular_helical", vec!["fields.blank.spacing_mm=0.8"]),
             (
                 "third_order_plain",
-                vec!["fields.blank.spacing_mm=1.0", "fields.blank.slice_spacing_mm=12.5", "gear.face_width_mm=25"],
+                vec!["fields.blank.spacing_mm=1.0", "fields.blank.slice_spacing_mm=7.0", "gear.face_width_mm=14"],
             ),
         ] {
             let mut all = SMALL.to_vec();

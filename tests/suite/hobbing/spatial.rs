@@ -344,10 +344,10 @@ mod slow {
             // tile where the root meets the other, and the sections of a pair: rows so far apart that each is bounded
             // alone.
             let fields = [
-                part([columns / 8, rows / 12], [8, 12], [0, 0]),
+                part([columns / 6, rows / 8], [6, 8], [0, 0]),
                 part([1, 1], [17, 17], [columns - 17, 0]),
-                part([1, 1], [9, 17], [0, rows - 17]),
-                part([1, (rows - 1) / 4], [16, 5], [columns / 2, 0]),
+                part([1, 1], [5, 17], [0, rows - 17]),
+                part([1, (rows - 1) / 4], [8, 5], [columns / 2, 0]),
             ];
             for (number, field) in fields.iter().enumerate() {
                 let mut layer = field.blank_layer();

@@ -343,7 +343,7 @@ mod slow {
     fn shifted_teeth_are_found_and_named() {
         // Faults of strokes and cutter do not change the target.
         let target = target(&job(machine_scene()));
-        for run in 0..10_u32 {
+        for run in 0..4_u32 {
             let mut scene = machine_scene();
             let blade = (3 * run + 1) % 20;
             let shift_mm = if run % 2 == 0 { 0.05 } else { -0.05 } * (1.0 + f64::from(run) / 10.0);

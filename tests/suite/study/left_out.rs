@@ -72,13 +72,13 @@ fn of_a_shaped_gear() {
 fn of_a_machine_that_yields() {
     let all = [Stage::Texture, Stage::Blank, Stage::Chips, Stage::Roots];
     let few = ["rough", "finish"].map(|name| format!("operation.{name}.strokes_per_revolution=240"));
-    compare("scenes/shaping/deflection.toml", &["gear.face_width_mm=4", &few[0], &few[1]], &all);
+    compare("scenes/shaping/deflection.toml", &["gear.face_width_mm=4", "gear.teeth=12", &few[0], &few[1]], &all);
 }
 
 /// The axes alone have the peaks that a cut has.
 #[test]
 fn of_axes() {
-    let narrow = "gear.face_width_mm=6".to_owned();
+    let narrow = "gear.face_width_mm=3".to_owned();
     for scene in ["shaping/elliptical_normal", "hobbing/machine_errors", "bevel/machine_errors"] {
         let narrow = if scene.starts_with("bevel") { &[] } else { std::slice::from_ref(&narrow) };
         let scene = process::load_draft(Path::new(&format!("scenes/{scene}.toml")), narrow).expect("a scene");
