@@ -6,11 +6,16 @@
 //!
 //! Law: each hypothesis has one parameter. It is fitted by bisection so that the mean Sa of six windows (both flanks of
 //! teeth 3, 7 and 11) of the normally roughed gear is the measured 1.26 um; what is random is cut with four seeds. The
-//! traditionally roughed gear is then cut with that parameter and nothing else changed: its Sa and the unevenness of
-//! both gears are predicted. Windows of two sizes are fitted apart, for the paper does not say how large its own was.
+//! traditionally roughed gear is then cut with that parameter and nothing else changed: its Sa, the unevenness of both
+//! gears and the ratios of their Sk, Spk and Svk are predicted. Windows of two sizes are fitted apart, for the paper
+//! does not say how large its own was.
+//!
+//! [`clamping`] asks what a second clamping and the points of a CMM make of the unevenness.
 //!
 //! Road not taken: `gearcut calibrate`. It makes whole cuts and knows errors of the machine as parameters, but neither
 //! compliances nor strokes nor edges.
+
+mod clamping;
 
 use gearcut::cut::cpu::Cpu;
 use gearcut::findings::{QuantityRow, Table};
@@ -181,12 +186,24 @@ const HYPOTHESES: [Hypothesis; 9] = [
     },
 ];
 
+/// What is evaluated of every window (ISO 25178-2), um: the fitted one first, then those of the paper's Fig. 15.
+const PARAMETERS: [&str; 4] = ["Sa", "Sk", "Spk", "Svk"];
+/// In Fig. 15 the normally roughed gear has the smaller Sk and Svk, and the larger Spk.
+const SMALLER_ON_NORMAL: [bool; 3] = [true, false, true];
+
 /// What is measured of a gear.
 struct Gear {
-    /// Sa of the windows of each size, um.
-    sa_um: [Vec<f64>; 2],
+    /// Each of [`PARAMETERS`] in the windows of each size, um.
+    windows_um: [Vec<[f64; 4]>; 2],
     /// Mean and largest unevenness over the first period, percent.
     uneven: [f64; 2],
+}
+
+impl Gear {
+    /// One of [`PARAMETERS`] in every window of a size, um.
+    fn of_um(&self, parameter: usize, size: usize) -> Vec<f64> {
+        self.windows_um[size].iter().map(|um| um[parameter]).collect()
+    }
 }
 
 fn mean(values: &[f64]) -> f64 {
@@ -221,18 +238,22 @@ fn cut(linkage: &str, settings: &[String]) -> Found<Gear> {
         job = job.deflected(displaced);
     }
     let all = windows(&job)?;
-    let sa_um = all
+    let windows_um = all
         .par_iter()
         .map(|window| {
-            let finished = cut_window(&job, &Cpu::default(), window)?.evaluated?;
-            Ok(finished.evaluation.value("Sa").ok_or("no Sa")?)
+            let evaluation = cut_window(&job, &Cpu::default(), window)?.evaluated?.evaluation;
+            let mut um = [0.0; 4];
+            for (um, name) in um.iter_mut().zip(PARAMETERS) {
+                *um = evaluation.value(name).ok_or_else(|| format!("no {name}"))?;
+            }
+            Ok(um)
         })
-        .collect::<Found<Vec<f64>>>()?;
+        .collect::<Found<Vec<[f64; 4]>>>()?;
     let [rough, finish] = [0, 1].map(|operation| crossings(&job, operation, CrossedSurface::Strokes).teeth);
     let period = allowances(&rough, &finish).into_iter().take(PERIOD);
     let uneven = summarise(period.map(|tooth| tooth.unevenness_mean_percent())).ok_or("no allowance")?;
-    let (short, long) = sa_um.split_at(2 * TEETH.len());
-    Ok(Gear { sa_um: [short.to_vec(), long.to_vec()], uneven: [uneven.mean_percent, uneven.max_percent] })
+    let (short, long) = windows_um.split_at(2 * TEETH.len());
+    Ok(Gear { windows_um: [short.to_vec(), long.to_vec()], uneven: [uneven.mean_percent, uneven.max_percent] })
 }
 
 /// Cuts the gears of a hypothesis: one, or one for each seed; the numbers of all.
@@ -240,9 +261,9 @@ fn gears(hypothesis: &Hypothesis, value: f64, linkage: &str) -> Found<Gear> {
     let seeds = if hypothesis.random { SEEDS } else { 1 };
     let with_seed = |seed: u32| [(hypothesis.settings)(value), vec![format!("machine.errors.seed={seed}")]].concat();
     let cut = (1..=seeds).map(|seed| cut(linkage, &with_seed(seed))).collect::<Found<Vec<Gear>>>()?;
-    let sa = |size: usize| cut.iter().flat_map(|gear| gear.sa_um[size].clone()).collect();
+    let windows = |size: usize| cut.iter().flat_map(|gear| gear.windows_um[size].clone()).collect();
     let uneven = |of: usize| mean(&cut.iter().map(|gear| gear.uneven[of]).collect::<Vec<_>>());
-    Ok(Gear { sa_um: [sa(0), sa(1)], uneven: [uneven(0), uneven(1)] })
+    Ok(Gear { windows_um: [windows(0), windows(1)], uneven: [uneven(0), uneven(1)] })
 }
 
 /// The parameter that gives the measured Sa in windows of a size; why there is none.
@@ -255,7 +276,7 @@ fn fitted(hypothesis: &Hypothesis, size: usize) -> Result<f64, String> {
         let middle = 0.5 * (low + high);
         match gears(hypothesis, middle.exp(), "normal") {
             Ok(gear) => {
-                let sa_um = mean(&gear.sa_um[size]);
+                let sa_um = mean(&gear.of_um(0, size));
                 eprintln!("{}: {:.4} gives {sa_um:.4} um", hypothesis.parameter, middle.exp());
                 let off = (sa_um / MEASURED_SA_UM - 1.0).abs();
                 if off < nearest.0 {
@@ -292,7 +313,15 @@ fn range_words(values: &[f64]) -> String {
 
 fn row(name: &str, window_mm: f64, parameter: &str, normal: &Gear, traditional: &Gear, size: usize) -> Vec<String> {
     let uneven = |gear: &Gear| format!("{:.1} ({:.1})", gear.uneven[0], gear.uneven[1]);
-    let sa = |gear: &Gear| range_words(&gear.sa_um[size]);
+    let sa = |gear: &Gear| range_words(&gear.of_um(0, size));
+    // A share of one in a thousand is no order: windows of both gears are then the same surface.
+    let ratios =
+        [1, 2, 3].map(|parameter| mean(&normal.of_um(parameter, size)) / mean(&traditional.of_um(parameter, size)));
+    let follows = |(ratio, smaller): (f64, bool)| if smaller { ratio < 0.999 } else { ratio > 1.001 };
+    let order = ratios.into_iter().zip(SMALLER_ON_NORMAL).map(follows);
+    let order = order.map(|follows| if follows { "as measured" } else { "not" });
+    let words = ratios.iter().zip(order).map(|(ratio, word)| format!("{ratio:.3} {word}"));
+    let words: Vec<String> = words.collect();
     vec![
         name.to_owned(),
         format!("{window_mm}"),
@@ -302,6 +331,9 @@ fn row(name: &str, window_mm: f64, parameter: &str, normal: &Gear, traditional: 
         uneven(normal),
         uneven(traditional),
     ]
+    .into_iter()
+    .chain(words)
+    .collect()
 }
 
 /// Cells are words: a mean stands with its range.
@@ -318,6 +350,9 @@ fn main() -> Result<(), Box<dyn Error>> {
         "Sa traditional, predicted, um",
         "unevenness normal, predicted, %: mean (largest)",
         "unevenness traditional, predicted, %",
+        "Sk normal / traditional, predicted",
+        "Spk normal / traditional, predicted",
+        "Svk normal / traditional, predicted",
     ];
     println!("| {} |\n|{}", columns.join(" | "), " --- |".repeat(columns.len()));
     let mut rows: Vec<Vec<String>> = Vec::new();
@@ -342,8 +377,9 @@ fn main() -> Result<(), Box<dyn Error>> {
                     add(row(hypothesis.name, length_mm, &parameter, &normal?, &traditional?, size));
                 }
                 Err(why) => {
-                    let cells = [hypothesis.name, &length_mm.to_string(), hypothesis.parameter, &why, "", "", ""];
-                    add(cells.map(str::to_owned).to_vec());
+                    let cells = [hypothesis.name, &length_mm.to_string(), hypothesis.parameter, &why];
+                    let rest = std::iter::repeat_n("", columns.len() - cells.len());
+                    add(cells.into_iter().chain(rest).map(str::to_owned).collect());
                 }
             }
         }
@@ -352,5 +388,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         table.column(CELL.as_column().keyed(*name), move |row| row[place].as_str())
     });
     write_table(&folder.join("paper_experiment.csv"), &table.into())?;
+    println!();
+    clamping::print().map_err(|why| why.to_string())?;
     Ok(())
 }
