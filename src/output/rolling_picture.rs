@@ -86,7 +86,9 @@ fn fill(raster: &mut Raster, (width, height): (u32, u32), polygons: &[Vec<DVec2>
                 }
                 continue;
             }
-            hits[from.0..to.0].iter_mut().for_each(|count| *count += FINER as u8);
+            for count in &mut hits[from.0..to.0] {
+                *count += FINER as u8;
+            }
             hits[from.0] -= from.1;
             if to.1 > 0 {
                 hits[to.0] += to.1;
@@ -115,7 +117,9 @@ fn crossings(polygons: &[Vec<DVec2>], height: usize) -> Vec<Vec<f64>> {
             }
         }
     }
-    lines.iter_mut().for_each(|line| line.sort_unstable_by(f64::total_cmp));
+    for line in &mut lines {
+        line.sort_unstable_by(f64::total_cmp);
+    }
     lines
 }
 
