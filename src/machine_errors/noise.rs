@@ -28,11 +28,20 @@
 
 use crate::random::Draws;
 use std::f64::consts::TAU;
+use std::sync::LazyLock;
 
 /// Knots without correlation stand this many time constants apart.
 const KNOTS_APART: f64 = 64.0;
 /// Halvings between them.
 const HALVINGS: u32 = 18;
+/// For every halving c and the deviation of a value from its mean.
+static HALVES: LazyLock<[[f64; 2]; HALVINGS as usize]> = LazyLock::new(|| {
+    std::array::from_fn(|halving| {
+        let c = (-0.5_f64.powi(halving as i32 + 1) * KNOTS_APART).exp();
+        [c, ((1.0 - c * c) / (1.0 + c * c)).sqrt()]
+    })
+});
+
 /// Noise of an axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AxisNoise {
@@ -115,11 +124,10 @@ impl AxisNoise {
         let first = place.floor();
         let knot = |knot: f64| self.draws.normal([knot as i64, 0]);
         let (mut before, mut after) = (knot(first), knot(first + 1.0));
-        let (mut share, mut node, mut half) = (place - first, 1_i64, 0.5 * KNOTS_APART);
-        for _ in 0..HALVINGS {
-            let c = (-half).exp();
-            let (mean, variance) = (c * (before + after) / (1.0 + c * c), (1.0 - c * c) / (1.0 + c * c));
-            let middle = mean + variance.sqrt() * self.draws.normal([first as i64, node]);
+        let (mut share, mut node) = (place - first, 1_i64);
+        for [c, deviation] in *HALVES {
+            let mean = c * (before + after) / (1.0 + c * c);
+            let middle = mean + deviation * self.draws.normal([first as i64, node]);
             share *= 2.0;
             if share < 1.0 {
                 (after, node) = (middle, 2 * node);
@@ -127,7 +135,6 @@ impl AxisNoise {
                 (before, node) = (middle, 2 * node + 1);
                 share -= 1.0;
             }
-            half *= 0.5;
         }
         before + share * (after - before)
     }

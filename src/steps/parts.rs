@@ -56,10 +56,12 @@ pub enum Stage {
     Chips,
     /// Stock in a shaped gear's roots.
     Roots,
+    /// Allowances of a shaped gear's earlier operations on the pitch curve.
+    Allowances,
 }
 
 impl Stage {
-    const ALL: [Self; 4] = [Self::Texture, Self::Blank, Self::Chips, Self::Roots];
+    const ALL: [Self; 5] = [Self::Texture, Self::Blank, Self::Chips, Self::Roots, Self::Allowances];
 
     /// Where its numbers are found: sections, those below an operation by their own keys, and keys of the headline.
     fn places(self) -> &'static [&'static str] {
@@ -78,6 +80,7 @@ impl Stage {
                 "idle_strokes",
             ],
             Self::Roots => &["root_stock"],
+            Self::Allowances => &["allowance", "unevenness", "unevenness_max", "unevenness_mean"],
         }
     }
 

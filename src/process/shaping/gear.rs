@@ -90,7 +90,7 @@ pub fn cut_gear(
     } else {
         (Vec::new(), Vec::new())
     };
-    let report = gear_report::measure(job, cut.reports, root_reports);
+    let report = gear_report::measure(job, cut.reports, root_reports, wanted.has(Stage::Allowances));
     let work = Work { elapsed: started.elapsed(), ..cut.work };
     Ok(CutGear { report, chips, maps: cut.maps, surfaces: cut.surfaces, pictured: cut.pictured, roots, work })
 }

@@ -51,6 +51,9 @@ pub struct PreparedOperation {
     pub linkage: ShapingLinkage,
     /// What it generates in the limit of many strokes.
     pub generation: Arc<Generation>,
+    /// Flanks of that, tooth by tooth, left before right, once they have been asked for: none where nothing is
+    /// generated. Of the finishing operation they are no targets, which know of pointed teeth.
+    envelope: Arc<[OnceLock<Option<TargetFlank>>]>,
     /// Axis positions at every stroke.
     pub schedule: StrokeSchedule,
     /// Axis program that is cut instead of the schedule, if the scene names one.
@@ -99,6 +102,11 @@ impl PreparedOperation {
         self.actual.pose(self.commanded(), stroke, later)
     }
 
+    /// Whether the envelope of an operation of the same gear with such a cutter is this one's.
+    fn generates_as(&self, spec: &Operation) -> bool {
+        (self.spec.linkage, self.spec.offset_mm) == (spec.linkage, spec.offset_mm)
+    }
+
     /// What the axes are told.
     fn commanded(&self) -> Commanded<'_> {
         Commanded { schedule: &self.schedule, program: self.program.as_ref() }
@@ -141,16 +149,17 @@ impl ShapingJob {
     /// # Errors
     /// Geometry that cannot be cut: see the parts.
     pub fn new(scene: Scene) -> Result<Self> {
-        Self::without_targets(scene)?.with_own_targets()
+        Self::laid_out(scene, None, true)?.with_own_targets()
     }
 
     /// Makes another scene ready. Targets of teeth take most of that time, and no error moves them: where both scenes
-    /// generate the same gear they are taken over.
+    /// generate the same gear they are taken over, and so is all else that follows from what is the same in both: the
+    /// cutter, linkages, envelopes and the room of return strokes.
     ///
     /// # Errors
     /// As for [`Self::new`].
     pub fn sharing_targets(&self, scene: Scene) -> Result<Self> {
-        let job = Self::without_targets(scene)?;
+        let job = Self::laid_out(scene, Some(self), true)?;
         if self.generates(&job) { Ok(Self { targets: self.targets.clone(), ..job }) } else { job.with_own_targets() }
     }
 
@@ -159,11 +168,16 @@ impl ShapingJob {
         Ok(Self { targets, ..self })
     }
 
-    /// The machine and its strokes, and no tooth: enough for the axes.
+    /// The machine and what its strokes command, without a pose or a tooth: enough for the axes.
     ///
     /// # Errors
     /// As for [`Self::new`], targets apart.
-    pub(super) fn without_targets(scene: Scene) -> Result<Self> {
+    pub(super) fn of_axes(scene: Scene) -> Result<Self> {
+        Self::laid_out(scene, None, false)
+    }
+
+    /// The machine and its strokes, and no tooth. What is the same in the scene of a job `like` this one is taken over.
+    fn laid_out(scene: Scene, like: Option<&Self>, has_poses: bool) -> Result<Self> {
         let gear = &scene.gear;
         let Some(shaping) = Shaping::of(&scene) else {
             let way_out = "write [tool.shaper_cutter] for shaping";
@@ -180,8 +194,16 @@ impl ShapingJob {
             )
             .into());
         }
-        let curve = Arc::new(PitchCurve::new(&gear.pitch_curve, gear.module_mm, gear.teeth)?);
-        let cutter = ShaperCutter::new(&shaping.tool, gear)?;
+        let like = like.filter(|of| of.scene.gear == *gear);
+        let curve = match like {
+            Some(of) => of.curve.clone(),
+            None => Arc::new(PitchCurve::new(&gear.pitch_curve, gear.module_mm, gear.teeth)?),
+        };
+        let cutter = match like.filter(|of| of.cutter_spec == shaping.tool) {
+            Some(of) => of.cutter.clone(),
+            None => ShaperCutter::new(&shaping.tool, gear)?,
+        };
+        let mut alike = like.filter(|of| of.cutter.generates_as(&cutter));
         let blank = gear.blank(curve.clone())?;
         // Flanks refer to the cutter for as long as they are kept.
         let shared_cutter = Arc::new(cutter.clone());
@@ -192,8 +214,15 @@ impl ShapingJob {
         for spec in &shaping.operations {
             let mut spec = spec.clone();
             spec.offset_mm += allowance_mm;
-            let linkage =
-                ShapingLinkage::new(gear.kind, spec.linkage, curve.clone(), cutter.pitch_radius_mm, spec.offset_mm)?;
+            // Return strokes meet what is left by the operations before: they are alike as well.
+            alike = alike.filter(|of| of.operations.get(operations.len()).is_some_and(|of| of.generates_as(&spec)));
+            let same = alike.map(|of| &of.operations[operations.len()]);
+            let linkage = match same {
+                Some(of) => of.linkage.clone(),
+                None => {
+                    ShapingLinkage::new(gear.kind, spec.linkage, curve.clone(), cutter.pitch_radius_mm, spec.offset_mm)?
+                }
+            };
             let schedule = StrokeSchedule::new(&spec, &linkage, &machine)?;
             let program = spec.program.as_deref().map(|path| read_program(path, &spec, &schedule)).transpose()?;
             // Times, drifts and lags are those of the program that is cut.
@@ -225,22 +254,31 @@ impl ShapingJob {
             } else {
                 StrokeLaw::Frozen
             };
-            let strokes = StrokeSet::along_guide(first_pass, &cutter, law, count, |lambda, z_mm| {
+            let posed = if has_poses { count } else { 0 };
+            let strokes = StrokeSet::along_guide(first_pass, &cutter, law, posed, |lambda, z_mm| {
                 let at_rest = if law.rests() { crank.stroke_share(crank.tau(z_mm)) } else { 0.0 };
                 actual.placed(&actual.pose(commanded, lambda, at_rest), z_mm)
             });
             first_pass = strokes.end_pass();
-            let (linkage_of_flanks, cutter) = (linkage.clone(), shared_cutter.clone());
-            let generation = Arc::new(Generation { linkage: linkage_of_flanks, cutter, offset_mm: spec.offset_mm });
-            let before = operations.iter().map(|before| &before.generation);
-            let generations = before.chain([&generation]).cloned().collect();
-            let survey = Arc::new(Survey::new(generations, blank.clone(), gear.teeth, gear.module_mm));
+            let (generation, envelope, survey) = match same {
+                Some(of) => (of.generation.clone(), of.envelope.clone(), of.survey.clone()),
+                None => {
+                    let (linkage, cutter) = (linkage.clone(), shared_cutter.clone());
+                    let generation = Arc::new(Generation { linkage, cutter, offset_mm: spec.offset_mm });
+                    let before = operations.iter().map(|before| &before.generation);
+                    let generations = before.chain([&generation]).cloned().collect();
+                    let survey = Survey::new(generations, blank.clone(), gear.teeth, gear.module_mm);
+                    let envelope = (0..2 * gear.teeth).map(|_| OnceLock::new()).collect();
+                    (generation, envelope, Arc::new(survey))
+                }
+            };
             let retraction = RetractionPlan::new(&machine, &schedule, &survey)?;
             let returns = OnceLock::new();
             operations.push(PreparedOperation {
                 spec,
                 linkage,
                 generation,
+                envelope,
                 schedule,
                 program,
                 actual,
@@ -270,9 +308,8 @@ impl ShapingJob {
     /// Whether the target is that of another job, too: gear, finishing operation and cutter have the same numbers in
     /// all that a [`Generation`] and a blank are made of.
     fn generates(&self, other: &Self) -> bool {
-        let [own, others] = [self, other].map(|job| &job.finishing().spec);
         self.scene.gear == other.scene.gear
-            && (own.linkage, own.offset_mm) == (others.linkage, others.offset_mm)
+            && self.finishing().generates_as(&other.finishing().spec)
             && self.cutter.generates_as(&other.cutter)
     }
 
@@ -305,9 +342,11 @@ impl ShapingJob {
         self.operations.last().expect("a checked scene has at least one operation")
     }
 
-    /// Continuous generation by one operation.
-    pub fn generation(&self, operation: usize) -> &Arc<Generation> {
-        &self.operations[operation].generation
+    /// Flank of a tooth (1 to z) in the envelope of one operation; `None` where nothing is generated.
+    pub fn envelope_flank(&self, operation: usize, tooth: u32, side: Side) -> Option<&TargetFlank> {
+        let PreparedOperation { generation, envelope, .. } = &self.operations[operation];
+        let index = 2 * (tooth as usize - 1) + usize::from(side == Side::Right);
+        envelope[index].get_or_init(|| TargetFlank::new(generation, &self.blank, tooth, side).ok()).as_ref()
     }
 
     /// Continuous generation by the finishing operation: the target.

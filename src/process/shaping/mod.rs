@@ -54,5 +54,5 @@ pub static PROCESS: Process = Process {
     notices: notices::NOTICES,
     quantities: quantities::QUANTITIES,
     prepare: |scene| Ok(Box::new(prepared::PreparedShaping::new(ShapingJob::new(scene.clone())?))),
-    axis_peaks: |scene| Ok(axes::found(scene, &OperationAxes::of_job(&ShapingJob::without_targets(scene.clone())?))),
+    axis_peaks: |scene| Ok(axes::found(scene, &OperationAxes::of_job(&ShapingJob::of_axes(scene.clone())?))),
 };

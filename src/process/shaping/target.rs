@@ -20,7 +20,7 @@ use gearcut_core::math::newton::{LastStep, newton_within};
 use gearcut_core::math::roots::regula_falsi;
 use gearcut_core::terms::Side;
 use std::f64::consts::PI;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 /// A length of profile is met if no more than this is missing, mm; Newton steps to it before its panel is halved.
 const ARC_MM: f64 = 1e-13;
@@ -81,8 +81,15 @@ pub struct TargetFlank {
     phi_form: f64,
     /// Polar angle of the tip.
     phi_tip: f64,
-    /// Arc length at the panel ends, from the form point.
-    arcs_mm: Vec<f64>,
+    /// Arc lengths between them, once somebody has asked.
+    arcs: OnceLock<FlankArcs>,
+}
+
+/// Arc lengths of a flank.
+#[derive(Debug, Clone, PartialEq)]
+struct FlankArcs {
+    /// At the panel ends, from the form point.
+    ends_mm: Vec<f64>,
     /// Speed of the contact (mm per rad of phi) in every panel.
     speeds: Vec<PanelSpeed>,
 }
@@ -190,7 +197,7 @@ impl TargetFlank {
             };
             (phi, end)
         };
-        let flank = Self {
+        Ok(Self {
             tooth,
             side,
             form_end,
@@ -200,27 +207,25 @@ impl TargetFlank {
             space,
             phi_form,
             phi_tip,
-            arcs_mm: Vec::new(),
-            speeds: Vec::new(),
-        };
-        Ok(flank.with_arcs())
+            arcs: OnceLock::new(),
+        })
     }
 
     /// The same flank from another polar angle on: what lies below is cut away.
     pub(super) fn undercut_up_to(self, phi_form: f64, undercut: Undercut) -> Self {
-        Self { phi_form, undercut: Some(undercut), ..self }.with_arcs()
+        Self { phi_form, undercut: Some(undercut), arcs: OnceLock::new(), ..self }
     }
 
-    /// With the table of its arc lengths between its ends.
-    fn with_arcs(mut self) -> Self {
-        self.arcs_mm = vec![0.0];
-        self.speeds = Vec::with_capacity(PANELS);
-        for panel in 0..PANELS {
-            let speed = PanelSpeed::new(|x| self.contact(self.phi_in_panel(panel, x)).speed_mm_per_rad.abs());
-            self.arcs_mm.push(self.arcs_mm[panel] + self.half_panel_rad().abs() * speed.at(1.0)[1]);
-            self.speeds.push(speed);
-        }
-        self
+    fn arcs(&self) -> &FlankArcs {
+        self.arcs.get_or_init(|| {
+            let (mut ends_mm, mut speeds) = (vec![0.0], Vec::with_capacity(PANELS));
+            for panel in 0..PANELS {
+                let speed = PanelSpeed::new(|x| self.contact(self.phi_in_panel(panel, x)).speed_mm_per_rad.abs());
+                ends_mm.push(ends_mm[panel] + self.half_panel_rad().abs() * speed.at(1.0)[1]);
+                speeds.push(speed);
+            }
+            FlankArcs { ends_mm, speeds }
+        })
     }
 
     /// What generates it.
@@ -235,7 +240,12 @@ impl TargetFlank {
 
     /// Length from form point to tip, mm.
     pub fn length_mm(&self) -> f64 {
-        self.arcs_mm[PANELS]
+        self.arcs().ends_mm[PANELS]
+    }
+
+    /// Contact at the form point: what [`Self::at_arc`] gives at 0, without any arc.
+    pub fn form_contact(&self) -> FlankContact {
+        self.contact(self.phi_form)
     }
 
     /// Contact at a polar angle between form point and tip.
@@ -256,13 +266,14 @@ impl TargetFlank {
 
     /// Contact at an arc length from the form point (clamped to the flank).
     pub fn at_arc(&self, arc_mm: f64) -> FlankContact {
-        let arc_mm = arc_mm.clamp(0.0, self.length_mm());
-        let panel = self.arcs_mm.partition_point(|&a| a <= arc_mm).clamp(1, PANELS) - 1;
-        let [start_mm, end_mm] = [self.arcs_mm[panel], self.arcs_mm[panel + 1]];
+        let FlankArcs { ends_mm, speeds } = self.arcs();
+        let arc_mm = arc_mm.clamp(0.0, ends_mm[PANELS]);
+        let panel = ends_mm.partition_point(|&a| a <= arc_mm).clamp(1, PANELS) - 1;
+        let [start_mm, end_mm] = [ends_mm[panel], ends_mm[panel + 1]];
         let half = self.half_panel_rad().abs();
         let start = 2.0 * (arc_mm - start_mm) / (end_mm - start_mm) - 1.0;
         let x = newton_within(start, [start.min(-1.0), start.max(1.0)], LastStep::default(), ARC_STEPS, |x| {
-            let [speed, integral] = self.speeds[panel].at(x);
+            let [speed, integral] = speeds[panel].at(x);
             let missing_mm = arc_mm - start_mm - half * integral;
             [missing_mm, if missing_mm.abs() < ARC_MM { 0.0 } else { missing_mm / (half * speed) }]
         });

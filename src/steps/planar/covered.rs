@@ -11,11 +11,9 @@
 //! covered. A gouge narrower than the distance of those, deeper than the record and without an entry is not seen.
 
 use gearcut_core::dexel::{Column, Field, Layer};
-use gearcut_core::frame::Rigid2;
 use gearcut_core::passes::StrokeSet;
-use gearcut_core::passes::planar::near::near_passes;
+use gearcut_core::passes::planar::near::{NearPass, near_passes};
 use gearcut_core::tool::PlanarTool;
-use gearcut_core::tool::closed_tooth::{ClosedTooth, PlacedScratch};
 use glam::DVec2;
 
 /// Rays of a field that are asked first.
@@ -23,28 +21,6 @@ const PROBES: usize = 9;
 /// The upper place, as a share of the record under the target: strokes touch the target, this deep lies a gouge, and
 /// inside of thin tips as well.
 const UPPER_SHARE: f64 = 0.1;
-
-/// A blade's region, through its body to the tool's axis, as a polygon in the blade frame.
-struct BladeRegion {
-    /// Its corners, mm.
-    outline: Vec<DVec2>,
-    /// The box that holds them: most places lie outside of it.
-    box_mm: [DVec2; 2],
-}
-
-impl BladeRegion {
-    fn holds(&self, p: DVec2) -> bool {
-        let [low, high] = self.box_mm;
-        if p.cmplt(low).any() || p.cmpgt(high).any() {
-            return false;
-        }
-        let before = self.outline.iter().cycle().skip(self.outline.len() - 1);
-        let crossed = before
-            .zip(&self.outline)
-            .filter(|(a, b)| (a.y > p.y) != (b.y > p.y) && p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x));
-        crossed.count() % 2 == 1
-    }
-}
 
 /// Columns of a field that strokes cover, each with a pass that does.
 pub fn columns(field: &Field, strokes: &StrokeSet, tool: &dyn PlanarTool) -> Vec<(usize, u32)> {
@@ -54,21 +30,9 @@ pub fn columns(field: &Field, strokes: &StrokeSet, tool: &dyn PlanarTool) -> Vec
         |column: &Column| [UPPER_SHARE * column.low_mm, column.low_mm].map(|h| column.origin_mm + h * column.normal);
     let center_mm = ends(middle)[1];
     let reach_mm = columns.iter().flat_map(ends).map(|end| end.distance(center_mm)).fold(0.0, f64::max);
-    let regions: Vec<BladeRegion> = tool
-        .edges()
-        .edges()
-        .iter()
-        .map(|edge| {
-            let tooth = ClosedTooth::new(edge, 0.0);
-            let outline =
-                tooth.placed(&Rigid2::new(0.0, DVec2::ZERO), &mut PlacedScratch::default()).nodes_mm().to_vec();
-            let nowhere = [DVec2::INFINITY, DVec2::NEG_INFINITY];
-            let box_mm = outline.iter().fold(nowhere, |[low, high], node| [low.min(*node), high.max(*node)]);
-            BladeRegion { outline, box_mm }
-        })
-        .collect();
+    let (edges, teeth) = (tool.edges(), tool.edges().outlines());
     // Inside of all edges: the body alone.
-    let body_mm = regions.iter().flat_map(|region| &region.outline).map(|node| node.length()).filter(|r| *r > 1e-6);
+    let body_mm = teeth.iter().flat_map(|tooth| &tooth.corners_mm).map(|node| node.length()).filter(|r| *r > 1e-6);
     let body_mm = body_mm.fold(f64::INFINITY, f64::min);
     let near = near_passes(strokes, tool, center_mm, reach_mm);
     let mount_mm = tool.tool_from_blade(0).translation_mm;
@@ -77,24 +41,29 @@ pub fn columns(field: &Field, strokes: &StrokeSet, tool: &dyn PlanarTool) -> Vec
         .map(|(stroke, poses)| (stroke, poses[poses.len() / 2].point(mount_mm)))
         .filter(|(_, axis_mm)| axis_mm.distance(center_mm) < body_mm + reach_mm)
         .collect();
-    let edges = tool.edges();
-    let by = |column: &Column| -> Option<u32> {
-        let ends = ends(column);
-        let in_body =
-            axes_mm.iter().find(|(_, axis_mm)| ends[1].distance(*axis_mm) < body_mm - (ends[1] - ends[0]).length());
-        if let Some((stroke, _)) = in_body {
-            return Some(strokes.first_pass + (*stroke as u32) * strokes.blades);
-        }
-        let pass = near.iter().find(|pass| {
-            let region = &regions[edges.index_of(pass.blade)];
-            ends.iter().all(|end| region.holds(pass.middle().point(*end)))
-        })?;
-        Some(strokes.first_pass + (pass.stroke as u32) * strokes.blades + pass.blade)
+    let in_body = |ends: &[DVec2; 2]| {
+        let depth_mm = ends[1].distance(ends[0]);
+        axes_mm.iter().find(|(_, axis_mm)| ends[1].distance(*axis_mm) < body_mm - depth_mm).map(|(stroke, _)| *stroke)
+    };
+    let in_tooth = |pass: &NearPass, ends: &[DVec2; 2]| {
+        let tooth = &teeth[edges.index_of(pass.blade)];
+        ends.iter().all(|end| tooth.holds(pass.middle().point(*end)))
     };
     let step = (columns.len() / (PROBES - 1)).max(1);
-    if !columns.iter().step_by(step).chain(columns.last()).any(|column| by(column).is_some()) {
+    let probes: Vec<[DVec2; 2]> = columns.iter().step_by(step).chain(columns.last()).map(ends).collect();
+    let is_covered = probes.iter().any(|ends| in_body(ends).is_some())
+        || near.iter().any(|pass| probes.iter().any(|ends| in_tooth(pass, ends)));
+    if !is_covered {
         return Vec::new();
     }
+    let by = |column: &Column| -> Option<u32> {
+        let ends = ends(column);
+        if let Some(stroke) = in_body(&ends) {
+            return Some(strokes.first_pass + (stroke as u32) * strokes.blades);
+        }
+        let pass = near.iter().find(|pass| in_tooth(pass, &ends))?;
+        Some(strokes.first_pass + (pass.stroke as u32) * strokes.blades + pass.blade)
+    };
     columns.iter().enumerate().filter_map(|(index, column)| Some((index, by(column)?))).collect()
 }
 

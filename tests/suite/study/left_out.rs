@@ -4,8 +4,9 @@ use crate::fixtures::stopping::Stopping;
 use gearcut::backend::{BackendWish, Choice, OnFailure, choose};
 use gearcut::findings::{Findings, Quantity};
 use gearcut::interrupt::Interrupt;
-use gearcut::process;
+use gearcut::process::{self, ProcessJob};
 use gearcut::run::Run;
+use gearcut::scene::LoadedScene;
 use gearcut::steps::parts::{Stage, Stages};
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -63,16 +64,57 @@ fn compare(scene: &str, settings: &[&str], stages: &[Stage]) {
 #[test]
 fn of_a_shaped_gear() {
     let small = ["gear.face_width_mm=4", "gear.teeth=12", "gear.profile_shift_coefficient=0.4"];
-    let all = [Stage::Texture, Stage::Blank, Stage::Chips, Stage::Roots];
+    let all = [Stage::Texture, Stage::Blank, Stage::Chips, Stage::Roots, Stage::Allowances];
     compare("scenes/shaping/circular_m3_z24.toml", &small, &all);
 }
 
 /// A machine that yields has sections of its own that follow from chips.
 #[test]
 fn of_a_machine_that_yields() {
-    let all = [Stage::Texture, Stage::Blank, Stage::Chips, Stage::Roots];
+    let all = [Stage::Texture, Stage::Blank, Stage::Chips, Stage::Roots, Stage::Allowances];
     let few = ["rough", "finish"].map(|name| format!("operation.{name}.strokes_per_revolution=240"));
     compare("scenes/shaping/deflection.toml", &["gear.face_width_mm=4", "gear.teeth=12", &few[0], &few[1]], &all);
+}
+
+/// What a case takes over from another one is what it would find itself: the peer is a job made ready from nothing.
+#[test]
+fn of_what_cases_share() {
+    let few = ["rough", "finish"].map(|name| format!("operation.{name}.strokes_per_revolution=300"));
+    let small = ["gear.face_width_mm=4", "gear.teeth=12", "gear.profile_shift_coefficient=0.4", &few[0], &few[1]];
+    let of = |setting: &str| {
+        let settings: Vec<String> = small.iter().chain([&setting]).map(|&setting| setting.to_owned()).collect();
+        process::load_draft(Path::new("scenes/shaping/circular_m3_z24.toml"), &settings).expect("a scene")
+    };
+    let choice = choose(BackendWish::Cpu, OnFailure::Stop).expect("the processor");
+    // All but rays through the blank, which are their own.
+    let stages = Stages::of_paths(&["unevenness_max", "idle_strokes", "root_stock"].map(str::to_owned));
+    let found = |scene: &LoadedScene, prepared: &dyn ProcessJob| {
+        let found = Run::new(scene, prepared, &choice).stages(stages).found().expect("findings");
+        (quantities(&found), found.warnings)
+    };
+    let base = of("gear.module_mm=3");
+    let first = process::prepare(&base.scene).expect("a gear");
+    let of_first = found(&base, first.as_ref());
+    for setting in [
+        "operation.finish.strokes_per_revolution=400",
+        "operation.rough.offset_mm=0.3",
+        "operation.finish.offset_mm=0.02",
+        "operation.rough.linkage={ shaping_traditional = {} }",
+        "machine.back_off_mm=0.2",
+        "machine.retraction=\"tilted\"",
+        "mounting.eccentricity_um=9",
+        "tool.shaper_cutter.runout_um=8",
+        "tool.shaper_cutter.edge_roughness={ rq_um = 0.4, correlation_length_um = 30.0 }",
+        "tool.shaper_cutter.tip={ round = { radius_mm = 0.3 } }",
+        "tool.shaper_cutter.teeth=22",
+        "gear.profile_shift_coefficient=0.5",
+    ] {
+        let scene = of(setting);
+        let anew = found(&scene, process::prepare(&scene.scene).expect("a gear").as_ref());
+        let shared = found(&scene, first.with_errors_of(&scene.scene).expect("a gear").as_ref());
+        assert_eq!(shared, anew, "{setting}");
+        assert_ne!(anew.0, of_first.0, "{setting} does not matter");
+    }
 }
 
 /// The axes alone have the peaks that a cut has.

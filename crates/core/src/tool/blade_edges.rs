@@ -4,21 +4,28 @@
 //! the segments of all edges in one list, one edge after another. Records of passes name a segment by its place in that
 //! list, so that a backend looks up one table and knows nothing of blades.
 //!
+//! What bounds and outlines ask of the edges follows from them alone. It is found when it is first asked for and kept
+//! with them: a tool cuts hundreds of fields.
+//!
 //! The road not taken: an edge number beside the segment's in every record. It would be one more look-up for each
 //! record, and kernels would have to know what an edge is.
 
+use super::closed_tooth::ToothOutline;
 use super::edge::{Edge, Segment};
+use super::smooth_course::SmoothCourse;
 use std::ops::Range;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 /// Edges of a tool.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone)]
 pub struct BladeEdges {
     edges: Vec<Edge>,
     /// First segment of every edge in `segments`.
     first: Vec<usize>,
     segments: Arc<[Segment]>,
     pattern: Vec<usize>,
+    courses: Arc<OnceLock<Vec<SmoothCourse>>>,
+    outlines: Arc<OnceLock<Vec<ToothOutline>>>,
 }
 
 impl BladeEdges {
@@ -50,7 +57,7 @@ impl BladeEdges {
         });
         let first = ends.collect();
         let segments = edges.iter().flat_map(|edge| edge.segments.iter().cloned()).collect();
-        Self { edges, first, segments, pattern }
+        Self { edges, first, segments, pattern, courses: Arc::default(), outlines: Arc::default() }
     }
 
     /// The different edges.
@@ -61,6 +68,16 @@ impl BladeEdges {
     /// Segments of all edges, one edge after another.
     pub fn segments(&self) -> &Arc<[Segment]> {
         &self.segments
+    }
+
+    /// Their courses without roughness, in the same order.
+    pub fn courses(&self) -> &[SmoothCourse] {
+        self.courses.get_or_init(|| self.segments.iter().map(SmoothCourse::new).collect())
+    }
+
+    /// The teeth of the different edges, closed through the tool's body to its axis.
+    pub fn outlines(&self) -> &[ToothOutline] {
+        self.outlines.get_or_init(|| self.edges.iter().map(ToothOutline::new).collect())
     }
 
     /// Number of a blade's edge.

@@ -84,6 +84,38 @@ impl ClosedTooth {
     }
 }
 
+/// A tooth through the tool's body to its axis, as a polygon in the blade frame.
+#[derive(Debug, Clone)]
+pub struct ToothOutline {
+    /// Its corners, mm.
+    pub corners_mm: Vec<DVec2>,
+    /// The box that holds them: most places lie outside of it.
+    box_mm: [DVec2; 2],
+}
+
+impl ToothOutline {
+    /// Of an edge.
+    pub fn new(edge: &Edge) -> Self {
+        let corners_mm = ClosedTooth::new(edge, 0.0).nodes_mm;
+        let nowhere = [DVec2::INFINITY, DVec2::NEG_INFINITY];
+        let box_mm = corners_mm.iter().fold(nowhere, |[low, high], node| [low.min(*node), high.max(*node)]);
+        Self { corners_mm, box_mm }
+    }
+
+    /// Whether it holds a place.
+    pub fn holds(&self, p: DVec2) -> bool {
+        let [low, high] = self.box_mm;
+        if p.cmplt(low).any() || p.cmpgt(high).any() {
+            return false;
+        }
+        let before = self.corners_mm.iter().cycle().skip(self.corners_mm.len() - 1);
+        let crossed = before
+            .zip(&self.corners_mm)
+            .filter(|(a, b)| (a.y > p.y) != (b.y > p.y) && p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x));
+        crossed.count() % 2 == 1
+    }
+}
+
 /// Memory of a [`PlacedTooth`].
 #[derive(Debug, Default)]
 pub struct PlacedScratch {

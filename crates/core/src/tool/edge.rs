@@ -138,7 +138,7 @@ impl Segment {
         let blade_from_segment = chord_frame(start, end);
         let segment_from_blade = blade_from_segment.inverse();
         let half_mm = 0.5 * start.distance(end);
-        let profile = InvoluteProfile { involute, segment_from_blade, roll_range: rolls };
+        let profile = InvoluteProfile::new(involute, segment_from_blade, rolls);
         let table = EdgeTable::fit(&profile, [-half_mm, half_mm])?;
         Ok(Self::from_table(name, blade_from_segment, table, [-half_mm, half_mm]))
     }

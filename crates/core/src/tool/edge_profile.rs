@@ -25,18 +25,26 @@ pub trait EdgeProfile {
 
 /// Part of an involute as a profile over its chord.
 pub(super) struct InvoluteProfile {
-    pub involute: Involute,
-    pub segment_from_blade: Rigid2,
-    pub roll_range: [f64; 2],
+    involute: Involute,
+    segment_from_blade: Rigid2,
+    roll_range: [f64; 2],
+    /// y at the ends of the range.
+    y_range_mm: [f64; 2],
+}
+
+impl InvoluteProfile {
+    pub(super) fn new(involute: Involute, segment_from_blade: Rigid2, roll_range: [f64; 2]) -> Self {
+        let y_range_mm = roll_range.map(|u| segment_from_blade.point(involute.point(u)).y);
+        Self { involute, segment_from_blade, roll_range, y_range_mm }
+    }
 }
 
 impl EdgeProfile for InvoluteProfile {
     fn x_and_slope(&self, y_mm: f64) -> Result<[f64; 2], NotConverged> {
         // dp/du = r_b u e(u), e the direction to the base circle's contact point: Newton on y(u) from the chord's share
         // of u^2.
-        let [u0, u1] = self.roll_range;
+        let ([u0, u1], [y0, y1]) = (self.roll_range, self.y_range_mm);
         let y_at = |u: f64| self.segment_from_blade.point(self.involute.point(u)).y;
-        let (y0, y1) = (y_at(u0), y_at(u1));
         let start = (u0 * u0 + (u1 * u1 - u0 * u0) * (y_mm - y0) / (y1 - y0)).max(0.25 * u0 * u0).sqrt();
         let mut tangent = DVec2::Y;
         let last = LastStep { absolute: 1e-16, relative: 1e-15 };

@@ -22,7 +22,7 @@ pub enum TableError {
     /// The finest table misses the edge.
     #[error("the edge table keeps an error of {:.3} nm", error_mm * 1e6)]
     Coarse {
-        /// By this much, mm.
+        /// By this much at some place, mm.
         error_mm: f64,
     },
     /// The edge has no place with a y of its chord.
@@ -47,26 +47,23 @@ impl EdgeTable {
     ///
     /// # Errors
     /// Even 4096 cells do not reach the tolerance, or the profile has no place with some y.
-    pub fn fit(profile: &impl EdgeProfile, y_range_mm: [f64; 2]) -> Result<Self, TableError> {
-        let mut count = 1;
+    pub fn fit(profile: &impl EdgeProfile, [y0, y1]: [f64; 2]) -> Result<Self, TableError> {
+        let at = |count: usize, node: usize| profile.x_and_slope(y0 + (y1 - y0) / count as f64 * node as f64);
+        let (mut count, mut worst_cell) = (1, 0);
+        let mut nodes = vec![at(1, 0)?, at(1, 1)?];
         loop {
-            let table = Self::with_cells(profile, y_range_mm, count)?;
-            let error_mm = table.error_mm(profile)?;
-            if error_mm <= TABLE_TOLERANCE_MM {
-                return Ok(table);
-            }
+            let table = Self::through(&nodes, [y0, y1]);
+            let Some((cell, error_mm)) = table.missed(profile, worst_cell)? else { return Ok(table) };
             if count >= MAX_CELLS {
                 return Err(TableError::Coarse { error_mm });
             }
-            count *= 2;
+            // Where it misses, halves are likely to miss again.
+            (count, worst_cell) = (2 * count, 2 * cell);
+            // Halved cells begin where whole ones do, to the last bit.
+            let between = (1..count).step_by(2).map(|node| at(count, node)).collect::<Result<Vec<_>, _>>()?;
+            let last = nodes[nodes.len() - 1];
+            nodes = nodes.into_iter().zip(between).flat_map(|(node, between)| [node, between]).chain([last]).collect();
         }
-    }
-
-    fn with_cells(profile: &impl EdgeProfile, [y0, y1]: [f64; 2], count: usize) -> Result<Self, NotConverged> {
-        let width = (y1 - y0) / count as f64;
-        let nodes: Vec<[f64; 2]> =
-            (0..=count).map(|i| profile.x_and_slope(y0 + width * i as f64)).collect::<Result<_, _>>()?;
-        Ok(Self::through(&nodes, [y0, y1]))
     }
 
     /// Table through x and dx/dy at places evenly from the first y to the last one.
@@ -103,12 +100,20 @@ impl EdgeTable {
             .fold(0.0, f64::max)
     }
 
-    /// Largest error at three places inside every cell (a Hermite cubic errs most near the middle).
-    fn error_mm(&self, profile: &impl EdgeProfile) -> Result<f64, NotConverged> {
+    /// The first cell from one on, round and round, that misses a profile by more than [`TABLE_TOLERANCE_MM`], and by
+    /// how much, mm: at three places inside every cell (a Hermite cubic errs most near the middle).
+    fn missed(&self, profile: &impl EdgeProfile, first: usize) -> Result<Option<(usize, f64)>, NotConverged> {
         let width = 1.0 / self.cells_per_mm;
-        (0..self.cells.len())
-            .flat_map(|i| [0.25, 0.5, 0.75].map(|part| self.y_start_mm + width * (i as f64 + part)))
-            .try_fold(0.0_f64, |worst, y| Ok(worst.max((self.x_and_slope(y)[0] - profile.x_and_slope(y)?[0]).abs())))
+        for cell in (first..self.cells.len()).chain(0..first) {
+            for part in [0.25, 0.5, 0.75] {
+                let y = self.y_start_mm + width * (cell as f64 + part);
+                let error_mm = (self.x_and_slope(y)[0] - profile.x_and_slope(y)?[0]).abs();
+                if error_mm > TABLE_TOLERANCE_MM {
+                    return Ok(Some((cell, error_mm)));
+                }
+            }
+        }
+        Ok(None)
     }
 
     /// End of the last cell.

@@ -72,7 +72,7 @@ pub fn operation(
         ));
     let (spec, schedule) = (&operation.spec, &operation.schedule);
     let strokes = operation.count();
-    let stock_of_teeth = allowance.into_iter().flat_map(|of| &of.strokes);
+    let teeth_with_stock = if last { 0 } else { job.scene.gear.teeth };
     let section = Section::new(&spec.name, format!("Operation {}", spec.name))
         .entries([
             LINKAGE.of(operation.linkage.words()).unless(other.as_deref()),
@@ -98,6 +98,10 @@ pub fn operation(
         ))
         .part(stock_range("root_stock", "Stock in all roots, on rays that do not end before it", &over_roots, no_stock))
         .part(unevenness)
-        .part(STOCK_OF_TEETH.section([]).parts(stock_of_teeth.map(|of| teeth::tooth_stock(report, index, of.tooth))));
+        .part(
+            STOCK_OF_TEETH
+                .section([])
+                .parts((1..=teeth_with_stock).map(|tooth| teeth::tooth_stock(report, index, tooth))),
+        );
     Ok(section)
 }

@@ -42,16 +42,16 @@ pub(super) struct Starts {
 }
 
 impl Starts {
-    /// Fills the table; `lag` gives alpha(phi) and its derivative.
-    pub(super) fn new(lag: impl Fn(f64) -> [f64; 2], cells: usize) -> Self {
+    /// Fills the table; `lag` is alpha(phi), `slope` its derivative.
+    pub(super) fn new([lag, slope]: [&dyn Fn(f64) -> f64; 2], cells: usize) -> Self {
         let width = TURN_RAD / cells as f64;
         let mut ahead = 0.0;
         let nodes = (0..cells)
             .map(|i| {
                 let psi = i as f64 * width;
-                let phi = solve(|phi| lag(phi)[0], psi, psi + ahead);
+                let phi = solve(lag, psi, psi + ahead);
                 ahead = phi - psi;
-                let turn = 1.0 - lag(phi)[1]; // dpsi_c/dphi
+                let turn = 1.0 - slope(phi); // dpsi_c/dphi
                 [ahead, width * (1.0 / turn - 1.0)]
             })
             .collect();

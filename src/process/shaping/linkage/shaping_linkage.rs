@@ -32,6 +32,8 @@ pub struct ShapingLinkage {
     curve: Arc<PitchCurve>,
     cutter_pitch_radius_mm: f64,
     starts: Arc<Starts>,
+    /// Offsets at which it is known to roll, mm.
+    rolls_at_mm: [f64; 2],
 }
 
 impl ShapingLinkage {
@@ -52,20 +54,30 @@ impl ShapingLinkage {
             let problem = format!("the cutter's pitch radius would be {cutter_pitch_radius_mm} mm");
             return Err(Refusal::new("tool.shaper_cutter.teeth", problem, "give a positive number of teeth"));
         }
-        let mut linkage = Self { gear, kind, curve, cutter_pitch_radius_mm, starts: Arc::new(Starts::none()) };
+        let (starts, rolls_at_mm) = (Arc::new(Starts::none()), [f64::NAN; 2]);
+        let mut linkage = Self { gear, kind, curve, cutter_pitch_radius_mm, starts, rolls_at_mm };
         linkage.check(0.0)?;
+        linkage.rolls_at_mm = [0.0; 2];
         linkage.check(offset_mm)?;
+        linkage.rolls_at_mm = [0.0, offset_mm];
         let lag = |phi: f64| {
-            let lag = linkage.lag(&Rolling::<2>::new(&linkage.curve, Jet::variable(phi)), Jet::constant(offset_mm));
-            [lag.value(), lag.derivative(1)]
+            let rolling = Rolling::<1>::new(&linkage.curve, Jet::constant(phi));
+            linkage.lag(&rolling, Jet::constant(offset_mm)).value()
         };
-        let starts = Starts::new(lag, linkage.curve.samples_per_turn().clamp(1024, 1 << 16));
+        let slope = |phi: f64| {
+            let rolling = Rolling::<2>::new(&linkage.curve, Jet::variable(phi));
+            linkage.lag(&rolling, Jet::constant(offset_mm)).derivative(1)
+        };
+        let starts = Starts::new([&lag, &slope], linkage.curve.samples_per_turn().clamp(1024, 1 << 16));
         linkage.starts = Arc::new(starts);
         Ok(linkage)
     }
 
     /// Refuses an offset at which the work angle does not increase with phi everywhere.
     pub(super) fn check(&self, offset_mm: f64) -> Result<(), Refusal> {
+        if self.rolls_at_mm.contains(&offset_mm) {
+            return Ok(());
+        }
         let reach_mm = self.cutter_pitch_radius_mm + offset_mm;
         if !(reach_mm.is_finite() && reach_mm > 0.0) {
             let problem = format!("offset {offset_mm} mm brings the cutter axis to the pitch curve");
@@ -76,10 +88,10 @@ impl ShapingLinkage {
         let even = (0..samples).map(|i| gearcut_core::math::roots::sample_angle_rad(i, samples));
         let sharp = facts.curvature_extrema.iter().map(|e| e.phi_rad);
         for phi in even.chain(sharp) {
-            let turn = self.axes(phi, offset_mm).psi_c_rad.derivative(1);
-            let curvature_per_mm = self.curve.frame(phi).curvature_per_mm;
+            let turn = self.work_angle_along::<2>(Jet::variable(phi), Jet::constant(offset_mm)).derivative(1);
+            let curvature_per_mm = || self.curve.frame(phi).curvature_per_mm;
             // A circle larger than a ring would turn the work forwards again, from beyond its centre of curvature.
-            let fits = self.gear == GearKind::External || self.cutter_pitch_radius_mm * curvature_per_mm < 1.0;
+            let fits = self.gear == GearKind::External || self.cutter_pitch_radius_mm * curvature_per_mm() < 1.0;
             if !fits || turn.is_nan() || turn <= 0.0 {
                 let way_out = match self.gear {
                     GearKind::External => {
@@ -95,7 +107,7 @@ impl ShapingLinkage {
                         "at polar angle {:.3} deg the pitch curve has the radius of curvature {:.3} mm; the cutter's \
                         pitch radius with the offset, {reach_mm:.3} mm, does not roll there",
                         phi.to_degrees(),
-                        1.0 / curvature_per_mm
+                        1.0 / curvature_per_mm()
                     ),
                     way_out,
                 ));

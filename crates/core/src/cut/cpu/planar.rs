@@ -8,7 +8,8 @@
 //! middle root, some hundred nanometres to micrometres away, and needs two steps. Sixteen rows of a column go together.
 //! They meet the edge within a micrometre of each other, nearly always in the same cell of its table, whose four
 //! coefficients are then loaded once; when they straddle a cell's end, each row loads its own. Both compute the same
-//! numbers.
+//! numbers. Of a field with a single row in the middle of the stroke sixteen columns go together instead, each with the
+//! steps that it would take alone.
 
 #![expect(
     clippy::inline_always,
@@ -77,6 +78,9 @@ impl pulp::NullaryFnOnce for TileCut<'_> {
     #[inline(always)]
     fn call(self) -> CutStats {
         let rows = self.row_phases.len();
+        if *self.row_phases == [0.0] {
+            return self.columns_at_once();
+        }
         let mut stats = CutStats::default();
         // Rows padded to whole chunks by repeating the last phase, so that every chunk has the same shape.
         let chunks = rows.div_ceil(LANES);
@@ -95,15 +99,26 @@ impl pulp::NullaryFnOnce for TileCut<'_> {
             for record in self.records {
                 let segment = &self.segments[record.segment as usize];
                 let ray = ray_cubics(record, column.origin_mm - self.origin_mm, column.normal);
-                for ((tau, best), best_pass) in phases.iter().zip(&mut best).zip(&mut best_pass) {
+                for (chunk, ((tau, best), best_pass)) in phases.iter().zip(&mut best).zip(&mut best_pass).enumerate() {
                     let rays = rays_at(&ray, tau);
                     let entries = match &segment.shape {
-                        SegmentShape::Table(table) => {
-                            enter_table(table, segment.y_range_mm, &rays, record.start_mm, 2.0 * column.low_mm)
-                        }
+                        SegmentShape::Table(table) => enter_table::<false>(
+                            table,
+                            segment.y_range_mm,
+                            &rays,
+                            record.start_mm,
+                            &[2.0 * column.low_mm; LANES],
+                        ),
                         SegmentShape::Arc { radius_mm } => enter_arc(*radius_mm, segment.y_range_mm, &rays),
                     };
-                    stats.unconverged += keep_lowest(&entries, column.low_mm, record.pass, best, best_pass);
+                    stats.unconverged += keep_lowest(
+                        &entries,
+                        rows - LANES * chunk,
+                        &[column.low_mm; LANES],
+                        record.pass,
+                        best,
+                        best_pass,
+                    );
                 }
             }
             stats.dexel_passes += (self.records.len() * rows) as u64;
@@ -111,6 +126,51 @@ impl pulp::NullaryFnOnce for TileCut<'_> {
                 *h = b as f32;
             }
             self.passes[dexels].copy_from_slice(&best_pass.as_flattened()[..rows]);
+        }
+        stats
+    }
+}
+
+impl TileCut<'_> {
+    /// The same at the phase 0 alone, where cubics are their first coefficients, for sixteen columns at a time; the last
+    /// lanes repeat the last column.
+    #[inline(always)]
+    fn columns_at_once(self) -> CutStats {
+        let mut stats = CutStats::default();
+        for start in (0..self.columns.len()).step_by(LANES) {
+            let count = LANES.min(self.columns.len() - start);
+            let columns: [&Column; LANES] = std::array::from_fn(|l| &self.columns[start + l.min(count - 1)]);
+            let of = |pick: fn(&Column) -> f64| -> RowLanes { columns.map(pick) };
+            let [n_x, n_y] = [of(|column| column.normal.x), of(|column| column.normal.y)];
+            let o_x = of(|column| column.origin_mm.x).map(|x| x - self.origin_mm.x);
+            let o_y = of(|column| column.origin_mm.y).map(|y| y - self.origin_mm.y);
+            let low_mm = of(|column| column.low_mm);
+            let lowest_mm = low_mm.map(|low_mm| 2.0 * low_mm);
+            let mut best: RowLanes = std::array::from_fn(|l| f64::from(self.heights_mm[start + l.min(count - 1)]));
+            let mut best_pass: [u32; LANES] = std::array::from_fn(|l| self.passes[start + l.min(count - 1)]);
+            for record in self.records {
+                let segment = &self.segments[record.segment as usize];
+                let ([c, s], [x, y]) = ([record.cos[0], record.sin[0]], [record.x_mm[0], record.y_mm[0]]);
+                let mut rays = RowRays { x0: [0.0; LANES], y0: [0.0; LANES], nx: [0.0; LANES], ny: [0.0; LANES] };
+                for l in 0..LANES {
+                    rays.x0[l] = x + (c * o_x[l] - s * o_y[l]);
+                    rays.y0[l] = y + (s * o_x[l] + c * o_y[l]);
+                    rays.nx[l] = c * n_x[l] - s * n_y[l];
+                    rays.ny[l] = s * n_x[l] + c * n_y[l];
+                }
+                let entries = match &segment.shape {
+                    SegmentShape::Table(table) => {
+                        enter_table::<true>(table, segment.y_range_mm, &rays, record.start_mm, &lowest_mm)
+                    }
+                    SegmentShape::Arc { radius_mm } => enter_arc(*radius_mm, segment.y_range_mm, &rays),
+                };
+                stats.unconverged += keep_lowest(&entries, count, &low_mm, record.pass, &mut best, &mut best_pass);
+            }
+            stats.dexel_passes += (self.records.len() * count) as u64;
+            for l in 0..count {
+                self.heights_mm[start + l] = best[l] as f32;
+                self.passes[start + l] = best_pass[l];
+            }
         }
         stats
     }
@@ -144,14 +204,22 @@ fn rays_at(ray: &RayCubics, tau: &RowLanes) -> RowRays {
 /// Newton's method. The residual of a convex segment is convex in h: from any place where it falls the iteration runs
 /// to the entry, from the left without overshooting. A lane that finds itself where the residual rises goes back to
 /// `lowest_mm`, where it falls if there is any entry above at all; one that gets there twice has passed the bottom of a
-/// residual without roots: its ray misses the segment.
+/// residual without roots: its ray misses the segment. Lanes go on until all have converged, or stay where they have
+/// done so if they are to be what they would be `ALONE`.
 #[inline(always)]
-fn enter_table(table: &EdgeTable, [y_from, y_to]: [f64; 2], rays: &RowRays, start_mm: f64, lowest_mm: f64) -> Entries {
+fn enter_table<const ALONE: bool>(
+    table: &EdgeTable,
+    [y_from, y_to]: [f64; 2],
+    rays: &RowRays,
+    start_mm: f64,
+    lowest_mm: &RowLanes,
+) -> Entries {
     let (y_start, y_end) = (table.y_start_mm, table.y_end_mm());
     let width = 1.0 / table.cells_per_mm;
     let last_cell = (table.cells.len() - 1) as f64;
     let mut h = [start_mm; LANES];
-    let (mut y, mut rate, mut step, mut rises) = ([0.0; LANES], [0.0; LANES], [0.0; LANES], [0.0; LANES]);
+    let (mut y, mut rate, mut rises) = ([0.0; LANES], [0.0; LANES], [0.0; LANES]);
+    let mut step = [f64::INFINITY; LANES];
     for _ in 0..MAX_STEPS {
         let (mut inside, mut cell) = ([0.0; LANES], [0.0; LANES]);
         for l in 0..LANES {
@@ -165,7 +233,7 @@ fn enter_table(table: &EdgeTable, [y_from, y_to]: [f64; 2], rays: &RowRays, star
             apart[l] = cell[l] - first;
         }
         let same = all_below(&apart, 0.5);
-        let mut residual = [0.0; LANES];
+        let (mut residual, before) = ([0.0; LANES], (step, rate));
         if same {
             let c = table.cells[first as usize];
             for l in 0..LANES {
@@ -179,9 +247,12 @@ fn enter_table(table: &EdgeTable, [y_from, y_to]: [f64; 2], rays: &RowRays, star
         }
         for l in 0..LANES {
             let newton = residual[l] / rate[l];
-            step[l] = if rate[l] < 0.0 { newton } else { h[l] - lowest_mm };
-            rises[l] += if rate[l] < 0.0 { 0.0 } else { 1.0 };
-            h[l] -= step[l];
+            let next = if rate[l] < 0.0 { newton } else { h[l] - lowest_mm[l] };
+            let rests = ALONE & (before.0[l].abs() < LAST_STEP_MM);
+            step[l] = if rests { before.0[l] } else { next };
+            rises[l] += if rests | (rate[l] < 0.0) { 0.0 } else { 1.0 };
+            rate[l] = if rests { before.1[l] } else { rate[l] };
+            h[l] -= if rests { 0.0 } else { next };
         }
         if all_below(&step, LAST_STEP_MM) {
             break;
@@ -254,16 +325,23 @@ fn enter_arc(radius_mm: f64, [y_from, y_to]: [f64; 2], rays: &RowRays) -> Entrie
     entries
 }
 
-/// Lowers the heights and gives the number of rows whose root is unknown though it may lie below what is there (from
+/// Lowers the heights and gives the number of rows, of the lanes that are `there`, whose root is unknown though it may lie below what is there (from
 /// the left Newton's method climbs towards the entry, so iterates above the height that is there do no harm); a cut
 /// deeper than the ray records is put at its lowest height, far deeper ones belong to the other side of the tooth.
 #[inline(always)]
-fn keep_lowest(entries: &Entries, low_mm: f64, pass: u32, best: &mut RowLanes, best_pass: &mut [u32; LANES]) -> u64 {
+fn keep_lowest(
+    entries: &Entries,
+    there: usize,
+    low_mm: &RowLanes,
+    pass: u32,
+    best: &mut RowLanes,
+    best_pass: &mut [u32; LANES],
+) -> u64 {
     let mut unknown = 0;
     for l in 0..LANES {
-        unknown += u64::from(entries.unconverged[l] & (entries.h[l] < best[l]));
-        let h = entries.h[l].max(low_mm);
-        let lower = entries.hit[l] & (entries.h[l] > 2.0 * low_mm) & (h < best[l]);
+        unknown += u64::from(entries.unconverged[l] & (entries.h[l] < best[l]) & (l < there));
+        let h = entries.h[l].max(low_mm[l]);
+        let lower = entries.hit[l] & (entries.h[l] > 2.0 * low_mm[l]) & (h < best[l]);
         best[l] = if lower { h } else { best[l] };
         best_pass[l] = if lower { pass } else { best_pass[l] };
     }

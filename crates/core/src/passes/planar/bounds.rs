@@ -25,9 +25,9 @@ use super::upper_bound::BoundHeights;
 use crate::dexel::field::Column;
 use crate::frame::Rigid2;
 use crate::tool::edge::{RayHit, Segment, SegmentShape};
+use crate::tool::smooth_course::SmoothCourse;
 use arrayvec::ArrayVec;
 use glam::DVec2;
-use std::borrow::Cow;
 
 /// Safety on every bound of a second derivative. C is taken at the samples; between them the edge's curvature, the
 /// angle of the ray and the height may raise it. No proof says that they raise it by less than half: what stands for it
@@ -128,61 +128,18 @@ pub struct MotionBound {
     pub turn_rad: f64,
 }
 
-/// Segments with what the bounds need of them.
-pub struct SegmentBounds<'a> {
-    /// Segments of all edges, one edge after another, without their roughness.
-    pub segments: Cow<'a, [Segment]>,
-    /// How far each stays within that course along x, mm.
-    depths_mm: Vec<f64>,
-    /// Smallest and largest dx/dy of each, roughness included.
-    slope_ranges: Vec<[f64; 2]>,
-    /// Largest curvature of each, 1/mm.
-    curvatures_per_mm: Vec<f64>,
-    /// x range of each in its own frame, mm.
-    x_ranges_mm: Vec<[f64; 2]>,
-}
+/// Courses of the segments of all edges of a tool, one edge after another.
+#[derive(Debug, Clone, Copy)]
+pub struct SegmentBounds<'a>(pub &'a [SmoothCourse]);
 
-impl<'a> SegmentBounds<'a> {
-    /// Bounds for the segments of a tool's edges.
-    pub fn new(segments: &'a [Segment]) -> Self {
-        let curvature = |s: &Segment| match &s.shape {
-            SegmentShape::Arc { radius_mm } => 1.0 / radius_mm,
-            SegmentShape::Table(table) => (0..table.cells.len())
-                .map(|i| table.curvature(table.y_start_mm + (i as f64 + 0.5) / table.cells_per_mm).abs())
-                .fold(0.0, f64::max),
-        };
-        let x_range = |s: &Segment| match &s.shape {
-            SegmentShape::Arc { radius_mm } => {
-                let half = s.y_range_mm[1];
-                [(radius_mm * radius_mm - half * half).max(0.0).sqrt() - radius_mm, 0.0]
-            }
-            SegmentShape::Table(table) => {
-                let nodes = table.cells.iter().map(|cell| cell[0]).chain([table.x_and_slope(table.y_end_mm())[0]]);
-                let [low, high] = nodes.fold([0.0, 0.0], |[low, high]: [f64; 2], x| [low.min(x), high.max(x)]);
-                // Between two nodes the segment leaves their chord by this at most: the extreme lies inside a cell.
-                let bulge_mm = CURVATURE_SAFETY * curvature(s) / (8.0 * table.cells_per_mm * table.cells_per_mm);
-                [low - bulge_mm, high + bulge_mm]
-            }
-        };
-        let rough = segments.iter().any(|segment| segment.smooth.is_some());
-        let smooth: Cow<[Segment]> =
-            if rough { segments.iter().map(Segment::smoothed).collect() } else { Cow::Borrowed(segments) };
-        Self {
-            depths_mm: segments.iter().map(Segment::depth_mm).collect(),
-            slope_ranges: segments.iter().map(|segment| segment.slope_range).collect(),
-            curvatures_per_mm: smooth.iter().map(curvature).collect(),
-            x_ranges_mm: smooth.iter().map(x_range).collect(),
-            segments: smooth,
-        }
-    }
-
+impl SegmentBounds<'_> {
     /// Whether the segment's box comes within `margin_mm` of a ray between two heights, in any sampled phase; `rays`
     /// are one place's.
     pub fn box_meets(&self, rays: &[BladeRay], segment: usize, heights_mm: [f64; 2], margin_mm: f64) -> bool {
-        let Segment { blade_from_segment, y_range_mm, .. } = &self.segments[segment];
-        let [x_low, x_high] = self.x_ranges_mm[segment];
+        let SmoothCourse { segment: Segment { blade_from_segment, y_range_mm, .. }, depth_mm, .. } = &self.0[segment];
+        let [x_low, x_high] = self.0[segment].x_range_mm;
         // A ray through the joint of two segments meets the box of both.
-        let margin_mm = margin_mm + self.depths_mm[segment] + ROUNDING_MM;
+        let margin_mm = margin_mm + depth_mm + ROUNDING_MM;
         let turn = DVec2::new(blade_from_segment.rotation.x, -blade_from_segment.rotation.y);
         rays.iter().any(|ray| {
             let o = turn.rotate(ray.origin_mm - blade_from_segment.translation_mm);
@@ -221,10 +178,9 @@ impl<'a> SegmentBounds<'a> {
         travel_mm: f64,
         motion_bound: MotionBound,
     ) -> bool {
-        let segment = &self.segments[segment_index];
+        let SmoothCourse { segment, depth_mm, curvature_per_mm: curvature, .. } = &self.0[segment_index];
         let frame = &segment.blade_from_segment;
         let turn = DVec2::new(frame.rotation.x, -frame.rotation.y);
-        let (curvature, depth_mm) = (self.curvatures_per_mm[segment_index], self.depths_mm[segment_index]);
         let reach_mm2 = sampling.cell_mm * sampling.cell_mm + travel_mm * travel_mm;
         // Over a distance d the edge's normal turns by k_e d. Twice that is given, as the aimed point moves along the
         // edge by more than d where ray and edge are steep to each other: a safety without proof, as that of the
@@ -263,7 +219,7 @@ impl<'a> SegmentBounds<'a> {
 
     /// Samples one segment's pass.
     pub fn bound(&self, near: &NearPass, pass: usize, segment_index: usize, sampling: &Sampling) -> Verdict {
-        let segment = &self.segments[segment_index];
+        let SmoothCourse { segment, depth_mm, slope_range, .. } = &self.0[segment_index];
         let segment_from_blade = segment.blade_from_segment.inverse();
         let (poses, shifts_mm) = near.blade_from_work.looks();
         let phases = near.blade_from_work.len();
@@ -277,7 +233,7 @@ impl<'a> SegmentBounds<'a> {
                 let origin = segment_from_blade.point(blade_from_work.point(ray.origin_mm));
                 let direction = segment_from_blade.direction(blade_from_work.direction(ray.normal));
                 let leaves = |slope: f64| direction.x - slope * direction.y > LEAVING_SLOPE;
-                if self.slope_ranges[segment_index].iter().all(|&slope| leaves(slope)) {
+                if slope_range.iter().all(|&slope| leaves(slope)) {
                     away += 1;
                     continue;
                 }
@@ -319,7 +275,7 @@ impl<'a> SegmentBounds<'a> {
             return Verdict::Undecided;
         }
         // What roughness moves an entry by, along the ray and along the edge.
-        let rough_mm = CURVATURE_SAFETY * self.depths_mm[segment_index] / least_cos;
+        let rough_mm = CURVATURE_SAFETY * depth_mm / least_cos;
         let lowest = heights_mm.iter().copied().fold(f64::INFINITY, f64::min) - rough_mm;
         let highest = heights_mm.iter().copied().fold(f64::NEG_INFINITY, f64::max) + rough_mm;
         if lowest <= sampling.floor_mm {

@@ -103,7 +103,7 @@ impl CutPlan {
             let first = records.len();
             for (pass, segment_index) in choose(&planner, rays, &mut seeds) {
                 let NearPass { stroke, blade, .. } = planner.near[pass];
-                let segment = &planner.bounds.segments[segment_index];
+                let segment = &planner.bounds.0[segment_index].segment;
                 let mut record = PassRecord::new(
                     set,
                     stroke,
@@ -164,7 +164,7 @@ impl<'a> PassPlanner<'a> {
         // Rays are followed down to twice their lowest height.
         let below_mm = field.columns.iter().map(|column| -column.low_mm).fold(0.0, f64::max);
         let intervals = IntervalTree::new(&near, center_mm, reach_mm + below_mm);
-        Self { edges, bounds: SegmentBounds::new(edges.segments()), near, intervals }
+        Self { edges, bounds: SegmentBounds(edges.courses()), near, intervals }
     }
 
     /// (Index of near pass, segment) pairs that may leave the lowest surface somewhere on the tile, in time order.

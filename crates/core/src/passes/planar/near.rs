@@ -28,6 +28,8 @@ const BEND_SAFETY: f64 = 1.5;
 /// / 16)). Planning with all passes begins with the same ones: the bound rests on this derivation alone.
 const BETWEEN_NODES: f64 = 2.0;
 
+/// Added to circles that hold edges and segments, mm: entries count up to a nanometre beyond a segment's ends.
+const CIRCLE_MM: f64 = 1e-5;
 /// Poses turn by less than this, or are looked at one by one: a point 100 mm away moves by 0.01 nm.
 const SAME_TURN: f64 = 1e-13;
 /// Poses further apart than this are looked at one by one, mm: what an edge bends on so short a way is a small part of
@@ -86,7 +88,7 @@ impl PhasePoses {
 
     /// The same with every pose mapped to another.
     fn map(self, to: impl Fn(Rigid2) -> Rigid2) -> Self {
-        Self { poses: self.poses.map(to), ..self }
+        if self.count == 1 { Self::frozen(to(self.poses[0])) } else { Self { poses: self.poses.map(to), ..self } }
     }
 }
 
@@ -175,11 +177,21 @@ pub fn lowest_entry(
     for pass in near {
         let (blade_from_work, edge) = (pass.middle(), edges.edge_of(pass.blade));
         let (o, n) = (blade_from_work.point(origin_mm), blade_from_work.direction(direction));
-        // The blade's circle against the ray's line.
-        if n.perp_dot(edge.center_mm - o).abs() > edge.reach_mm {
+        // A circle that holds an edge or a segment against the part of the ray on which something lower would lie.
+        let is_met = |center_mm: DVec2, reach_mm: f64, lowest: Option<f64>| {
+            let (from_ray, reach_mm) = (center_mm - o, reach_mm + CIRCLE_MM);
+            let along_mm = n.dot(from_ray);
+            n.perp_dot(from_ray).abs() <= reach_mm
+                && along_mm + reach_mm > low_mm
+                && lowest.is_none_or(|lowest| along_mm - reach_mm < lowest)
+        };
+        if !is_met(edge.center_mm, edge.reach_mm, lowest) {
             continue;
         }
         for segment in &edge.segments {
+            if !is_met(segment.blade_from_segment.translation_mm, segment.reach_mm, lowest) {
+                continue;
+            }
             let segment_from_blade = segment.blade_from_segment.inverse();
             let Some(hit) = segment.enter(segment_from_blade.point(o), segment_from_blade.direction(n)) else {
                 continue;

@@ -69,7 +69,7 @@ pub struct BladePass {
 }
 
 /// All passes of an operation.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone)]
 pub struct TurningPasses {
     /// Id of the first pass.
     pub first_pass: u32,

@@ -1,13 +1,12 @@
 //! Where an earlier operation cuts below the flanks that finishing is to leave, known before anything is cut.
 //!
-//! In: the envelopes of all operations ([`TargetFlank`]). Out: for every operation that cuts too deep its deepest
+//! In: the envelopes of all operations ([`ShapingJob::envelope_flank`]). Out: for every operation that cuts too deep its deepest
 //! place. Law: at the same heights over the pitch curve the point of the earlier envelope stands off the finished one
 //! by (p - q) n, n the finished flank's normal; negative is a gouge of the finished gear that no later stroke mends.
 //!
 //! Road not taken: dexels of both. They know the strokes as well, but only once they are cut.
 
 use crate::process::shaping::ShapingJob;
-use crate::process::shaping::target::TargetFlank;
 use crate::steps::flanks_of;
 use gearcut_core::terms::Side;
 use rayon::prelude::*;
@@ -65,7 +64,7 @@ fn of_operation(job: &ShapingJob, operation: usize) -> Option<BelowFinished> {
 /// Largest depth on a flank and its height over the pitch curve, mm; none where the operation generates no flank there.
 fn deepest_mm(job: &ShapingJob, operation: usize, tooth: u32, side: Side) -> Option<[f64; 2]> {
     let finished = job.target_flank(tooth, side);
-    let earlier = TargetFlank::new(job.generation(operation), &job.blank, tooth, side).ok()?;
+    let earlier = job.envelope_flank(operation, tooth, side)?;
     let height_mm = |arc_mm: f64| {
         let contact = finished.at_arc(arc_mm);
         job.blank.height(contact.point_mm, contact.phi_rad).0

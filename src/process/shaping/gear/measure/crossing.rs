@@ -7,7 +7,6 @@
 
 use crate::measure::crossing::Crossing;
 use crate::process::shaping::ShapingJob;
-use crate::process::shaping::target::TargetFlank;
 use gearcut_core::error::NotConverged;
 use gearcut_core::math::convergence::{Step, iterate};
 use gearcut_core::passes::planar::near::{lowest_entry, near_passes};
@@ -26,7 +25,7 @@ pub fn envelope_crossing(job: &ShapingJob, operation: usize, tooth: u32, side: S
     if operation + 1 == job.operations.len() {
         return job.target(tooth).pitch_crossing(side);
     }
-    TargetFlank::new(job.generation(operation), &job.blank, tooth, side).ok()?.pitch_crossing(&job.blank)
+    job.envelope_flank(operation, tooth, side)?.pitch_crossing(&job.blank)
 }
 
 /// Crossing of what the strokes of some operations leave in the middle of the face, on one flank; `start` is a crossing

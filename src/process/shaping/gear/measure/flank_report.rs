@@ -121,16 +121,14 @@ pub fn evaluated_profile_mm(job: &ShapingJob, flank: &TargetFlank) -> [f64; 2] {
 
 /// Arc of a flank at the height where an operation's own involute begins, mm; 0 where it begins below the flank.
 fn begins_mm(job: &ShapingJob, operation: usize, flank: &TargetFlank) -> f64 {
-    let height_mm = |of: &TargetFlank, arc_mm: f64| {
-        let contact = of.at_arc(arc_mm);
+    let begin_mm = |of: &TargetFlank| {
+        let contact = of.form_contact();
         job.blank.height(contact.point_mm, contact.phi_rad).0
     };
-    let own = TargetFlank::new(job.generation(operation), &job.blank, flank.tooth, flank.side);
-    let Ok(own) = own else { return 0.0 };
-    let begin_mm = height_mm(&own, 0.0);
-    match flank.at_height(&job.blank, begin_mm) {
+    let Some(own_mm) = job.envelope_flank(operation, flank.tooth, flank.side).map(begin_mm) else { return 0.0 };
+    match flank.at_height(&job.blank, own_mm) {
         Some((arc_mm, _)) => arc_mm,
-        None if begin_mm > height_mm(flank, 0.0) => flank.length_mm(),
+        None if own_mm > begin_mm(flank) => flank.length_mm(),
         None => 0.0,
     }
 }

@@ -43,7 +43,7 @@ pub struct GearReport {
     pub roots: Vec<RootReport>,
     /// Tip land of each tooth, mm.
     pub tip_lands_mm: Vec<f64>,
-    /// Allowances of every operation but the last.
+    /// Allowances of every operation but the last, if they were wanted.
     pub allowances: Vec<OperationAllowance>,
     /// Pitch, runout and thickness of what the strokes leave.
     pub inspection: GearInspection,
@@ -60,8 +60,14 @@ impl GearReport {
     }
 }
 
-/// Measures what belongs to the whole gear; `flanks` and `roots` as far as they were cut.
-pub fn measure(job: &ShapingJob, flanks: Vec<FlankReport>, roots: Vec<RootReport>) -> GearReport {
+/// Measures what belongs to the whole gear; `flanks` and `roots` as far as they were cut, allowances where they are
+/// wanted.
+pub fn measure(
+    job: &ShapingJob,
+    flanks: Vec<FlankReport>,
+    roots: Vec<RootReport>,
+    wants_allowances: bool,
+) -> GearReport {
     let teeth = job.scene.gear.teeth;
     let last = job.operations.len() - 1;
     let mut unsettled = BTreeSet::new();
@@ -78,13 +84,14 @@ pub fn measure(job: &ShapingJob, flanks: Vec<FlankReport>, roots: Vec<RootReport
         unsettled.extend(found.unsettled.into_iter().filter(|flank| !lost.contains(flank)));
         found.teeth
     };
-    let envelope = crossings_of(last, CrossedSurface::Envelope);
     let finished = crossings_of(last, CrossedSurface::Strokes);
+    let earlier = if wants_allowances { 0..last } else { 0..0 };
+    let envelope = if earlier.is_empty() { Vec::new() } else { crossings_of(last, CrossedSurface::Envelope) };
     // B and C of every operation: against what finishing alone leaves, cuts that went below it keep their sign. Where
     // it does not reach a flank, that is finished as it is.
-    let own = if last > 0 { crossings_of(last, CrossedSurface::OwnStrokes) } else { Vec::new() };
+    let own = if earlier.is_empty() { Vec::new() } else { crossings_of(last, CrossedSurface::OwnStrokes) };
     let own: Vec<_> = own.iter().zip(&finished).map(|(own, all)| [own[0].or(all[0]), own[1].or(all[1])]).collect();
-    let allowances = (0..last)
+    let allowances = earlier
         .map(|operation| OperationAllowance {
             operation,
             rack_mm: rack_allowance_mm(job, operation),

@@ -41,12 +41,18 @@ pub fn tell(job: &ShapingJob, flank: &TargetFlank, field: &Field, columns: Field
 /// How deep in the tooth a ray leaves it through a flank, mm; none where it does not.
 fn through_mm(column: &Column, flank_mm: &[DVec2]) -> Option<f64> {
     let inwards = -column.normal;
-    let met = |chord: &[DVec2]| {
-        let [from, to] = [chord[0], chord[1]].map(|point| point - column.origin_mm);
-        let [a, b] = [from, to].map(|point| inwards.perp_dot(point));
+    let aside = |point: &DVec2| (*point - column.origin_mm, inwards.perp_dot(*point - column.origin_mm));
+    let mut deepest: Option<f64> = None;
+    let mut before = aside(flank_mm.first()?);
+    for point in &flank_mm[1..] {
+        let ((from, a), (to, b)) = (std::mem::replace(&mut before, aside(point)), aside(point));
         // The chord crosses the ray's line between its ends.
-        let depth_mm = inwards.dot(from.lerp(to, a / (a - b)));
-        (a * b <= 0.0 && a != b && depth_mm >= 0.0).then_some(depth_mm)
-    };
-    flank_mm.windows(2).filter_map(met).reduce(f64::min)
+        if a * b <= 0.0 && a != b {
+            let depth_mm = inwards.dot(from.lerp(to, a / (a - b)));
+            if depth_mm >= 0.0 {
+                deepest = Some(deepest.map_or(depth_mm, |known| known.min(depth_mm)));
+            }
+        }
+    }
+    deepest
 }
