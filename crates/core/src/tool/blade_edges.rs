@@ -10,9 +10,9 @@
 //! The road not taken: an edge number beside the segment's in every record. It would be one more look-up for each
 //! record, and kernels would have to know what an edge is.
 
-use super::closed_tooth::ToothOutline;
+use super::closed_tooth::ToothPolygon;
 use super::edge::{Edge, Segment};
-use super::smooth_course::SmoothCourse;
+use super::segment_course::SegmentCourse;
 use std::ops::Range;
 use std::sync::{Arc, OnceLock};
 
@@ -24,8 +24,8 @@ pub struct BladeEdges {
     first: Vec<usize>,
     segments: Arc<[Segment]>,
     pattern: Vec<usize>,
-    courses: Arc<OnceLock<Vec<SmoothCourse>>>,
-    outlines: Arc<OnceLock<Vec<ToothOutline>>>,
+    courses: Arc<OnceLock<Vec<SegmentCourse>>>,
+    outlines: Arc<OnceLock<Vec<ToothPolygon>>>,
 }
 
 impl BladeEdges {
@@ -71,13 +71,13 @@ impl BladeEdges {
     }
 
     /// Their courses without roughness, in the same order.
-    pub fn courses(&self) -> &[SmoothCourse] {
-        self.courses.get_or_init(|| self.segments.iter().map(SmoothCourse::new).collect())
+    pub fn courses(&self) -> &[SegmentCourse] {
+        self.courses.get_or_init(|| self.segments.iter().map(SegmentCourse::new).collect())
     }
 
     /// The teeth of the different edges, closed through the tool's body to its axis.
-    pub fn outlines(&self) -> &[ToothOutline] {
-        self.outlines.get_or_init(|| self.edges.iter().map(ToothOutline::new).collect())
+    pub fn outlines(&self) -> &[ToothPolygon] {
+        self.outlines.get_or_init(|| self.edges.iter().map(ToothPolygon::new).collect())
     }
 
     /// Number of a blade's edge.

@@ -86,14 +86,14 @@ impl ClosedTooth {
 
 /// A tooth through the tool's body to its axis, as a polygon in the blade frame.
 #[derive(Debug, Clone)]
-pub struct ToothOutline {
+pub struct ToothPolygon {
     /// Its corners, mm.
     pub corners_mm: Vec<DVec2>,
     /// The box that holds them: most places lie outside of it.
     box_mm: [DVec2; 2],
 }
 
-impl ToothOutline {
+impl ToothPolygon {
     /// Of an edge.
     pub fn new(edge: &Edge) -> Self {
         let corners_mm = ClosedTooth::new(edge, 0.0).nodes_mm;
@@ -108,11 +108,15 @@ impl ToothOutline {
         if p.cmplt(low).any() || p.cmpgt(high).any() {
             return false;
         }
-        let before = self.corners_mm.iter().cycle().skip(self.corners_mm.len() - 1);
-        let crossed = before
-            .zip(&self.corners_mm)
-            .filter(|(a, b)| (a.y > p.y) != (b.y > p.y) && p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x));
-        crossed.count() % 2 == 1
+        let Some(mut a) = self.corners_mm.last() else { return false };
+        let mut is_inside = false;
+        for b in &self.corners_mm {
+            if (a.y > p.y) != (b.y > p.y) && p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x) {
+                is_inside = !is_inside;
+            }
+            a = b;
+        }
+        is_inside
     }
 }
 

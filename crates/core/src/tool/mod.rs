@@ -12,7 +12,7 @@ pub mod edge;
 pub mod edge_profile;
 pub mod edge_table;
 pub mod involute;
-pub mod smooth_course;
+pub mod segment_course;
 
 use crate::frame::{Rigid2, Rigid3};
 use blade_edges::BladeEdges;

@@ -132,8 +132,8 @@ impl pulp::NullaryFnOnce for TileCut<'_> {
 }
 
 impl TileCut<'_> {
-    /// The same at the phase 0 alone, where cubics are their first coefficients, for sixteen columns at a time; the last
-    /// lanes repeat the last column.
+    /// The same at the phase 0 alone, where cubics are their first coefficients, for sixteen columns at a time; the
+    /// last lanes repeat the last column.
     #[inline(always)]
     fn columns_at_once(self) -> CutStats {
         let mut stats = CutStats::default();
@@ -325,9 +325,10 @@ fn enter_arc(radius_mm: f64, [y_from, y_to]: [f64; 2], rays: &RowRays) -> Entrie
     entries
 }
 
-/// Lowers the heights and gives the number of rows, of the lanes that are `there`, whose root is unknown though it may lie below what is there (from
-/// the left Newton's method climbs towards the entry, so iterates above the height that is there do no harm); a cut
-/// deeper than the ray records is put at its lowest height, far deeper ones belong to the other side of the tooth.
+/// Lowers the heights and gives the number of lanes, of so many that are `there`, whose root is unknown though it may
+/// lie below what is there (from the left Newton's method climbs towards the entry, so iterates above the height that
+/// is there do no harm); a cut deeper than the ray records is put at its lowest height, far deeper ones belong to the
+/// other side of the tooth.
 #[inline(always)]
 fn keep_lowest(
     entries: &Entries,

@@ -25,7 +25,7 @@ use super::upper_bound::BoundHeights;
 use crate::dexel::field::Column;
 use crate::frame::Rigid2;
 use crate::tool::edge::{RayHit, Segment, SegmentShape};
-use crate::tool::smooth_course::SmoothCourse;
+use crate::tool::segment_course::SegmentCourse;
 use arrayvec::ArrayVec;
 use glam::DVec2;
 
@@ -130,13 +130,13 @@ pub struct MotionBound {
 
 /// Courses of the segments of all edges of a tool, one edge after another.
 #[derive(Debug, Clone, Copy)]
-pub struct SegmentBounds<'a>(pub &'a [SmoothCourse]);
+pub struct SegmentBounds<'a>(pub &'a [SegmentCourse]);
 
 impl SegmentBounds<'_> {
     /// Whether the segment's box comes within `margin_mm` of a ray between two heights, in any sampled phase; `rays`
     /// are one place's.
     pub fn box_meets(&self, rays: &[BladeRay], segment: usize, heights_mm: [f64; 2], margin_mm: f64) -> bool {
-        let SmoothCourse { segment: Segment { blade_from_segment, y_range_mm, .. }, depth_mm, .. } = &self.0[segment];
+        let SegmentCourse { segment: Segment { blade_from_segment, y_range_mm, .. }, depth_mm, .. } = &self.0[segment];
         let [x_low, x_high] = self.0[segment].x_range_mm;
         // A ray through the joint of two segments meets the box of both.
         let margin_mm = margin_mm + depth_mm + ROUNDING_MM;
@@ -178,7 +178,7 @@ impl SegmentBounds<'_> {
         travel_mm: f64,
         motion_bound: MotionBound,
     ) -> bool {
-        let SmoothCourse { segment, depth_mm, curvature_per_mm: curvature, .. } = &self.0[segment_index];
+        let SegmentCourse { segment, depth_mm, curvature_per_mm: curvature, .. } = &self.0[segment_index];
         let frame = &segment.blade_from_segment;
         let turn = DVec2::new(frame.rotation.x, -frame.rotation.y);
         let reach_mm2 = sampling.cell_mm * sampling.cell_mm + travel_mm * travel_mm;
@@ -219,7 +219,7 @@ impl SegmentBounds<'_> {
 
     /// Samples one segment's pass.
     pub fn bound(&self, near: &NearPass, pass: usize, segment_index: usize, sampling: &Sampling) -> Verdict {
-        let SmoothCourse { segment, depth_mm, slope_range, .. } = &self.0[segment_index];
+        let SegmentCourse { segment, depth_mm, slope_range, .. } = &self.0[segment_index];
         let segment_from_blade = segment.blade_from_segment.inverse();
         let (poses, shifts_mm) = near.blade_from_work.looks();
         let phases = near.blade_from_work.len();

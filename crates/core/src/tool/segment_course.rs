@@ -1,7 +1,7 @@
 //! A segment's course without its roughness, with what bounds of passes ask of it: how far it bends, the box that
 //! holds it.
 //!
-//! In: a segment of an edge. Out: a [`SmoothCourse`]. It follows from the segment alone: [`super::blade_edges`] keeps
+//! In: a segment of an edge. Out: a [`SegmentCourse`]. It follows from the segment alone: [`super::blade_edges`] keeps
 //! those of a tool for all fields that are cut with it.
 
 use super::edge::{Segment, SegmentShape};
@@ -12,7 +12,7 @@ const BULGE_SAFETY: f64 = 1.5;
 
 /// A segment as bounds see it.
 #[derive(Debug, Clone, PartialEq)]
-pub struct SmoothCourse {
+pub struct SegmentCourse {
     /// Without its roughness.
     pub segment: Segment,
     /// How far the segment stays within that course along x, mm.
@@ -25,7 +25,7 @@ pub struct SmoothCourse {
     pub x_range_mm: [f64; 2],
 }
 
-impl SmoothCourse {
+impl SegmentCourse {
     /// Of a segment.
     pub fn new(of: &Segment) -> Self {
         let segment = of.smoothed();
