@@ -15,7 +15,7 @@
 use gearcut::measure::crossing::Crossing;
 use gearcut::process::shaping::ShapingJob;
 use gearcut::process::shaping::gear::measure::unevenness::{
-    CrossedSurface, ToothCrossings, allowances, crossings, summarise,
+    CrossedSurface, ToothAllowance, ToothCrossings, allowances, crossings, summarise,
 };
 use gearcut::random::Draws;
 use glam::DVec2;
@@ -80,7 +80,7 @@ impl Crossed {
             Some(teeth.as_ref()?.iter().map(|sides| [Some(sides[0][of]), Some(sides[1][of])]).collect())
         };
         let found = allowances(&surface(0)?, &surface(1)?);
-        Some(summarise(found.iter().map(|tooth| tooth.unevenness_mean_percent()))?.mean_percent)
+        Some(summarise(found.iter().map(ToothAllowance::unevenness_mean_percent))?.mean_percent)
     }
 }
 
@@ -158,9 +158,9 @@ pub fn print() -> Found<()> {
                 // A tooth without an allowance has no unevenness: too far.
                 let percents = (cause.percents)(gear, middle);
                 if percents.is_some_and(|all| super::mean(&all) < measured) {
-                    low_um = middle
+                    low_um = middle;
                 } else {
-                    high_um = middle
+                    high_um = middle;
                 }
             }
             let found = [&normal, &traditional].map(|gear| (cause.percents)(gear, low_um));
