@@ -20,9 +20,8 @@ use gearcut::process::shaping::gear::measure::unevenness::{
 use gearcut::random::Draws;
 use glam::DVec2;
 use std::f64::consts::TAU;
-use std::path::Path;
 
-use super::{Found, GEAR, PERIOD};
+use super::{Found, PERIOD, mean, range_words, scene};
 
 /// Measured unevenness in the mean of the first period, percent: normally and traditionally roughed gear.
 const MEASURED_PERCENT: [f64; 2] = [4.95, 110.21];
@@ -41,9 +40,7 @@ struct Crossed {
 
 impl Crossed {
     fn new(linkage: &str) -> Found<Self> {
-        let text = GEAR.replace("LINKAGE", linkage);
-        let scene = gearcut::parse(&text, "paper.toml", Path::new(""), &[]).map_err(|e| e.to_string())?.scene;
-        let job = ShapingJob::new(scene)?;
+        let job = ShapingJob::new(scene(linkage, &[])?)?;
         let [rough, finish] = [0, 1].map(|operation| crossings(&job, operation, CrossedSurface::Strokes).teeth);
         Ok(Self { job, rough, finish })
     }
@@ -136,11 +133,6 @@ const CAUSES: [Cause; 3] = [
     },
 ];
 
-fn words(percents: &[f64]) -> String {
-    let (low, high) = percents.iter().fold((f64::INFINITY, 0.0_f64), |(l, h), &v| (l.min(v), h.max(v)));
-    format!("{:.2} ({low:.2} to {high:.2})", super::mean(percents))
-}
-
 /// Prints a row for each cause and each measured value that it is fitted to.
 pub fn print() -> Found<()> {
     let [normal, traditional] = [Crossed::new("normal")?, Crossed::new("traditional")?];
@@ -157,14 +149,14 @@ pub fn print() -> Found<()> {
                 let middle = (low_um * high_um).sqrt();
                 // A tooth without an allowance has no unevenness: too far.
                 let percents = (cause.percents)(gear, middle);
-                if percents.is_some_and(|all| super::mean(&all) < measured) {
+                if percents.is_some_and(|all| mean(&all) < measured) {
                     low_um = middle;
                 } else {
                     high_um = middle;
                 }
             }
             let found = [&normal, &traditional].map(|gear| (cause.percents)(gear, low_um));
-            let cells = found.map(|all| all.map_or_else(|| "none".to_owned(), |all| words(&all)));
+            let cells = found.map(|all| all.map_or_else(|| "none".to_owned(), |all| range_words(&all)));
             println!("| {} | {name} | {}: {low_um:.1} | {} | {} |", cause.name, cause.size, cells[0], cells[1]);
         }
     }

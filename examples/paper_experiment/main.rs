@@ -24,6 +24,7 @@ use gearcut::output::table::write_table;
 use gearcut::process::shaping::ShapingJob;
 use gearcut::process::shaping::cut::chips::deflections;
 use gearcut::process::shaping::gear::measure::unevenness::{CrossedSurface, allowances, crossings, summarise};
+use gearcut::scene::Scene;
 use gearcut::scene::model::{TextureFilters, TextureWindow, WindowSides};
 use gearcut::texture::{cut_window, windows};
 use rayon::prelude::*;
@@ -207,10 +208,15 @@ fn mean(values: &[f64]) -> f64 {
     values.iter().sum::<f64>() / values.len() as f64
 }
 
+/// The gear roughed by a linkage.
+fn scene(linkage: &str, settings: &[String]) -> Found<Scene> {
+    let text = GEAR.replace("LINKAGE", linkage);
+    Ok(gearcut::parse(&text, "paper.toml", Path::new(""), settings).map_err(|e| e.to_string())?.scene)
+}
+
 /// Cuts one gear.
 fn cut(linkage: &str, settings: &[String]) -> Found<Gear> {
-    let text = GEAR.replace("LINKAGE", linkage);
-    let mut scene = gearcut::parse(&text, "paper.toml", Path::new(""), settings).map_err(|e| e.to_string())?.scene;
+    let mut scene = scene(linkage, settings)?;
     scene.textures = LENGTHS_MM
         .into_iter()
         .flat_map(|length_mm| TEETH.map(|tooth| (length_mm, tooth)))

@@ -1,7 +1,10 @@
 //! `gearcut check`: facts, warnings, every committed scene, in a second.
 
 use crate::fixtures::command::{gearcut, gearcut_briefly, gearcut_in};
-use gearcut::process::PROCESSES;
+use gearcut::passes::SweepPlan;
+use gearcut::process::hobbing::{HobCutter, HobbingJob};
+use gearcut::process::{PROCESSES, load};
+use gearcut::terms::Side;
 use std::path::Path;
 
 const PAPER: &str = "scenes/shaping/elliptical_normal.toml";
@@ -79,6 +82,12 @@ fn limits_undercut_and_narrow_tips_are_warned_about() {
     assert!(undercut.err.contains("warning: the cutter undercuts tooth 1 left"), "{}", undercut.err);
 }
 
+/// The number before the words `after` on standard output.
+fn number_before(out: &str, after: &str) -> f64 {
+    let words = out.split(after).next().expect("words").split_whitespace().next_back().expect("a number");
+    words.parse().unwrap_or_else(|_| panic!("{words} is no number"))
+}
+
 mod slow {
     use super::*;
 
@@ -111,6 +120,33 @@ mod slow {
                 count += 1;
             }
             assert_eq!(count, process.scenes.lines().count(), "scenes for {}", process.name);
+        }
+    }
+
+    /// What `check` expects of a hobbed gear, against all that its cut would do.
+    #[test]
+    fn the_cost_of_hobbing_is_that_of_its_plans() {
+        const SCENE: &str = "scenes/hobbing/third_order_diagonal.toml";
+        let settings =
+            ["fields.flank.profile_spacing_um=60", "fields.flank.lead_spacing_um=60", "gear.face_width_mm=20"];
+        let arguments = [&["check", SCENE][..], &settings.map(|setting| ["--set", setting]).concat()].concat();
+        let out = gearcut(&arguments).done().out;
+        let scene = load(Path::new(SCENE), &settings.map(str::to_owned)).expect("the scene").scene;
+        let job = HobbingJob::new(&scene).expect("the gear");
+        let cutter = HobCutter::new(&job).expect("passes");
+        let (mut dexels, mut evaluations) = (0, 0);
+        for (tooth, side) in (1..=35).flat_map(|tooth| [(tooth, Side::Left), (tooth, Side::Right)]) {
+            let field = cutter.rays(tooth, side).expect("a flank").1.field;
+            let plan = SweepPlan::new(&field, &cutter.operations[0]);
+            dexels += field.len();
+            evaluations += plan.dexel_passes();
+        }
+        for (what, found, expected, tolerance) in [
+            ("dexels", 1e6 * number_before(&out, " million in all"), dexels as f64, 0.02),
+            ("evaluations", 1e6 * number_before(&out, " million dexels against"), evaluations as f64, 0.1),
+        ] {
+            println!("{what}: {found} estimated, {expected} planned");
+            assert!((found / expected - 1.0).abs() < tolerance, "{what}: {found} estimated, {expected} planned");
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Where an earlier operation cuts below the flanks that finishing is to leave, known before anything is cut.
 //!
 //! In: the envelopes of all operations ([`ShapingJob::envelope_flank`]). Out: for every operation that cuts too deep
-//! its deepest place. Law: at the same heights over the pitch curve the point of the earlier envelope stands off the
+//! its deepest place. Law: at the same heights over the pitch curve the point of the earlier envelope is off the
 //! finished one by (p - q) n, n the finished flank's normal; negative is a gouge of the finished gear that no later
 //! stroke mends.
 //!
