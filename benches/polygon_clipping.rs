@@ -114,13 +114,14 @@ fn gearcut_flanks(backend: Cpu, rows: usize) -> Cut {
 /// One cutter tooth as a polygon in its own frame: flanks of `chords` chords with equal arrow heights, a tip arc,
 /// straight below the base circle.
 fn tooth_polygon(cutter: &ShaperCutter, chords: usize) -> Vec<DVec2> {
-    let root_mm = cutter.base_radius_mm - 2.0;
+    let tooth = cutter.involute().expect("involute flanks");
+    let root_mm = tooth.base_radius_mm - 2.0;
     let flank = |side: f64| -> Vec<DVec2> {
-        let involute: Involute = cutter.flank(side);
+        let involute: Involute = tooth.flank(side);
         let tip_roll = involute.roll_at_radius(cutter.tip_radius_mm);
         // The arrow height of a chord is r_b u du^2 / 8: equal steps of u^(3/2) make all of them equal.
         let on_flank = (0..=chords).map(|i| involute.point(tip_roll * (i as f64 / chords as f64).powf(2.0 / 3.0)));
-        let root = root_mm * DVec2::from_angle(side * cutter.half_angle_rad);
+        let root = root_mm * DVec2::from_angle(side * tooth.half_angle_rad);
         std::iter::once(root).chain(on_flank).collect()
     };
     let (mut outline, mut left) = (flank(-1.0), flank(1.0));
@@ -220,12 +221,13 @@ fn outline_height_mm(edges: &[[DVec2; 2]], origin: DVec2, normal: DVec2) -> f64 
 /// Height at which a ray enters one cutter flank, from the closed form of the distance to an involute,
 /// `r_b (sigma theta + u - atan u - psi_b)`.
 fn involute_height_mm(cutter: &ShaperCutter, side: f64, origin: DVec2, direction: DVec2) -> Option<f64> {
-    let r_b = cutter.base_radius_mm;
+    let tooth = cutter.involute()?;
+    let r_b = tooth.base_radius_mm;
     let mut h = -0.05;
     for _ in 0..60 {
         let p = origin + h * direction;
         let u = ((p.length() / r_b).powi(2) - 1.0).max(0.0).sqrt();
-        let distance = r_b * (side * p.to_angle() + u - u.atan() - cutter.half_angle_rad);
+        let distance = r_b * (side * p.to_angle() + u - u.atan() - tooth.half_angle_rad);
         let rate = DVec2::from_angle(p.to_angle() + side * (FRAC_PI_2 - u.atan())).dot(direction);
         if p.x <= 0.0 || rate > -0.05 {
             return None;

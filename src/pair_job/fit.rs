@@ -95,6 +95,12 @@ impl Fit {
     ) -> Result<Self, Refusal> {
         let (a, b) = (&driver.gear, &driven.gear);
         kinds(a, b)?;
+        for (scene, name) in [(driver, "A"), (driven, "B")] {
+            if let Some(key) = scene.process.other_teeth_key() {
+                let problem = format!("gear {name} has drawn teeth, and pairs are followed by the law of involutes");
+                return Err(Refusal::new(key, problem, "roll gears whose tools have involute teeth"));
+            }
+        }
         teeth_alike(a, b)?;
         let named_mm = match center_distance_mm {
             Some(named_mm) => Some(named_mm),

@@ -1,7 +1,7 @@
-//! The closed contour of a drawing: text of a DXF file in, its points in mm out.
+//! The contour of a drawing, closed or open: text of a DXF file in, its points in mm out.
 //!
 //! Polylines with bulges, lines, arcs, circles, ellipses and splines (NURBS) of the model space are joined end to end.
-//! Where curves lie on the layer [`LAYER`], others are not looked at. What cannot be read for certain is refused:
+//! Where curves lie on the contour's layer, others are not looked at. What cannot be read for certain is refused:
 //! drawings without a unit, gaps, several contours, blocks, planes other than xy.
 //!
 //! Road not taken: the crate `dxf` brings `chrono`, `uuid` and a minute of compilation for seven kinds of curves.
@@ -13,7 +13,7 @@ use std::f64::consts::TAU;
 use std::ops::Range;
 
 /// Layer of the pitch curve, as the export of sections writes it.
-pub(super) const LAYER: &str = "PITCH_CURVE";
+const PITCH_CURVE: &str = "PITCH_CURVE";
 /// Ends of pieces that are one point, mm.
 const JOINED_MM: f64 = 1e-4;
 /// Most pieces that are joined.
@@ -25,10 +25,10 @@ const SPAN_POINTS: usize = 32;
 /// Largest degree of a spline.
 const MOST_DEGREE: usize = 25;
 
-/// A closed contour.
+/// A contour.
 #[derive(Debug)]
-pub(super) struct DrawnContour {
-    /// Its points in the order of the drawing, the first one not repeated, mm.
+pub(crate) struct DrawnContour {
+    /// Its points in the order of the drawing, the first one of a closed contour not repeated, mm.
     pub points_mm: Vec<DVec2>,
     /// Whether a piece of it is an arc, an ellipse or a spline; else its points are those of the drawing.
     pub is_curved: bool,
@@ -39,7 +39,7 @@ struct ContourPiece {
     points: Vec<DVec2>,
     is_curved: bool,
     is_closed: bool,
-    is_on_layer: bool,
+    layer: String,
 }
 
 /// A value, its group code, and where it is in the text.
@@ -53,6 +53,8 @@ struct DxfGroup<'a> {
 struct DxfText<'a> {
     name: &'a str,
     text: &'a str,
+    /// Layer of the contour.
+    layer: &'static str,
 }
 
 /// An entity: its groups, the first of which is its kind.
@@ -63,22 +65,31 @@ struct DxfEntity<'a, 'g> {
 
 type Refused = Box<Problem>;
 
-/// The contour of a drawing; `name` is the file's, for messages.
+/// The closed contour of a drawing, that of a pitch curve; `name` is the file's, for messages.
 pub(super) fn contour(name: &str, text: &str) -> Result<DrawnContour, Refused> {
-    let drawing = DxfText { name, text };
-    let groups = drawing.groups()?;
-    let unit_mm = drawing.unit_mm(&groups)?;
-    let mut pieces = drawing.pieces(&groups)?;
-    if pieces.iter().any(|piece| piece.is_on_layer) {
-        pieces.retain(|piece| piece.is_on_layer);
-    }
-    for point in pieces.iter_mut().flat_map(|piece| &mut piece.points) {
-        *point *= unit_mm;
-    }
-    drawing.joined(pieces)
+    DxfText { name, text, layer: PITCH_CURVE }.contour(true)
+}
+
+/// The open contour of a drawing, on a layer of this name if the drawing has it; `name` is the file's, for messages.
+pub(crate) fn open_contour(name: &str, text: &str, layer: &'static str) -> Result<DrawnContour, Refused> {
+    DxfText { name, text, layer }.contour(false)
 }
 
 impl<'a> DxfText<'a> {
+    fn contour(&self, is_closed: bool) -> Result<DrawnContour, Refused> {
+        let groups = self.groups()?;
+        let unit_mm = self.unit_mm(&groups)?;
+        let mut pieces = self.pieces(&groups)?;
+        let is_on_layer = |piece: &ContourPiece| piece.layer.eq_ignore_ascii_case(self.layer);
+        if pieces.iter().any(is_on_layer) {
+            pieces.retain(is_on_layer);
+        }
+        for point in pieces.iter_mut().flat_map(|piece| &mut piece.points) {
+            *point *= unit_mm;
+        }
+        self.joined(pieces, is_closed)
+    }
+
     fn refuse<T>(&self, span: Range<usize>, message: impl Into<String>, way_out: &str) -> Result<T, Refused> {
         let place = line_place(self.name, self.text, span);
         Err(Box::new(Problem { place, message: message.into(), way_out: way_out.to_owned() }))
@@ -169,16 +180,18 @@ impl<'a> DxfText<'a> {
     }
 
     /// The one contour that the pieces are; lengths in mm.
-    fn joined(&self, mut pieces: Vec<ContourPiece>) -> Result<DrawnContour, Refused> {
+    fn joined(&self, mut pieces: Vec<ContourPiece>, is_closed: bool) -> Result<DrawnContour, Refused> {
         // A line without length closes nothing.
         pieces.retain(|piece| piece.points.iter().any(|point| point.distance(piece.points[0]) > JOINED_MM));
-        let alone = format!("put the curve alone into the drawing, or on a layer {LAYER}");
+        let alone = format!("put the curve alone into the drawing, or on a layer {}", self.layer);
         if pieces.is_empty() {
             let message = "the drawing has no polyline, line, arc, circle, ellipse or spline in model space";
             return self.refuse_all(message, &alone);
         }
         let mut whole = pieces.swap_remove(0);
-        while !whole.is_closed {
+        // An open contour grows from both ends of the piece that it begins with.
+        let mut ends_left = if is_closed { 1 } else { 2 };
+        while !whole.is_closed && ends_left > 0 {
             let end = whole.points[whole.points.len() - 1];
             let gap_mm = |piece: &ContourPiece| {
                 let ends = [piece.points[0], piece.points[piece.points.len() - 1]].map(|point| point.distance(end));
@@ -194,11 +207,21 @@ impl<'a> DxfText<'a> {
             let nearest = (0..pieces.len()).min_by(|&a, &b| of(a)[0].min(of(a)[1]).total_cmp(&of(b)[0].min(of(b)[1])));
             let nearest = nearest.map(|i| (i, of(i))).filter(|(_, gap)| gap[0].min(gap[1]) <= JOINED_MM);
             let Some((i, gap)) = nearest else {
-                let others_mm = (0..pieces.len()).flat_map(of).fold(own_mm, f64::min);
-                return self.refuse_all(
-                    format!("the contour is open at x {:.4}, y {:.4} mm: a gap of {others_mm:.4} mm", end.x, end.y),
-                    "join its ends in CAD; ends within 0.0001 mm are one point",
-                );
+                ends_left -= 1;
+                let others_mm = (0..pieces.len()).flat_map(of).fold(f64::INFINITY, f64::min);
+                if is_closed {
+                    return self.gap(end, others_mm.min(own_mm));
+                }
+                if ends_left == 0 && !pieces.is_empty() {
+                    let other = whole.points[0];
+                    let other_mm = |piece: &ContourPiece| {
+                        piece.points.iter().map(|p| p.distance(other)).fold(f64::INFINITY, f64::min)
+                    };
+                    let other_mm = pieces.iter().map(other_mm).fold(f64::INFINITY, f64::min);
+                    return if other_mm < others_mm { self.gap(other, other_mm) } else { self.gap(end, others_mm) };
+                }
+                whole.points.reverse();
+                continue;
             };
             let mut piece = pieces.swap_remove(i);
             if gap[1] < gap[0] {
@@ -210,12 +233,24 @@ impl<'a> DxfText<'a> {
         if !pieces.is_empty() {
             return self.refuse_all("the drawing has more than one contour", &alone);
         }
+        if whole.is_closed && !is_closed {
+            let way_out = "draw one tooth from root to root and leave the body out";
+            return self.refuse_all("the contour is closed, and one with two ends is needed", way_out);
+        }
         let mut points_mm = whole.points;
         points_mm.dedup_by(|a, b| a.distance(*b) <= JOINED_MM);
-        while points_mm.len() > 1 && points_mm[0].distance(points_mm[points_mm.len() - 1]) <= JOINED_MM {
+        while is_closed && points_mm.len() > 1 && points_mm[0].distance(points_mm[points_mm.len() - 1]) <= JOINED_MM {
             points_mm.pop();
         }
         Ok(DrawnContour { points_mm, is_curved: whole.is_curved })
+    }
+
+    /// Refuses a contour that goes on only so far away from its end.
+    fn gap<T>(&self, end: DVec2, gap_mm: f64) -> Result<T, Refused> {
+        self.refuse_all(
+            format!("the contour is open at x {:.4}, y {:.4} mm: a gap of {gap_mm:.4} mm", end.x, end.y),
+            "join its ends in CAD; ends within 0.0001 mm are one point",
+        )
     }
 }
 
@@ -242,8 +277,9 @@ impl DxfEntity<'_, '_> {
             return Ok(None);
         }
         let is_closed = (matches!(kind, "LWPOLYLINE" | "POLYLINE") && self.flags()? & 1 == 1) || kind == "CIRCLE";
-        let is_on_layer = self.groups.iter().any(|group| group.code == 8 && group.value.eq_ignore_ascii_case(LAYER));
-        Ok(Some(ContourPiece { points, is_curved, is_closed, is_on_layer }))
+        let layer =
+            self.groups.iter().find(|group| group.code == 8).map_or(String::new(), |group| group.value.to_owned());
+        Ok(Some(ContourPiece { points, is_curved, is_closed, layer }))
     }
 
     fn refuse<T>(&self, message: impl Into<String>, way_out: &str) -> Result<T, Refused> {

@@ -13,7 +13,7 @@ pub(crate) mod build;
 mod check;
 mod checks;
 pub mod draft;
-mod drawn_contour;
+pub(crate) mod drawn_contour;
 pub mod errors;
 mod foreign;
 mod loaded;

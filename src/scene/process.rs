@@ -116,6 +116,11 @@ pub trait ProcessPart: Copied + Any + Debug + Send + Sync {
         Vec::new()
     }
 
+    /// Key by which the tool cuts teeth that are no involutes, if it does.
+    fn other_teeth_key(&self) -> Option<&'static str> {
+        None
+    }
+
     /// Files that are read when the scene is made ready: what they hold belongs to the scene.
     fn files_read(&self) -> Vec<&Path> {
         Vec::new()
@@ -130,6 +135,11 @@ impl ScenePart {
     /// Of the process whose type it is.
     pub fn new(part: impl ProcessPart) -> Self {
         Self(Box::new(part))
+    }
+
+    /// Key by which the tool cuts teeth that are no involutes, if it does.
+    pub fn other_teeth_key(&self) -> Option<&'static str> {
+        self.0.other_teeth_key()
     }
 
     /// The part, if it is of this type.

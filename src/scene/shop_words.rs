@@ -42,8 +42,15 @@ pub(super) fn way_out(section: &TableSection, name: &str, node: &Node) -> Option
     }
     if SHAPED_TIPS.iter().any(|word| name.starts_with(word)) && section.path == "tool.shaper_cutter" {
         return Some(
-            "remove it: the flanks of a shaper cutter are one involute down to its root; its tip is rounded or \
-             chamfered by [tool.shaper_cutter.tip]"
+            "remove it, and give the tooth as a contour, from points or a drawing, by [tool.shaper_cutter.profile]; \
+             without one flanks are one involute down to the root, with a tip by [tool.shaper_cutter.tip]"
+                .to_owned(),
+        );
+    }
+    if name == "profile" && section.path == "tool.hob" {
+        return Some(
+            "remove it: a hob's tooth is a rack by the keys of [tool.hob]; a contour is taken of a shaper cutter's \
+             tooth alone, by [tool.shaper_cutter.profile]"
                 .to_owned(),
         );
     }

@@ -69,7 +69,8 @@ fn contact_in_a_ring_ends_where_its_cutter_relieves_the_tips() {
     // The file's cutter goes down to its base circle, gearcut's goes over into its tangent a little before it: by the
     // length of the involute's radius of curvature there, the path is shorter.
     let cutter = ShapingJob::new(ring.clone()).expect("the ring").target_generation().cutter.clone();
-    let longer_mm = cutter.base_radius_mm * cutter.roll_range[0];
+    let tooth = cutter.involute().expect("involute flanks");
+    let longer_mm = tooth.base_radius_mm * tooth.roll_range[0];
     let off = farthest([&driver, &ring], 2.0, file, longer_mm);
     println!("p09: contact ratios of generated flanks within {off:.1e}, paths {longer_mm:.4} mm shorter");
     assert!(off < number(&file["tolerance"], "contact_ratio") && longer_mm < 0.03, "{off}, {longer_mm} mm");

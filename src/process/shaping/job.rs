@@ -18,6 +18,7 @@ use crate::process::shaping::motion::returns::motion::RamTimes;
 use crate::process::shaping::motion::returns::survey::Survey;
 use crate::process::shaping::scene::model::{self, GcodeDialect, Machine, Operation, Shaping};
 use crate::process::shaping::target::TargetFlank;
+use crate::process::shaping::target::envelope::DrawnSpaces;
 use crate::process::shaping::target::fillet::Fillet;
 use crate::process::shaping::target::generation::Generation;
 use crate::process::shaping::target::tooth_target::ToothTarget;
@@ -264,7 +265,8 @@ impl ShapingJob {
                 Some(of) => (of.generation.clone(), of.envelope.clone(), of.survey.clone()),
                 None => {
                     let (linkage, cutter) = (linkage.clone(), shared_cutter.clone());
-                    let generation = Arc::new(Generation { linkage, cutter, offset_mm: spec.offset_mm });
+                    let drawn = cutter.drawn().map(|_| Arc::new(DrawnSpaces::new(blank.clone())));
+                    let generation = Arc::new(Generation { linkage, cutter, offset_mm: spec.offset_mm, drawn });
                     let before = operations.iter().map(|before| &before.generation);
                     let generations = before.chain([&generation]).cloned().collect();
                     let survey = Survey::new(generations, blank.clone(), gear.teeth, gear.module_mm);

@@ -4,7 +4,10 @@
 //! length, normal and polar angle. A flank runs from its **form point** (where the cutter's involute ends at its tip
 //! corner, or, undercut, where the path of that corner crosses it: [`undercut`]) to its **tip** (the blank's outline,
 //! the end of the cutter's involute near its base, or the point where both flanks meet). Roots are the [`fillet`]'s.
+//! Flanks of drawn teeth are curves through points ([`drawn`]).
 
+pub mod drawn;
+pub mod envelope;
 pub mod fillet;
 pub mod generation;
 pub mod tip_relief;
@@ -12,6 +15,8 @@ pub mod tooth_target;
 pub mod undercut;
 
 use crate::measure::crossing::Crossing;
+use crate::process::shaping::target::drawn::DrawnFlank;
+use crate::process::shaping::target::envelope::SpaceProfile;
 use crate::process::shaping::target::fillet::boundary;
 use crate::process::shaping::target::generation::{FlankContact, Generation};
 use gearcut_core::error::Refusal;
@@ -83,6 +88,8 @@ pub struct TargetFlank {
     phi_tip: f64,
     /// Arc lengths between them, once somebody has asked.
     arcs: OnceLock<FlankArcs>,
+    /// The curve itself where a drawn tooth generates it.
+    drawn: Option<Arc<DrawnFlank>>,
 }
 
 /// Arc lengths of a flank.
@@ -151,8 +158,11 @@ impl TargetFlank {
         tip_height_mm: Option<f64>,
     ) -> Result<Self, Refusal> {
         let space = space_of(tooth, side);
+        if let Some(profile) = generation.space_profile(space) {
+            return Self::as_drawn(generation, &*profile?, blank, (tooth, side), tip_height_mm);
+        }
         let contact = |phi: f64| generation.flank_contact(phi, space, side);
-        let [roll_start, roll_end] = generation.cutter.roll_range;
+        let [roll_start, roll_end] = generation.cutter.involute().map_or([f64::NAN; 2], |own| own.roll_range);
         let curve = generation.linkage.curve();
         let module_mm = curve.perimeter_mm() / (PI * f64::from(curve_teeth(generation)));
         let pitch_arc_mm = PI * module_mm;
@@ -208,6 +218,38 @@ impl TargetFlank {
             phi_form,
             phi_tip,
             arcs: OnceLock::new(),
+            drawn: None,
+        })
+    }
+
+    /// Flank that a drawn tooth generates; `tip_height_mm` may lower its tip.
+    fn as_drawn(
+        generation: &Arc<Generation>,
+        profile: &SpaceProfile,
+        blank: &Blank,
+        (tooth, side): (u32, Side),
+        tip_height_mm: Option<f64>,
+    ) -> Result<Self, Refusal> {
+        let is_left = side.sign() * generation.gear().tip_sign() > 0.0;
+        let top_mm = tip_height_mm.unwrap_or(blank.addendum_mm).min(blank.addendum_mm);
+        let flank = DrawnFlank::through(profile.flank(is_left)).up_to(blank, top_mm);
+        let flank = flank.ok_or_else(|| no_flank(tooth, side, "the contour does not shape it up to the tip"))?;
+        let depth_mm = generation.cutter.drawn().and_then(|drawn| profile.undercut_mm(is_left, drawn));
+        // From the left flank of the space to the right one a fillet has one piece.
+        let fillet_at = if side == Side::Left { 0.0 } else { 1.0 };
+        let [phi_form, phi_tip] = [0.0, flank.length_mm()].map(|arc_mm| flank.at_arc(arc_mm).phi_rad);
+        Ok(Self {
+            tooth,
+            side,
+            form_end: if depth_mm.is_some() { FlankEnd::Undercut } else { FlankEnd::CutterCorner },
+            tip_end: if tip_height_mm.is_some() { FlankEnd::PointedTip } else { FlankEnd::BlankOutline },
+            undercut: depth_mm.map(|depth_mm| Undercut { fillet_at, depth_mm }),
+            generation: generation.clone(),
+            space: space_of(tooth, side),
+            phi_form,
+            phi_tip,
+            arcs: OnceLock::new(),
+            drawn: Some(Arc::new(flank)),
         })
     }
 
@@ -240,12 +282,15 @@ impl TargetFlank {
 
     /// Length from form point to tip, mm.
     pub fn length_mm(&self) -> f64 {
+        if let Some(drawn) = &self.drawn {
+            return drawn.length_mm();
+        }
         self.arcs().ends_mm[PANELS]
     }
 
     /// Contact at the form point: what [`Self::at_arc`] gives at 0, without any arc.
     pub fn form_contact(&self) -> FlankContact {
-        self.contact(self.phi_form)
+        self.drawn.as_ref().map_or_else(|| self.contact(self.phi_form), |drawn| drawn.at_arc(0.0))
     }
 
     /// Contact at a polar angle between form point and tip.
@@ -266,6 +311,9 @@ impl TargetFlank {
 
     /// Contact at an arc length from the form point (clamped to the flank).
     pub fn at_arc(&self, arc_mm: f64) -> FlankContact {
+        if let Some(drawn) = &self.drawn {
+            return drawn.at_arc(arc_mm);
+        }
         let FlankArcs { ends_mm, speeds } = self.arcs();
         let arc_mm = arc_mm.clamp(0.0, ends_mm[PANELS]);
         let panel = ends_mm.partition_point(|&a| a <= arc_mm).clamp(1, PANELS) - 1;

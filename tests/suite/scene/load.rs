@@ -239,7 +239,9 @@ fn combinations<'a>(
 fn shipped_scenes_read_back_from_their_resolved_text() {
     for path in shipped() {
         let first = load(&path, &[]).expect("loads");
-        let second = parse(&first.resolved_toml(), &path.display().to_string(), Path::new(""), &[]);
+        // Files that are read with a scene stay where they are, beside it.
+        let folder = path.parent().expect("a folder");
+        let second = parse(&first.resolved_toml(), &path.display().to_string(), folder, &[]);
         assert_eq!(first.scene, second.unwrap_or_else(|errors| panic!("{errors}")).scene);
     }
 }

@@ -58,18 +58,19 @@ fn middle(job: &ShapingJob, tooth: u32, side: Side, half_mm: f64) -> (usize, Fie
 /// whose foot has the roll u less that distance / r_b; its arc from the tip corner is r_b (u_tip^2 - u^2) / 2.
 fn by_hand(job: &ShapingJob, stroke: usize, side: f64, origin_mm: DVec2, normal: DVec2) -> f64 {
     let cutter = &job.cutter;
+    let flank = cutter.involute().expect("involute flanks");
     let work_from_tool = job.finishing().strokes.poses(stroke)[0];
     // The tooth of the cutter that stands nearest to the ray.
     let in_tool = work_from_tool.inverse().point(origin_mm);
     let pitch_rad = TAU / f64::from(cutter.teeth);
     let tooth = (in_tool.to_angle() / pitch_rad).round() * pitch_rad;
-    let r_b = cutter.base_radius_mm;
+    let r_b = flank.base_radius_mm;
     let missing = |height_mm: f64| {
         let p = DVec2::from_angle(-tooth).rotate(work_from_tool.inverse().point(origin_mm + height_mm * normal));
         let u = (p.length_squared() / (r_b * r_b) - 1.0).sqrt();
-        let off_mm = r_b * (side * p.to_angle() + u - u.atan() - cutter.half_angle_rad);
+        let off_mm = r_b * (side * p.to_angle() + u - u.atan() - flank.half_angle_rad);
         let foot = u - off_mm / r_b;
-        off_mm - wave(0.5 * r_b * (cutter.roll_range[1].powi(2) - foot * foot))
+        off_mm - wave(0.5 * r_b * (flank.roll_range[1].powi(2) - foot * foot))
     };
     let (mut low, mut high) = (-0.1, 0.1);
     for _ in 0..80 {

@@ -14,7 +14,8 @@ use gearcut::process::shaping::scene::model::{Shaping, Tip};
 use gearcut::process::shaping::target::generation::Generation;
 use gearcut::process::shaping::target::tip_relief::TipRelief;
 use gearcut::process::shaping::target::{FlankEnd, TargetFlank};
-use gearcut::process::shaping::tool::cutter::CornerPart;
+use gearcut::process::shaping::tool::cutter::CutterTooth;
+use gearcut::process::shaping::tool::involute_tooth::CornerPart;
 use gearcut::steps::planar::blank_report;
 use gearcut::terms::Side;
 use glam::DVec2;
@@ -220,7 +221,8 @@ fn polar_height_mm(job: &ShapingJob, point_mm: DVec2) -> f64 {
 /// oracle's does. The project's goes over into its tangent at a roll of 0.0023, for the sake of its tables.
 fn space_flanks(job: &ShapingJob, space: u32) -> [TargetFlank; 2] {
     let mut cutter = job.cutter.clone();
-    cutter.roll_range[0] = 0.0;
+    let CutterTooth::Involute(tooth) = &mut cutter.tooth else { panic!("involute flanks") };
+    tooth.roll_range[0] = 0.0;
     let generation = Generation { cutter: Arc::new(cutter), ..job.target_generation().as_ref().clone() };
     let generation = Arc::new(generation);
     let before = if space == 0 { 102 } else { space };
@@ -422,7 +424,8 @@ fn the_facts_of_the_ring_are_the_oracles() {
     // The oracle's estimate by the osculating circle, for an involute down to the base circle: the project's goes over
     // into its tangent a little before.
     let job = ShapingJob::new(paper_ring(1020)).expect("the paper's ring");
-    let before_mm = job.cutter.base_radius_mm * job.cutter.roll_range[0] * 20_f64.to_radians().sin();
+    let tooth = job.cutter.involute().expect("involute flanks");
+    let before_mm = tooth.base_radius_mm * tooth.roll_range[0] * 20_f64.to_radians().sin();
     close("shortest involute", short.mm + before_mm, number(&local["at_rho_min"]), 3e-3);
     // The oracle's rows end 0.05 mm before the tip, at 24 um.
     let relief = facts.relief.expect("13 teeth are few");
@@ -489,9 +492,8 @@ fn room_of_tip_corners_is_that_of_a_hypotrochoid() {
     let flanks = [(1, Side::Left), (2, Side::Right)].map(points);
     let bore_mm = 60.0 - 2.0;
     assert!(flanks.iter().all(|flank| (flank[400].length() - bore_mm).abs() < 1e-6), "whole tips");
-    let [(center_mm, radius_mm)] = job.cutter.corner.iter().filter_map(round).collect::<Vec<_>>()[..] else {
-        panic!("one round")
-    };
+    let corner = &job.cutter.involute().expect("involute flanks").corner;
+    let [(center_mm, radius_mm)] = corner.iter().filter_map(round).collect::<Vec<_>>()[..] else { panic!("one round") };
     let mut nearest_mm = f64::INFINITY;
     for side in [1.0, -1.0] {
         let (reach_mm, aside_rad) = (center_mm.length(), side * center_mm.to_angle());

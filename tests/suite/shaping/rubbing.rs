@@ -63,7 +63,8 @@ fn deepest(job: &ShapingJob) -> Vec<Deepest> {
             rub,
             own_mm: lifted(station),
             most_mm: polygon.stations.iter().filter(inside).map(lifted).fold(f64::NEG_INFINITY, f64::max),
-            base_mm: (station.point_mm.length() < job.cutter.base_radius_mm - 0.02)
+            base_mm: (station.point_mm.length()
+                < job.cutter.involute().expect("involute flanks").base_radius_mm - 0.02)
                 .then(|| back_off_mm * radial.perp_dot(away).abs()),
         }
     };

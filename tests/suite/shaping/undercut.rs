@@ -218,16 +218,17 @@ fn on_an_oval_the_form_point_is_where_the_cutter_leaves_the_flank() {
         "gear.pitch_curve.ellipse.eccentricity=0.15",
     ]);
     let cutter = &job.cutter;
+    let tooth = cutter.involute().expect("involute flanks");
     // How far inside a cutter tooth a point lies, towards its flanks; negative outside, none beyond the tip circle.
     let cover_mm = |center: DVec2, angle: f64, p: DVec2| -> Option<f64> {
         let off = p - center;
         let radius_mm = off.length();
-        (radius_mm < cutter.tip_radius_mm - 1e-9 && radius_mm > cutter.base_radius_mm).then(|| {
-            let roll = ((radius_mm / cutter.base_radius_mm).powi(2) - 1.0).sqrt();
+        (radius_mm < cutter.tip_radius_mm - 1e-9 && radius_mm > tooth.base_radius_mm).then(|| {
+            let roll = ((radius_mm / tooth.base_radius_mm).powi(2) - 1.0).sqrt();
             let pitch = TAU / f64::from(cutter.teeth);
             let turned = (off.to_angle() - angle) / pitch;
             let aside = (turned - turned.round()).abs() * pitch;
-            cutter.base_radius_mm * (cutter.half_angle_rad - (roll - roll.atan()) - aside)
+            tooth.base_radius_mm * (tooth.half_angle_rad - (roll - roll.atan()) - aside)
         })
     };
     let generation = job.target_generation();

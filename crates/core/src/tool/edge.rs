@@ -105,6 +105,9 @@ pub struct Edge {
     pub center_mm: DVec2,
     /// Circle in the blade frame that holds all of them: radius.
     pub reach_mm: f64,
+    /// Whether the tool turns no corner inwards and has no hollow, its root apart: it then lies behind the tangent at
+    /// any place of its flanks and its tip.
+    pub is_convex: bool,
 }
 
 /// Where a ray enters a segment or the continuation of it.
@@ -395,7 +398,13 @@ impl Edge {
             .iter()
             .map(|s| s.blade_from_segment.translation_mm.distance(center_mm) + s.reach_mm)
             .fold(0.0, f64::max);
-        Self { segments, center_mm, reach_mm }
+        Self { segments, center_mm, reach_mm, is_convex: true }
+    }
+
+    /// The same edge, hollow somewhere.
+    #[must_use]
+    pub fn hollow(self) -> Self {
+        Self { is_convex: false, ..self }
     }
 
     /// Points along the edge from its right end to its left one, chords within about `chord_mm` of it, the ends of all
@@ -431,6 +440,6 @@ impl Edge {
             Segment { blade_from_segment, ..segment.clone() }
         };
         let segments = self.segments.iter().map(segment).collect();
-        Self { segments, center_mm: turn.point(self.center_mm), reach_mm: self.reach_mm }
+        Self { segments, center_mm: turn.point(self.center_mm), ..*self }
     }
 }

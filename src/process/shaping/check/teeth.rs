@@ -2,6 +2,8 @@
 
 use crate::output::text::Sheet;
 use crate::process::shaping::ShapingJob;
+use crate::process::shaping::tool::cutter::CutterTooth;
+use crate::process::shaping::tool::drawn::drawn_words;
 
 use crate::process::shaping::gear::tooth_facts::{FlankFacts, ToothFacts, flanks_with, list};
 
@@ -14,13 +16,19 @@ pub fn print(sheet: &mut Sheet, job: &ShapingJob, facts: &[ToothFacts], other_ge
     sheet.details(|sheet| {
         sheet.heading("Cutter");
         sheet.line("teeth", cutter.teeth.to_string());
-        sheet.line(
-            "radii",
-            format!(
-                "pitch {:.3} mm, base {:.3} mm, tip {:.3} mm",
-                cutter.pitch_radius_mm, cutter.base_radius_mm, cutter.tip_radius_mm
-            ),
-        );
+        let [pitch_mm, tip_mm] = [cutter.pitch_radius_mm, cutter.tip_radius_mm];
+        let radii = match &cutter.tooth {
+            CutterTooth::Involute(tooth) => {
+                format!("pitch {pitch_mm:.3} mm, base {:.3} mm, tip {tip_mm:.3} mm", tooth.base_radius_mm)
+            }
+            CutterTooth::Drawn(_) => {
+                format!("pitch {pitch_mm:.3} mm, root {:.3} mm, tip {tip_mm:.3} mm", cutter.root_radius_mm)
+            }
+        };
+        sheet.line("radii", radii);
+        if let CutterTooth::Drawn(tooth) = &cutter.tooth {
+            sheet.line("tooth", drawn_words(tooth));
+        }
     });
     sheet.heading(if other_gear { "Teeth by the scene's own strokes, not by the program" } else { "Teeth" });
     sheet.line("start of involute", range(facts, " over the pitch curve", |flank| flank.start_height_mm));

@@ -27,9 +27,10 @@ use gearcut_core::units::UM_PER_MM;
 /// Advice where nothing is known of the target's outline.
 const SEE_BLANK: &str = "See the whole blank of a run";
 
-/// The section; none of an external gear. Where a program cuts another ring, `other` says why nothing of it holds.
+/// The section; none of an external gear, and none where a drawn tooth cuts: its laws are those of involutes. Where a
+/// program cuts another ring, `other` says why nothing of it holds.
 pub fn of_job(job: &ShapingJob, other: Option<&str>) -> Option<Section> {
-    (job.blank.kind() == GearKind::Internal).then(|| {
+    (job.blank.kind() == GearKind::Internal && job.cutter.involute().is_some()).then(|| {
         let section = section(job, &RingFacts::new(job));
         match other {
             Some(why) => section.without_values(why, &[]),

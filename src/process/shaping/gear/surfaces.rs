@@ -96,6 +96,10 @@ impl CylindricalGear for ShapingJob {
     }
 
     fn round_gear(&self) -> Result<Option<RoundGear>> {
+        // Sizes of involute teeth: a drawn tooth cuts others.
+        if self.cutter.involute().is_none() {
+            return Ok(None);
+        }
         let tooth = self.target(1);
         let [left, right] = [Side::Left, Side::Right].map(|side| tooth.pitch_crossing(side));
         let (Some(left), Some(right), true) = (left, right, is_round(&self.curve)) else { return Ok(None) };

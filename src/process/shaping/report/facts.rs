@@ -7,6 +7,7 @@ use crate::process::shaping::ShapingJob;
 use crate::process::shaping::linkage::dynamics::{self, AXES};
 use crate::process::shaping::scene::layers::{built_up_words, edge_words, rounding_words};
 use crate::process::shaping::scene::model::{Retraction, Tip};
+use crate::process::shaping::tool::drawn::drawn_words;
 use crate::steps::report::facts::{gear_table, mm, round_gear_table, speed_limits, table};
 use gearcut_core::units::UM_PER_MM;
 
@@ -29,29 +30,41 @@ pub fn section(job: &ShapingJob, found: &Findings) -> PageSection {
         Retraction::CenterLine => mm(machine.back_off_mm),
         other => format!("{} {}", mm(machine.back_off_mm), other.words()),
     };
+    // A contour has the digits of its file.
+    let round = |radius_mm: f64| (1e5 * radius_mm).round() / 1e5;
+    let own = match job.cutter.drawn() {
+        None => vec![
+            (
+                "Addendum, dedendum",
+                format!("{} m, {} m", plain(tool.addendum_coefficient), plain(tool.dedendum_coefficient)),
+            ),
+            ("Profile shift", format!("{} m", plain(tool.profile_shift_coefficient))),
+            ("Thinning", format!("{} µm", plain(UM_PER_MM * tool.thinning_mm))),
+            ("Tip", tip),
+        ],
+        Some(tooth) => vec![
+            (
+                "Tip radius, root radius",
+                format!("{}, {}", mm(round(tooth.tip_radius_mm)), mm(round(tooth.root_radius_mm))),
+            ),
+            ("Tooth", unit::sentence_with_signs(&drawn_words(tooth))),
+        ],
+    };
+    let own =
+        [vec![("Teeth, pitch radius", format!("{}, {}", tool.teeth, mm(job.cutter.pitch_radius_mm)))], own].concat();
+    let of_all = vec![
+        ("Cutting edges", edges),
+        ("Top rake", format!("{}°", plain(tool.rake_angle_rad.to_degrees()))),
+        ("Runout", format!("{} µm", plain(UM_PER_MM * tool.runout_mm))),
+        (
+            "Pitch errors",
+            if tool.pitch_errors_mm.is_empty() { "none".to_owned() } else { "given for each tooth".to_owned() },
+        ),
+    ];
     let mut blocks = vec![gear_table(&job.scene.gear, &job.curve)];
     blocks.extend(round_gear_table(found));
     blocks.extend([
-        table(
-            "Shaper cutter",
-            vec![
-                ("Teeth, pitch radius", format!("{}, {}", tool.teeth, mm(job.cutter.pitch_radius_mm))),
-                (
-                    "Addendum, dedendum",
-                    format!("{} m, {} m", plain(tool.addendum_coefficient), plain(tool.dedendum_coefficient)),
-                ),
-                ("Profile shift", format!("{} m", plain(tool.profile_shift_coefficient))),
-                ("Thinning", format!("{} µm", plain(UM_PER_MM * tool.thinning_mm))),
-                ("Tip", tip),
-                ("Cutting edges", edges),
-                ("Top rake", format!("{}°", plain(tool.rake_angle_rad.to_degrees()))),
-                ("Runout", format!("{} µm", plain(UM_PER_MM * tool.runout_mm))),
-                (
-                    "Pitch errors",
-                    if tool.pitch_errors_mm.is_empty() { "none".to_owned() } else { "given for each tooth".to_owned() },
-                ),
-            ],
-        ),
+        table("Shaper cutter", [own, of_all].concat()),
         table(
             "Machine",
             vec![

@@ -1,9 +1,9 @@
 //! Checked values of a shaping scene to the model.
 
-use super::keys::{AXES, BUILT_UP_EDGE, EDGE_ROUGHNESS, EDGE_ROUNDING};
+use super::keys::{AXES, BUILT_UP_EDGE, EDGE_ROUGHNESS, EDGE_ROUNDING, PROFILE};
 use super::model::{
     AxisLimits, BuiltUpEdge, CutterSpec, EdgeRoughness, EdgeRounding, Feed, GcodeDialect, Infeed, Linkage, Machine,
-    NormalReading, Operation, Retraction, Shaping, StockScatter, StrokeSpacing, Tip, TraditionalDirection,
+    NormalReading, Operation, Retraction, Shaping, StockScatter, StrokeSpacing, Tip, ToolProfile, TraditionalDirection,
 };
 use crate::machine_errors::{Compliance, SideCompliance};
 use crate::material::EdgeForce;
@@ -77,7 +77,13 @@ fn shaper_cutter(values: &Values, base_dir: &Path) -> Option<CutterSpec> {
         edge_roughness: edge_roughness(values, base_dir),
         edge_rounding: edge_rounding(values),
         built_up_edge: built_up_edge(values),
+        profile: profile(values, base_dir),
     })
+}
+
+fn profile(values: &Values, base_dir: &Path) -> Option<ToolProfile> {
+    let profile = values.view(PROFILE);
+    Some(ToolProfile { file: base_dir.join(profile.text("file")?), tolerance_mm: profile.mm_from_um("tolerance_um")? })
 }
 
 fn edge_roughness(values: &Values, base_dir: &Path) -> Option<EdgeRoughness> {

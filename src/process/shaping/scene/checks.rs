@@ -1,7 +1,7 @@
 //! Values of a shaping scene compared with each other.
 
 use super::defaults::reach_mm;
-use super::keys::{AXES, BUILT_UP_EDGE, BUILT_UP_EDGE_KEYS, EDGE_ROUGHNESS, EDGE_ROUNDING};
+use super::keys::{AXES, BUILT_UP_EDGE, BUILT_UP_EDGE_KEYS, EDGE_ROUGHNESS, EDGE_ROUNDING, PROFILE};
 use crate::scene::build::stock_or_offset_mm;
 use crate::scene::keys::join;
 use crate::scene::machine_errors;
@@ -15,6 +15,9 @@ const MOST_STROKES: f64 = 1e7;
 /// hundred megabytes.
 const MOST_CHIP_SPACINGS_PER_MODULE: f64 = 600.0;
 
+/// Dedendum of a cutter that does not say its own, modules.
+const USUAL_DEDENDUM: f64 = 1.25;
+
 /// Adds a problem for every contradiction.
 pub(super) fn check(found: &mut Found<'_, '_, '_>) {
     // A missing value ends only the check that asks for it.
@@ -24,6 +27,7 @@ pub(super) fn check(found: &mut Found<'_, '_, '_>) {
     together(found, EDGE_ROUNDING, &["radius_um", "minimum_chip_share"]);
     together(found, BUILT_UP_EDGE, &BUILT_UP_EDGE_KEYS);
     speeds(found);
+    drawn_tooth(found);
     machine_errors::check(found, &AXES);
     for index in 0..found.values.count("operation") {
         let path = format!("operation.{index}");
@@ -49,6 +53,45 @@ fn together(found: &mut Found, section: &str, names: &[&'static str]) {
     let key = join(section, there);
     let message = || format!("`{key}` says nothing without {missing}");
     found.blame(true, &key, message, &format!("write {missing} as well, or remove it"));
+}
+
+/// A contour says all of a tooth: what else would shape it, or would shift it by the law of involutes, is refused.
+fn drawn_tooth(found: &mut Found) {
+    if found.view(PROFILE).text("file").is_none() {
+        return;
+    }
+    // A resolved scene has all keys: what has its default's value is as good as not written.
+    let cutter = "tool.shaper_cutter";
+    let own = [
+        (cutter, "dedendum_coefficient", Some(USUAL_DEDENDUM)),
+        (cutter, "profile_shift_coefficient", Some(0.0)),
+        (cutter, "thinning_mm", Some(0.0)),
+        (EDGE_ROUGHNESS, "rq_um", None),
+    ];
+    for (section, name, usual) in own {
+        let key = join(section, name);
+        let is_set = found.view(section).number(name).is_some_and(|value| Some(value) != usual);
+        let message = || format!("`{key}` says nothing of a tooth that {PROFILE}.file draws");
+        found.blame(is_set, &key, message, "remove it, or have the contour drawn that way");
+    }
+    let rough = join(EDGE_ROUGHNESS, "profile");
+    let is_rough = found.view(EDGE_ROUGHNESS).text("profile").is_some();
+    let message = || format!("`{rough}` says nothing of a tooth that {PROFILE}.file draws");
+    found.blame(is_rough, &rough, message, "remove it: a measured contour has its own roughness");
+    let tip = join(cutter, "tip");
+    let has_tip = found.view(cutter).variant("tip").is_some_and(|tip| tip != "sharp");
+    let message = || format!("`{tip}` says nothing of a tooth that {PROFILE}.file draws");
+    found.blame(has_tip, &tip, message, "remove the section: the contour has its own corners");
+    let class = "measure.iso_1328_class";
+    let has_class = found.view("measure").whole("iso_1328_class").is_some();
+    let message = || format!("`{class}` judges involute flanks, and {PROFILE}.file draws others");
+    found.blame(has_class, class, message, "remove it, and give the limits of the drawing under [measure]");
+    for name in ["profile_shift_coefficient", "tooth_thickness_allowance_mm"] {
+        let key = join("gear", name);
+        let is_set = found.view("gear").number(name).is_some_and(|value| value != 0.0);
+        let message = || format!("`{key}` follows the law of involute teeth, and {PROFILE}.file draws others");
+        found.blame(is_set, &key, message, "remove it, and move the cutter by offset_mm of the operations");
+    }
 }
 
 /// Marks are densest between speeds at which there are any.

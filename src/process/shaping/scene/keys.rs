@@ -10,7 +10,7 @@ use crate::scene::keys::{Addition, KeySection};
 
 pub(super) use chips::LARGEST_CHIP_SPACING_MM;
 pub(super) use machine::AXES;
-pub(super) use tool::{BUILT_UP_EDGE, BUILT_UP_EDGE_KEYS, EDGE_ROUGHNESS, EDGE_ROUNDING};
+pub(super) use tool::{BUILT_UP_EDGE, BUILT_UP_EDGE_KEYS, EDGE_ROUGHNESS, EDGE_ROUNDING, PROFILE};
 
 /// Sections of its own.
 pub(super) static SECTIONS: &[&[KeySection]] =

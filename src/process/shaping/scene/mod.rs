@@ -102,12 +102,20 @@ impl ProcessPart for Shaping {
         &SCENE
     }
 
+    fn other_teeth_key(&self) -> Option<&'static str> {
+        self.tool.profile.as_ref().map(|_| keys::PROFILE)
+    }
+
     fn files_read(&self) -> Vec<&Path> {
         let profile = self.tool.edge_roughness.iter().filter_map(|roughness| match roughness {
             EdgeRoughness::Profile(path) => Some(path.as_path()),
             EdgeRoughness::Spectrum { .. } => None,
         });
-        profile.chain(self.operations.iter().filter_map(|operation| operation.program.as_deref())).collect()
+        let contour = self.tool.profile.iter().map(|profile| profile.file.as_path());
+        profile
+            .chain(contour)
+            .chain(self.operations.iter().filter_map(|operation| operation.program.as_deref()))
+            .collect()
     }
 
     fn error_layers(&self) -> Vec<ErrorLayer> {

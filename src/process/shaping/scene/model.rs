@@ -78,6 +78,8 @@ pub struct CutterSpec {
     pub edge_rounding: Option<EdgeRounding>,
     /// What builds up on its edges and tears flanks; `None`: nothing does.
     pub built_up_edge: Option<BuiltUpEdge>,
+    /// Contour of a tooth that is drawn or measured, in place of the involute one.
+    pub profile: Option<ToolProfile>,
 }
 
 /// Pits and scratches that fragments of a built-up edge tear into flanks.
@@ -128,6 +130,15 @@ pub enum EdgeRoughness {
     },
     /// A measured one, the same on all flanks, from a table.
     Profile(PathBuf),
+}
+
+/// The contour of a cutter's tooth.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ToolProfile {
+    /// Where it is.
+    pub file: PathBuf,
+    /// How far the edge that cuts may pass beside it.
+    pub tolerance_mm: f64,
 }
 
 /// Tip corners of the cutter.

@@ -10,8 +10,10 @@
 //! gear lies to the right, that of a ring to the left. Road not taken: the ends' polar angles. The path of a corner
 //! that undercuts swings back under the tooth, and its ends say nothing.
 
+use crate::process::shaping::target::drawn::DrawnFlank;
 use crate::process::shaping::target::generation::{Generation, TipPart};
 use crate::steps::planar::ProfilePoint;
+use gearcut_core::gear::GearKind;
 use gearcut_core::math::roots::halve;
 use glam::DVec2;
 use std::f64::consts::PI;
@@ -30,11 +32,17 @@ pub struct Fillet<'a> {
 }
 
 /// What one part of the tip leaves.
-#[derive(Debug, Clone, Copy)]
-struct FilletPiece {
-    part: TipPart,
-    /// Parameter of the linkage at its end on the left and on the right.
-    phi_rad: [f64; 2],
+#[derive(Debug, Clone)]
+enum FilletPiece {
+    /// Of an involute tooth.
+    Tip {
+        /// Which part.
+        part: TipPart,
+        /// Parameter of the linkage at its end on the left and on the right.
+        phi_rad: [f64; 2],
+    },
+    /// All of a drawn tooth.
+    Drawn(DrawnFlank),
 }
 
 impl<'a> Fillet<'a> {
@@ -55,8 +63,18 @@ impl<'a> Fillet<'a> {
             let [a, b] = [0.5, 0.5 + 1.0 / f64::from(CHORDS)].map(|share| contact(from + share * (to - from)));
             let ((a, normal), (b, _)) = (a?, b?);
             let is_backwards = (b - a).dot(normal.perp()) * generation.gear().tip_sign() < 0.0;
-            Some(FilletPiece { part, phi_rad: if is_backwards { [to, from] } else { [from, to] } })
+            Some(FilletPiece::Tip { part, phi_rad: if is_backwards { [to, from] } else { [from, to] } })
         };
+        if let Some(profile) = generation.space_profile(space) {
+            // From the left flank of the gear to the right one.
+            let mut points = profile.map_or(Vec::new(), |profile| profile.root().to_vec());
+            if generation.gear() == GearKind::External {
+                points.reverse();
+            }
+            let pieces =
+                if points.is_empty() { Vec::new() } else { vec![FilletPiece::Drawn(DrawnFlank::through(points))] };
+            return Self { generation, space, pieces };
+        }
         Self { generation, space, pieces: generation.tip_parts().into_iter().filter_map(piece).collect() }
     }
 
@@ -73,10 +91,17 @@ impl<'a> Fillet<'a> {
     }
 
     fn on_piece(&self, piece: &FilletPiece, share: f64) -> Option<(f64, DVec2, DVec2)> {
-        let [from, to] = piece.phi_rad;
-        let phi = from + (to - from) * share;
-        let (point, normal) = self.generation.tip_contact(phi, self.space, &piece.part)?;
-        Some((phi, point, normal))
+        match piece {
+            FilletPiece::Tip { part, phi_rad: [from, to] } => {
+                let phi = from + (to - from) * share;
+                let (point, normal) = self.generation.tip_contact(phi, self.space, part)?;
+                Some((phi, point, normal))
+            }
+            FilletPiece::Drawn(curve) => {
+                let contact = curve.at_arc(share * curve.length_mm());
+                Some((contact.phi_rad, contact.point_mm, contact.normal))
+            }
+        }
     }
 
     /// Points about `spacing_mm` apart between two places, both and all ends of pieces between them included.

@@ -1,4 +1,5 @@
 //! What a cutter's edge leaves when the linkage runs on continuously: contact by the meshing condition, in closed form.
+//! Drawn teeth have no such form: [`super::drawn`].
 //!
 //! In: linkage, cutter, offset. Out: for each polar angle phi, the point where a cutter flank, tip corner or tip circle
 //! touches its envelope in the gear frame.
@@ -24,7 +25,8 @@
 
 use crate::process::shaping::ShaperCutter;
 use crate::process::shaping::linkage::ShapingLinkage;
-use crate::process::shaping::tool::cutter::CornerPart;
+use crate::process::shaping::target::envelope::DrawnSpaces;
+use crate::process::shaping::tool::involute_tooth::CornerPart;
 use gearcut_core::gear::GearKind;
 use gearcut_core::math::jet::Jet;
 use gearcut_core::terms::Side;
@@ -41,6 +43,8 @@ pub struct Generation {
     pub cutter: Arc<ShaperCutter>,
     /// The operation's offset, mm.
     pub offset_mm: f64,
+    /// What a drawn tooth generates, space by space.
+    pub drawn: Option<Arc<DrawnSpaces>>,
 }
 
 /// Touch of a cutter flank with its envelope.
@@ -52,7 +56,7 @@ pub struct FlankContact {
     pub point_mm: DVec2,
     /// Unit normal out of the gear.
     pub normal: DVec2,
-    /// Roll u on the cutter's involute.
+    /// Roll u on the cutter's involute; not a number on a drawn tooth, as are both rates.
     pub roll: f64,
     /// du/dphi.
     pub roll_rate: f64,
@@ -69,13 +73,13 @@ impl FlankContact {
 }
 
 /// Pose with two derivatives with respect to phi.
-struct CutterMotion {
-    center: DVec2,
-    center_rate: DVec2,
-    center_rate_2: DVec2,
-    angle: f64,
-    angle_rate: f64,
-    angle_rate_2: f64,
+pub(super) struct CutterMotion {
+    pub center: DVec2,
+    pub center_rate: DVec2,
+    pub center_rate_2: DVec2,
+    pub angle: f64,
+    pub angle_rate: f64,
+    pub angle_rate_2: f64,
 }
 
 /// Part of a cutter tooth's tip that generates the root.
@@ -88,7 +92,7 @@ pub enum TipPart {
 }
 
 impl Generation {
-    fn motion(&self, phi_rad: f64) -> CutterMotion {
+    pub(super) fn motion(&self, phi_rad: f64) -> CutterMotion {
         let axes = self.linkage.axes(phi_rad, self.offset_mm);
         let d = |jet: &Jet<3>| [jet.value(), jet.derivative(1), jet.derivative(2)];
         let [psi, psi1, psi2] = d(&axes.psi_c_rad);
@@ -111,7 +115,7 @@ impl Generation {
     }
 
     /// Cutter orientation for the tooth that cuts space `space` (any integer, counted along the arc without wrapping).
-    fn tooth_angle(&self, cutter_angle: f64, space: i64) -> f64 {
+    pub(super) fn tooth_angle(&self, cutter_angle: f64, space: i64) -> f64 {
         cutter_angle - self.gear().tip_sign() * TAU * space as f64 / f64::from(self.cutter.teeth)
     }
 
@@ -120,7 +124,8 @@ impl Generation {
     pub fn flank_contact(&self, phi_rad: f64, space: i64, side: Side) -> Option<FlankContact> {
         let sigma = self.gear().tip_sign() * side.sign();
         let m = self.motion(phi_rad);
-        let r_b = self.cutter.base_radius_mm;
+        let tooth = self.cutter.involute()?;
+        let r_b = tooth.base_radius_mm;
         let speed = m.center_rate.length();
         let x = -m.angle_rate * r_b / speed;
         if x.abs() >= 1.0 {
@@ -137,7 +142,7 @@ impl Generation {
         let eta = m.center_rate.to_angle() - delta;
         let eta_rate = path_turn - delta_rate;
         let chi = self.tooth_angle(m.angle, space);
-        let roll = self.cutter.half_angle_rad - sigma * (eta - chi);
+        let roll = tooth.half_angle_rad - sigma * (eta - chi);
         let roll = roll - TAU * (roll / TAU).round();
         let e = DVec2::from_angle(eta);
         Some(FlankContact {
@@ -155,12 +160,13 @@ impl Generation {
     pub fn base_contact(&self, phi_rad: f64, space: i64, side: Side) -> Option<[DVec2; 2]> {
         let m = self.motion(phi_rad);
         let turn = DVec2::from_angle(self.tooth_angle(m.angle, space));
-        let flank = self.cutter.flank(self.gear().tip_sign() * side.sign());
-        let start_roll = self.cutter.roll_range[0];
+        let tooth = self.cutter.involute()?;
+        let flank = tooth.flank(self.gear().tip_sign() * side.sign());
+        let start_roll = tooth.roll_range[0];
         let (start, normal) = (turn.rotate(flank.point(start_roll)), turn.rotate(flank.normal(start_roll)));
         let inwards = flank.side * normal.perp();
         let w = -normal.dot(m.center_rate + m.angle_rate * start.perp()) / (m.angle_rate * normal.dot(inwards.perp()));
-        (0.0..=self.cutter.base_length_mm).contains(&w).then(|| [m.center + start + w * inwards, -normal])
+        (0.0..=tooth.base_length_mm).contains(&w).then(|| [m.center + start + w * inwards, -normal])
     }
 
     /// Contact of a tip part of the tooth that cuts `space`: point (gear frame, mm) and normal out of the gear, where
@@ -202,7 +208,7 @@ impl Generation {
 
     /// Half of the angle that the tip circle takes on a cutter tooth.
     fn tip_half_angle(&self) -> f64 {
-        match self.cutter.corner.last() {
+        match self.cutter.involute().and_then(|tooth| tooth.corner.last()) {
             Some(CornerPart::Round { normals_rad, .. }) => normals_rad[0],
             Some(CornerPart::Chamfer { tip_end_mm, .. }) => tip_end_mm.to_angle(),
             None => 0.0,
@@ -212,8 +218,9 @@ impl Generation {
     /// Tip parts in the order in which they follow each other from the left flank of the space to its right flank.
     pub fn tip_parts(&self) -> Vec<TipPart> {
         let sign = self.gear().tip_sign();
-        let left = self.cutter.corner.iter().map(|&part| TipPart::Corner(part, sign));
-        let right = self.cutter.corner.iter().rev().map(|&part| TipPart::Corner(part, -sign));
+        let Some(tooth) = self.cutter.involute() else { return Vec::new() };
+        let left = tooth.corner.iter().map(|&part| TipPart::Corner(part, sign));
+        let right = tooth.corner.iter().rev().map(|&part| TipPart::Corner(part, -sign));
         left.chain([TipPart::Circle]).chain(right).collect()
     }
 }

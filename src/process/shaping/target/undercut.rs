@@ -39,7 +39,8 @@ impl TargetFlank {
 
     /// What of a generated flank stands: all of it above an undercut.
     pub(in crate::process::shaping) fn whole_part(self, blank: &Blank) -> Result<Self, Refusal> {
-        if self.form_end != FlankEnd::Undercut {
+        // Loops of a drawn tooth's envelope are cut away already.
+        if self.form_end != FlankEnd::Undercut || self.undercut.is_some() {
             return Ok(self);
         }
         let fillet = Fillet::new(self.generation(), self.space());

@@ -152,7 +152,7 @@ struct PassPlanner<'a> {
 }
 
 /// A set of the segments of one blade's edge, one bit each.
-type SegmentSet = u64;
+type SegmentSet = u128;
 
 impl<'a> PassPlanner<'a> {
     fn new(field: &Field, set: &StrokeSet, tool: &'a dyn PlanarTool) -> Self {

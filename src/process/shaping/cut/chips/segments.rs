@@ -3,9 +3,9 @@
 //! In: the smooth edge that all blades share with the depth of their roughness, and the passes near a field. Out: the
 //! segments that rays can meet, bounds of the height that a pass leaves, and whether it surely stays above a height.
 //!
-//! **The law.** The edge is convex: the tool lies inside each of its flanks and lands with the tangents at their ends,
-//! so that a ray in front of one of these is in front of the tool. Of a corner's arc the circle lies in the tool, not
-//! round it, and says nothing of the rest.
+//! **The law.** Where the edge is convex the tool lies inside each of its flanks and lands with the tangents at their
+//! ends, so that a ray in front of one of these is in front of the tool. Of a corner's arc the circle lies in the tool,
+//! not round it, and says nothing of the rest. Of a drawn edge with a hollow no segment says anything of the others.
 
 use super::near::Near;
 use super::phase_heights::PhaseHeights;
@@ -18,7 +18,7 @@ use gearcut_core::tool::edge::{Edge, Segment};
 pub(super) const END_OVERLAP_MM: f64 = 1e-9;
 
 /// A set of the blade's segments, one bit each.
-pub(super) type SegmentSet = u64;
+pub(super) type SegmentSet = u128;
 
 /// A pass whose edge can meet a column's rays.
 #[derive(Debug, Clone, Copy)]
@@ -47,7 +47,7 @@ impl<'a> Segments<'a> {
     pub fn new(edge: &'a Edge, of_blades: &[Edge]) -> Self {
         let part = |(index, segment): (usize, &'a Segment)| {
             let depth_mm = of_blades.iter().map(|edge| edge.segments[index].depth_mm()).fold(0.0, f64::max);
-            SharedSegment::new(segment, depth_mm)
+            SharedSegment::new(segment, depth_mm, edge.is_convex)
         };
         let parts: Vec<SharedSegment> = edge.segments.iter().enumerate().map(part).collect();
         let depth_mm = parts.iter().map(|part| part.depth_mm).fold(0.0, f64::max);
@@ -93,7 +93,7 @@ impl<'a> Segments<'a> {
 
     /// A pass over a column: which segments can meet its rays, and how high it leaves them.
     ///
-    /// The tool lies inside each of its flanks and lands with the tangents at their ends, for its edge is convex: it
+    /// A convex tool lies inside each of its flanks and lands with the tangents at their ends: it
     /// enters no lower than the highest of their entries, nor lower than all those of the segments that the rays can
     /// meet (others are not looked at), and just there if that one lies on its segment. Between the phases at which
     /// this is looked at heights follow a parabola nearly, which passes the lines between its samples by an eighth of
@@ -181,7 +181,7 @@ impl EntryBounds {
         let Some(outer) = outer else { return };
         let [from, to] = part.segment.y_range_mm;
         let is_on = |entry: &SegmentEntry| (from..=to).contains(&entry.y_mm);
-        if is_on(&outer) || part.holds_tool() {
+        if part.is_of_convex && is_on(&outer) || part.holds_tool() {
             self.inside_mm = self.inside_mm.max(outer.height_mm);
         }
         self.fall = self.fall.min(outer.fall);

@@ -30,6 +30,8 @@ pub(super) struct SharedSegment<'a> {
     pub segment_from_blade: Rigid2,
     /// How far blades stay within it along x, mm.
     pub depth_mm: f64,
+    /// Whether the whole edge is convex.
+    pub is_of_convex: bool,
     /// How much nearer a ray can stand in front of it than another one, as a share of how far they lie apart.
     nearer: f64,
     /// How much its slope differs at most between two places, for each mm between them; endless for an arc, round which
@@ -53,20 +55,20 @@ impl Beside {
 
 impl<'a> SharedSegment<'a> {
     /// A segment within whose smooth course blades stay by so much along x.
-    pub fn new(segment: &'a Segment, depth_mm: f64) -> Self {
+    pub fn new(segment: &'a Segment, depth_mm: f64, is_of_convex: bool) -> Self {
         let steepest = segment.slope_range.map(f64::abs).into_iter().fold(0.0, f64::max);
         let bend_per_mm = match &segment.shape {
             SegmentShape::Table(table) => table.largest_bend_per_mm(),
             SegmentShape::Arc { .. } => f64::INFINITY,
         };
         let segment_from_blade = segment.blade_from_segment.inverse();
-        Self { segment, segment_from_blade, depth_mm, nearer: steepest.hypot(1.0), bend_per_mm }
+        Self { segment, segment_from_blade, depth_mm, is_of_convex, nearer: steepest.hypot(1.0), bend_per_mm }
     }
 
     /// Whether the whole tool lies inside the segment and the tangents at its ends: not inside a corner's arc, whose
-    /// circle lies in the tool.
+    /// circle lies in the tool, nor where the edge has a hollow.
     pub fn holds_tool(&self) -> bool {
-        matches!(self.segment.shape, SegmentShape::Table(_))
+        self.is_of_convex && matches!(self.segment.shape, SegmentShape::Table(_))
     }
 
     /// The same where no blade's edge is rough, so that a ray in front of the segment is in front of every tool.

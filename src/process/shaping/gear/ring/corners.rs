@@ -9,7 +9,7 @@
 use crate::measure::damage::LEAST_DEPTH_MM;
 use crate::measure::target_outline::TargetOutline;
 use crate::process::shaping::ShapingJob;
-use crate::process::shaping::tool::cutter::CornerPart;
+use crate::process::shaping::tool::involute_tooth::CornerPart;
 use glam::DVec2;
 use rayon::prelude::*;
 use std::f64::consts::{PI, TAU};
@@ -36,7 +36,8 @@ pub(super) type Round = (DVec2, f64);
 
 /// The rounds at both corners of a cutter tooth.
 pub(super) fn tip_rounds(job: &ShapingJob) -> Vec<Round> {
-    let own = job.cutter.corner.iter().filter_map(|part| match *part {
+    let corner = job.cutter.involute().map_or(&[][..], |tooth| &tooth.corner);
+    let own = corner.iter().filter_map(|part| match *part {
         CornerPart::Round { center_mm, radius_mm, .. } => Some((center_mm, radius_mm)),
         CornerPart::Chamfer { .. } => None,
     });

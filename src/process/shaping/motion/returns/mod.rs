@@ -6,6 +6,7 @@
 //! [`crate::process::shaping::linkage::retraction`].
 
 pub mod clearance;
+pub mod edge_distance;
 pub mod facts;
 pub mod motion;
 mod overlap;

@@ -7,23 +7,40 @@
 //! goes on.
 //!
 //! The tooth is taken to go on towards the axis without end: what a tooth of the work meets at the root circle of the
-//! cutter is not looked at.
+//! cutter is not looked at. A drawn tooth has no such form: [`EdgeDistance`].
 
+use super::edge_distance::EdgeDistance;
 use crate::process::shaping::ShaperCutter;
-use crate::process::shaping::tool::cutter::CornerPart;
+use crate::process::shaping::tool::involute_tooth::{CornerPart, InvoluteTooth};
 use gearcut_core::tool::involute::Involute;
 use glam::DVec2;
 
-/// A cutter tooth, as far as distances need it; symmetric to its centre line.
+/// A cutter tooth, as far as distances need it.
 #[derive(Debug, Clone)]
 pub struct ToothDistance {
+    law: DistanceLaw,
+    /// Radius of the tip circle, mm.
+    pub tip_radius_mm: f64,
+}
+
+/// How distances are found.
+#[derive(Debug, Clone)]
+enum DistanceLaw {
+    /// In closed form.
+    Involute(InvoluteDistance),
+    /// From the chords of an edge.
+    Drawn(EdgeDistance),
+}
+
+/// A tooth with involute flanks; symmetric to its centre line.
+#[derive(Debug, Clone)]
+struct InvoluteDistance {
     flank: Involute,
     /// Where the involute begins, and its normal there.
     start_mm: DVec2,
     start_normal: DVec2,
     corner: Vec<Corner>,
-    /// Radius of the tip circle, mm.
-    pub tip_radius_mm: f64,
+    tip_radius_mm: f64,
 }
 
 /// A part of the corner between flank and tip.
@@ -54,19 +71,37 @@ impl Corner {
 impl ToothDistance {
     /// Of a cutter's teeth.
     pub fn new(cutter: &ShaperCutter) -> Self {
-        let flank = cutter.flank(1.0);
-        let [start_roll, _] = cutter.roll_range;
-        Self {
-            flank,
-            start_mm: flank.point(start_roll),
-            start_normal: flank.normal(start_roll),
-            corner: cutter.corner.iter().map(Corner::new).collect(),
-            tip_radius_mm: cutter.tip_radius_mm,
-        }
+        let tip_radius_mm = cutter.tip_radius_mm;
+        let law = match cutter.involute() {
+            Some(tooth) => DistanceLaw::Involute(InvoluteDistance::new(tooth, tip_radius_mm)),
+            None => DistanceLaw::Drawn(EdgeDistance::new(cutter.edge())),
+        };
+        Self { law, tip_radius_mm }
     }
 
     /// Distance of a point from the tooth, mm; negative inside.
     pub fn at_mm(&self, point_mm: DVec2) -> f64 {
+        match &self.law {
+            DistanceLaw::Involute(tooth) => tooth.at_mm(point_mm),
+            DistanceLaw::Drawn(edge) => edge.at_mm(point_mm),
+        }
+    }
+}
+
+impl InvoluteDistance {
+    fn new(tooth: &InvoluteTooth, tip_radius_mm: f64) -> Self {
+        let flank = tooth.flank(1.0);
+        let [start_roll, _] = tooth.roll_range;
+        Self {
+            flank,
+            start_mm: flank.point(start_roll),
+            start_normal: flank.normal(start_roll),
+            corner: tooth.corner.iter().map(Corner::new).collect(),
+            tip_radius_mm,
+        }
+    }
+
+    fn at_mm(&self, point_mm: DVec2) -> f64 {
         let p = DVec2::new(point_mm.x, point_mm.y.abs());
         let mut distance_mm = self.side_mm(p).max(p.length() - self.tip_radius_mm);
         for part in &self.corner {
@@ -109,7 +144,8 @@ mod tests {
             let stations = EdgePolygon::new(cutter.edge(), 0.05).stations;
             // A chamfer's own ends are no corners of the stations. Within 0.04 mm of one, another side is
             // nearer to a point that was moved inwards: 0.1 mm tan(23 deg), half the turn of the normal there.
-            let ends = cutter.corner.iter().flat_map(|part| match *part {
+            let corner = &cutter.involute().expect("involute flanks").corner;
+            let ends = corner.iter().flat_map(|part| match *part {
                 CornerPart::Chamfer { flank_end_mm, tip_end_mm } => vec![flank_end_mm, tip_end_mm],
                 CornerPart::Round { .. } => Vec::new(),
             });
@@ -133,9 +169,10 @@ mod tests {
     #[test]
     fn a_sharp_corner_is_as_far_as_a_point() {
         let cutter = paper_cutter(Tip::Sharp);
-        let flank = cutter.flank(1.0);
-        let corner = flank.point(cutter.roll_range[1]);
-        let between = corner.normalize() + flank.normal(cutter.roll_range[1]);
+        let tooth = cutter.involute().expect("involute flanks");
+        let flank = tooth.flank(1.0);
+        let corner = flank.point(tooth.roll_range[1]);
+        let between = corner.normalize() + flank.normal(tooth.roll_range[1]);
         let p = corner + 0.3 * between.normalize();
         assert!((ToothDistance::new(&cutter).at_mm(p) - 0.3).abs() < 1e-12);
         assert!((ToothDistance::new(&cutter).at_mm(DVec2::new(p.x, -p.y)) - 0.3).abs() < 1e-12);

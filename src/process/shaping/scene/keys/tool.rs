@@ -8,7 +8,9 @@ pub const EDGE_ROUGHNESS: &str = "tool.shaper_cutter.edge_roughness";
 pub const EDGE_ROUNDING: &str = "tool.shaper_cutter.edge_rounding";
 /// Section of what builds up on edges.
 pub const BUILT_UP_EDGE: &str = "tool.shaper_cutter.built_up_edge";
-/// Its keys, each of which needs all others.
+/// Section of a contour in place of involute teeth.
+pub const PROFILE: &str = "tool.shaper_cutter.profile";
+/// Keys of a built-up edge, each of which needs all others.
 pub const BUILT_UP_EDGE_KEYS: [&str; 9] = [
     "density_per_mm2",
     "speeds_m_per_min",
@@ -108,6 +110,33 @@ pub(super) static SECTIONS: &[KeySection] = &[
             },
         ],
         "Shaper cutter by its profile projected on the transverse plane.",
+    ),
+    KeySection::new(
+        PROFILE,
+        Role::Plain,
+        &[
+            Key {
+                name: "file",
+                kind: Kind::Path,
+                unit: "",
+                default: Default::LeftOut("involute teeth"),
+                example: "\"tooth.csv\"",
+                teach: "Contour of one cutter tooth, open, from root over tip to root: a table headed x_mm,y_mm (or \
+                    _um, _in), or a drawing (.dxf; layer TOOTH, if there is one). x runs across the tooth, y from the \
+                    cutter's axis outwards along its centre line.",
+            },
+            Key {
+                name: "tolerance_um",
+                kind: Kind::Number(Range::closed(0.05, 50.0)),
+                unit: "um",
+                default: Default::Number(1.0),
+                example: "1.0",
+                teach: "How far the edge that cuts may pass beside the contour: half for arcs through its points, half \
+                    for tangents along its hollows. More than what measured points scatter.",
+            },
+        ],
+        "Cutter tooth that is drawn or measured: any profile. The gear is judged against what that edge generates. A \
+            point where the contour turns by more than 11.5 deg is a corner and stays one.",
     ),
     KeySection {
         path: EDGE_ROUGHNESS,
