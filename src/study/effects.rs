@@ -23,6 +23,9 @@ const MOST_PARTS: usize = 32;
 const LEAST_IN_A_PART: usize = 4;
 /// Groups of the jackknife.
 const GROUPS: usize = 20;
+/// Values that differ by less, in the unit of their quantity or as a share of them, are the same but for rounding: the
+/// centre distance of a round gear has accelerations of 1e-20 mm/s^2.
+const ROUNDING: f64 = 1e-12;
 
 /// What a parameter does to a quantity.
 #[derive(Debug, Clone, PartialEq)]
@@ -80,7 +83,7 @@ impl Effect {
     pub fn swing(&self) -> f64 {
         let means = self.parts.iter().map(|part| part.mean);
         let [low, high] = means.fold([f64::INFINITY, f64::NEG_INFINITY], |[l, h], mean| [l.min(mean), h.max(mean)]);
-        high - low
+        if is_rounding(high - low, high) { 0.0 } else { high - low }
     }
 }
 
@@ -143,7 +146,7 @@ pub fn total(pairs: &[[f64; 3]]) -> Option<VarianceShare> {
         let centre = mean(points());
         let variance = points().map(|value| (value - centre).powi(2)).sum::<f64>() / (2 * own.len() - 1) as f64;
         let changes = mean(own.iter().map(|[first, _, between]| 0.5 * (between - first).powi(2)));
-        (variance > 0.0).then(|| changes / variance)
+        (!is_rounding(variance.sqrt(), centre)).then(|| changes / variance)
     };
     let index = of(&|_| true)?;
     let half = half_interval(pairs.len(), of);
@@ -162,7 +165,12 @@ fn indices_without(parts: &[Vec<usize>], quantity: &[f64], counts: &dyn Fn(usize
     let within: f64 = parts.iter().map(|part| squares(part, mean(part.iter().copied()))).sum();
     let freedom = cases.checked_sub(parts.len()).filter(|&freedom| freedom > 0)?;
     let by_chance = (parts.len() - 1) as f64 * within / freedom as f64;
-    (total > 0.0).then(|| [by_chance, 0.0].map(|off| (total - within - off) / total))
+    let deviation = (total / cases as f64).sqrt();
+    (!is_rounding(deviation, all)).then(|| [by_chance, 0.0].map(|off| (total - within - off) / total))
+}
+
+fn is_rounding(difference: f64, of: f64) -> bool {
+    difference <= ROUNDING * of.abs().max(1.0)
 }
 
 fn mean(values: impl Iterator<Item = f64>) -> f64 {
@@ -291,6 +299,8 @@ mod tests {
         assert_eq!((many.share, many.parts.len(), many.swing()), (None, 1, 0.0), "40 words are no range");
         let alike = Effect::of(&["1", "1", "2", "2"], &[5.0; 4]);
         assert_eq!((alike.share, alike.swing()), (None, 0.0));
+        let rounding = Effect::of(&["1", "1", "2", "2"], &[1e-20, 2e-20, 6e-20, 7e-20]);
+        assert_eq!((rounding.share, rounding.swing()), (None, 0.0));
         assert_eq!([total(&[]), total(&[[1.0, 2.0, 3.0]]), total(&[[5.0; 3]; 4])], [None; 3]);
     }
 }

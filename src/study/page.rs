@@ -273,7 +273,7 @@ fn least_division(unit: &str) -> f64 {
     match unit {
         "um" => 0.01,
         "mm" => 1e-5,
-        _ => 0.0,
+        _ => 1e-9,
     }
 }
 

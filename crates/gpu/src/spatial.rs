@@ -351,19 +351,16 @@ fn compose(cells: &EdgeCells, record: &sweep::SweepRecord, segment: &Segment, mi
     let base_in_blade = axes.rotate(base.point);
     place[0][0] -= base_in_blade.x;
     place[0][2] -= base_in_blade.y;
-    // A helical rake face is turned back by its angle at the base point's y, to which the angle now refers.
-    let turned_back = |v: [f64; 3]| {
-        let (sin, cos) = (record.twist_rad_per_mm * base_in_blade.y).sin_cos();
-        [cos * v[0] + sin * v[1], cos * v[1] - sin * v[0], v[2]]
-    };
     let radius_mm = record.radius_mm + base_in_blade.x;
-    let mut turn = record.turn.map(|rows| {
-        let columns = [0, 1, 2].map(|column| turned_back([rows[0][column], rows[1][column], rows[2][column]]));
-        [0, 1, 2].map(|row| columns.map(|column: [f64; 3]| column[row]))
-    });
-    if record.twist_rad_per_mm == 0.0 {
-        turn = record.turn;
-    } else {
+    let mut turn = record.turn;
+    if record.twist_rad_per_mm != 0.0 {
+        // A helical rake face is turned back by its angle at the base point's y, to which the angle now refers.
+        let (sin, cos) = (record.twist_rad_per_mm * base_in_blade.y).sin_cos();
+        let turned_back = |v: [f64; 3]| [cos * v[0] + sin * v[1], cos * v[1] - sin * v[0], v[2]];
+        turn = turn.map(|rows| {
+            let columns = [0, 1, 2].map(|column| turned_back([rows[0][column], rows[1][column], rows[2][column]]));
+            [0, 1, 2].map(|row| columns.map(|column: [f64; 3]| column[row]))
+        });
         place[0][0] += radius_mm;
         place = place.map(turned_back);
         place[0][0] -= radius_mm;

@@ -231,9 +231,9 @@ impl Sweep {
     /// The sweep of one segment; cells and starts are the caller's.
     pub fn record(&self, pass: u32, segment_index: usize, segment: &Segment) -> SweepRecord {
         let base = segment.blade_from_segment.translation_mm;
-        // Axes of the rake face at the segment's own y.
-        let turned = DMat3::from_rotation_z(-self.twist_rad_per_mm * base.y);
-        let mut place_mm = self.place_mm.map(|place| (turned * place).to_array());
+        // Axes of the rake face at the segment's own y, where these turn.
+        let turned = (self.twist_rad_per_mm != 0.0).then(|| DMat3::from_rotation_z(-self.twist_rad_per_mm * base.y));
+        let mut place_mm = self.place_mm.map(|place| turned.map_or(place, |turned| turned * place).to_array());
         let radius_mm = self.radial_mm + base.x;
         place_mm[0][0] -= radius_mm;
         place_mm[0][2] -= base.y;
@@ -245,7 +245,7 @@ impl Sweep {
             radius_mm,
             twist_rad_per_mm: self.twist_rad_per_mm,
             t_range: self.t_range,
-            turn: self.turn.map(|turn| (turned * turn).transpose().to_cols_array_2d()),
+            turn: self.turn.map(|turn| turned.map_or(turn, |turned| turned * turn).transpose().to_cols_array_2d()),
             place_mm,
             off_mm: self.off_mm,
         }

@@ -53,8 +53,9 @@ const FLOOR_MM: f64 = 1e-3;
 /// may lie straight by chance. Found by trial, no proof: 0.86 was needed on a root of a shipped scene, whose pass was
 /// lost without it.
 const UPPER_SHARE: f64 = 2.0;
-/// Steps towards the moment at which a rake face holds a point: each gains more than a digit on usual gears. Where the
-/// last one still moves a point by more than [`MOMENT_MM`], as with few teeth per start, the box is not known.
+/// Steps at most towards the moment at which a rake face holds a point: each gains more than a digit on usual gears.
+/// Where the last one still moves a point by more than [`MOMENT_MM`], as with few teeth per start, the box is not
+/// known.
 const MOMENT_STEPS: usize = 5;
 /// A tenth of [`BOX_MARGIN_MM`].
 const MOMENT_MM: f64 = 1e-4;
@@ -298,7 +299,9 @@ impl pulp::NullaryFnOnce for RakeFaceBoxes<'_, '_> {
             let base_mm = segments[record.segment as usize].blade_from_segment.translation_mm;
             let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
             let mut known = true;
-            for [t, rho, along, step_t] in record.places(&rays, &heights_mm, MOMENT_STEPS) {
+            // A quarter of what a last step may move a point, which stays well within twice the segment's radius.
+            let last_t = 0.125 * MOMENT_MM / record.radius_mm;
+            for [t, rho, along, step_t] in record.places(&rays, &heights_mm, MOMENT_STEPS, last_t) {
                 for l in 0..LANES {
                     // dt is half the angle; the point moves more slowly than the rake face turns.
                     let moved_mm = 2.0 * step_t[l].abs() * (rho[l] + record.radius_mm);

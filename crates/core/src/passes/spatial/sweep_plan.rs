@@ -213,36 +213,37 @@ impl SweepPlanner<'_> {
         upper_bound_mm: f64,
         plan: &mut SweepPlan,
     ) {
-        let (alive, upper_bound_mm) = self.bounds(region, frame).keep(sampled, upper_bound_mm);
-        let in_tiles = self.passes == Considered::CandidatesInTiles;
-        if in_tiles && region.is_tile() {
-            self.whole_tile(region, frame, &alive, plan);
+        let (mut alive, upper_bound_mm) = self.bounds(region, frame).keep(sampled, upper_bound_mm);
+        if self.passes == Considered::CandidatesInTiles && region.is_tile() {
+            self.whole_tile(region, frame, alive, plan);
             return;
         }
+        // Only what is left is seen from a new frame: a sweep in another frame costs as much as its samples.
+        let (origin_mm, reach_mm) = self.surroundings(&region.dexels());
+        let own = (reach_mm <= NEW_FRAME * frame.reach_mm).then(|| self.frame(origin_mm, reach_mm, frame, &mut alive));
+        let frame = own.as_ref().unwrap_or(frame);
         let parts = region.parts(frame, self.segments(), &alive);
         if region.is_tile() {
             self.bounded_tile(region, frame, &parts, upper_bound_mm, plan);
             return;
         }
-        for (part, mut sampled) in parts {
-            let (origin_mm, reach_mm) = self.surroundings(&part.dexels());
-            // A tile that keeps its frame as its own stands in its middle.
-            let own_frame = in_tiles && part.is_tile();
-            if reach_mm > NEW_FRAME * frame.reach_mm && !own_frame {
-                self.halve(&part, frame, &sampled, upper_bound_mm, plan);
-                continue;
-            }
-            let candidates: Vec<SweepCandidate> = sampled.iter().map(|s| frame.candidates[s.index as usize]).collect();
-            let (frame, index_of) = self.frame(origin_mm, reach_mm, &candidates);
-            let mut places = index_of.into_iter();
-            sampled.retain_mut(|s| {
-                places.next().flatten().is_some_and(|index| {
-                    s.index = index;
-                    true
-                })
-            });
-            self.halve(&part, &frame, &sampled, upper_bound_mm, plan);
+        for (part, sampled) in parts {
+            self.halve(&part, frame, &sampled, upper_bound_mm, plan);
         }
+    }
+
+    /// Candidates of a frame in another one within it, without those whose blades hold its origin at no moment.
+    fn frame(&self, origin_mm: DVec3, reach_mm: f64, of: &SweepFrame, alive: &mut Vec<(Sampled, u8)>) -> SweepFrame {
+        let candidates: Vec<SweepCandidate> = alive.iter().map(|(s, _)| of.candidates[s.index as usize]).collect();
+        let (frame, index_of) = SweepFrame::new(self.set, origin_mm, reach_mm, &candidates);
+        let mut places = index_of.into_iter();
+        alive.retain_mut(|(sampled, _)| {
+            places.next().flatten().is_some_and(|index| {
+                sampled.index = index;
+                true
+            })
+        });
+        frame
     }
 
     /// Middle of nine rays, and a distance from there that nothing between lowest and blank height of any of them
@@ -308,21 +309,18 @@ impl SweepPlanner<'_> {
         RegionBounds { field: self.field, segments: self.segments(), region, frame }
     }
 
-    fn frame(&self, origin_mm: DVec3, reach_mm: f64, candidates: &[SweepCandidate]) -> (SweepFrame, Vec<Option<u32>>) {
-        SweepFrame::new(self.set, origin_mm, reach_mm, candidates)
-    }
-
-    /// A tile in the frame that its candidates were sampled in. Newton's method starts from the mean height of the rays
-    /// that surely enter a candidate, or from the lowest one.
-    fn whole_tile(&self, region: &Region, frame: &SweepFrame, alive: &[(Sampled, u8)], plan: &mut SweepPlan) {
-        let first = plan.records.len();
-        plan.records.extend(alive.iter().map(|(sampled, _)| {
-            let mut record = frame.records[sampled.index as usize].clone();
+    /// A tile in a frame about its middle. Newton's method starts from the mean height of the rays that surely enter a
+    /// candidate, or from the lowest one.
+    fn whole_tile(&self, region: &Region, frame: &SweepFrame, mut alive: Vec<(Sampled, u8)>, plan: &mut SweepPlan) {
+        let (origin_mm, reach_mm) = self.surroundings(&region.dexels());
+        let mut frame = self.frame(origin_mm, reach_mm, frame, &mut alive);
+        for (record, (sampled, _)) in frame.records.iter_mut().zip(&alive) {
             record.start.height_mm[0] = sampled.mean_entry_mm().unwrap_or(2.0 * self.field.low_mm);
-            record
-        }));
+        }
+        let first = plan.records.len();
+        plan.records.append(&mut frame.records);
         let (columns, rows) = (region.columns.dexels(), region.rows.dexels());
-        plan.tiles.push(SweepTile { columns, rows, origin_mm: frame.origin_mm, records: first..plan.records.len() });
+        plan.tiles.push(SweepTile { columns, rows, origin_mm, records: first..plan.records.len() });
     }
 
     /// Bounds the parts of a tile: a record costs more in the kernel than here, and it is told in which cells it can be
@@ -375,7 +373,7 @@ impl SweepPlanner<'_> {
             std::array::from_fn(|i| self.field.index(columns[i / SIDE], rows[i % SIDE]))
         };
         let (origin_mm, reach_mm) = self.surroundings(&dexels);
-        let (frame, index_of) = self.frame(origin_mm, reach_mm, kept);
+        let (frame, index_of) = SweepFrame::new(self.set, origin_mm, reach_mm, kept);
         let first = plan.records.len();
         plan.records.extend(frame.records);
         for (index, cells) in index_of.iter().zip(cells) {

@@ -23,6 +23,10 @@ use glam::DVec3;
 pub const LANES: usize = 8;
 /// Newton steps at most: two or three suffice; a ray that grazes a round halves what is missing with every step.
 const MAX_STEPS: usize = 32;
+/// A ray that misses a round goes back to its lowest height again and again; one that enters does so once, and one that
+/// runs out of the tool settles there. A sample is not known of a ray that has gone back this often, and its candidate
+/// is kept unless its box is clear of the rays.
+const MOST_RISES: f64 = 4.0;
 
 /// One quantity of eight rays.
 pub type Lanes = [f64; LANES];
@@ -93,10 +97,11 @@ impl SweepRecord {
     /// `last_step` (in mm, and in t) are the last: the error after them is of their squares.
     #[inline(always)]
     pub fn roots(&self, segment: &Segment, rays: &Rays, start: [&Lanes; 2], lowest_mm: f64, last_step: f64) -> Roots {
-        self.roots_of(&paths(self, rays), segment, start, lowest_mm, last_step)
+        self.roots_of(&paths(self, rays), segment, start, lowest_mm, [last_step, f64::INFINITY])
     }
 
-    /// The same from starting heights alone: one step finds the moments.
+    /// The same from starting heights alone: one step finds the moments. Rays that ran out of the tool
+    /// [`MOST_RISES`] times are not waited for.
     #[inline(always)]
     pub fn roots_from(
         &self,
@@ -107,41 +112,42 @@ impl SweepRecord {
         last_step: f64,
     ) -> Roots {
         let paths = paths(self, rays);
-        let start_t = places(self, &paths, start_mm, 1)[0];
-        self.roots_of(&paths, segment, [start_mm, &start_t], lowest_mm, last_step)
+        let start_t = places(self, &paths, start_mm, 1, 0.0)[0];
+        self.roots_of(&paths, segment, [start_mm, &start_t], lowest_mm, [last_step, MOST_RISES])
     }
 
     #[inline(always)]
-    fn roots_of(&self, paths: &Paths, segment: &Segment, start: [&Lanes; 2], lowest_mm: f64, last_step: f64) -> Roots {
+    fn roots_of(&self, paths: &Paths, segment: &Segment, start: [&Lanes; 2], lowest_mm: f64, ends: [f64; 2]) -> Roots {
         if self.twist_rad_per_mm == 0.0 {
-            roots::<false>(self, segment, paths, start, lowest_mm, last_step)
+            roots::<false>(self, segment, paths, start, lowest_mm, ends)
         } else {
-            roots::<true>(self, segment, paths, start, lowest_mm, last_step)
+            roots::<true>(self, segment, paths, start, lowest_mm, ends)
         }
     }
 
     /// Moments, distances from the tool's axis less the segment's, and places along the blade's y less the segment's,
-    /// of eight points (of the rays, at these heights), after some steps, and the last steps of the moments. A step
-    /// gains as many digits as the tool turns faster than the work; whoever needs the places themselves looks at the
-    /// last one.
+    /// of eight points (of the rays, at these heights), after steps of at most this number down to one of `last_t`, and
+    /// the last steps of the moments. A step gains as many digits as the tool turns faster than the work; whoever needs
+    /// the places themselves looks at the last one.
     #[inline(always)]
     pub fn places<const HEIGHTS: usize>(
         &self,
         rays: &Rays,
         heights_mm: &[f64; HEIGHTS],
         steps: usize,
+        last_t: f64,
     ) -> [[Lanes; 4]; HEIGHTS] {
         let paths = paths(self, rays);
         let mut all = [[[0.0; LANES]; 4]; HEIGHTS];
         for (at_height, &height_mm) in all.iter_mut().zip(heights_mm) {
-            *at_height = places(self, &paths, &[height_mm; LANES], steps);
+            *at_height = places(self, &paths, &[height_mm; LANES], steps, last_t);
         }
         all
     }
 }
 
 #[inline(always)]
-fn places(record: &SweepRecord, paths: &Paths, height_mm: &Lanes, steps: usize) -> [Lanes; 4] {
+fn places(record: &SweepRecord, paths: &Paths, height_mm: &Lanes, steps: usize, last_t: f64) -> [Lanes; 4] {
     let (mut t, mut rho, mut y) = ([0.0; LANES], [0.0; LANES], [0.0; LANES]);
     let mut step_t = [0.0; LANES];
     for _ in 0..steps {
@@ -164,6 +170,9 @@ fn places(record: &SweepRecord, paths: &Paths, height_mm: &Lanes, steps: usize) 
             rho[l] = distance - record.radius_mm;
             y[l] = along;
         }
+        if step_t.iter().fold(0.0, |largest: f64, step| largest.max(step.abs())) < last_t {
+            break;
+        }
     }
     [t, rho, y, step_t]
 }
@@ -175,7 +184,7 @@ fn roots<const TWISTED: bool>(
     paths: &Paths,
     start: [&Lanes; 2],
     lowest: f64,
-    last_step: f64,
+    [last_step, most_rises]: [f64; 2],
 ) -> Roots {
     let [cos, sin] = segment.blade_from_segment.rotation.to_array();
     let radius = record.radius_mm;
@@ -264,8 +273,9 @@ fn roots<const TWISTED: bool>(
             y_last[l] = y[l] - (y_h[l] * step_h[l] + y_t[l] * step_t[l]);
         }
         for l in 0..LANES {
-            largest_h = largest_h.max(step_h[l].abs());
-            largest_t = largest_t.max(step_t[l].abs());
+            let waited_for = if rises[l] < most_rises { 1.0 } else { 0.0 };
+            largest_h = largest_h.max(waited_for * step_h[l].abs());
+            largest_t = largest_t.max(waited_for * step_t[l].abs());
         }
         if largest_h < last_step && largest_t < last_step {
             break;

@@ -77,7 +77,8 @@ impl SweepFrame {
         reach_mm: f64,
         candidates: &[SweepCandidate],
     ) -> (Self, Vec<Option<u32>>) {
-        let mut frame = Self { origin_mm, reach_mm, candidates: Vec::new(), records: Vec::new() };
+        let (records, kept) = (Vec::with_capacity(candidates.len()), Vec::with_capacity(candidates.len()));
+        let mut frame = Self { origin_mm, reach_mm, candidates: kept, records };
         let mut index_of = Vec::with_capacity(candidates.len());
         for of_sweep in candidates.chunk_by(|a, b| a.sweep() == b.sweep()) {
             let sweep = Sweep::new(set, &of_sweep[0].pass, of_sweep[0].piece, origin_mm, reach_mm);
