@@ -93,7 +93,9 @@ fn sizes(round: &RoundGear) -> ToleranceSizes {
 /// Why ISO 1328-1 gives no classes to a gear with these sizes, none where it is not round; none where it does.
 pub fn no_class(round: Option<&RoundGear>) -> Option<String> {
     match round.map(sizes) {
-        None => Some("the classes of ISO 1328-1 are for round gears whose flanks reach the pitch circle".to_owned()),
+        None => Some(
+            "the classes of ISO 1328-1 are for round gears of involutes whose flanks reach the pitch circle".to_owned(),
+        ),
         Some(sizes) => sizes.beyond(),
     }
 }

@@ -22,6 +22,7 @@
 
 use crate::process::shaping::target::envelope::{EnvelopePoint, SAME_MM, SpaceProfile};
 use crate::process::shaping::target::generation::{FlankContact, Generation};
+use crate::process::shaping::tool::drawn::biarcs::turn_rad;
 use crate::process::shaping::tool::drawn::contour::{FILE, meet};
 use crate::process::shaping::tool::drawn::{DrawnPart, DrawnTooth, EdgePlace};
 use gearcut_core::error::Refusal;
@@ -43,6 +44,8 @@ const MOST_HALVINGS: u32 = 12;
 const CONTACT_STEPS: u32 = 30;
 const LAST_STEP_RAD: f64 = 1e-13;
 const SETTLED_RAD: f64 = 1e-7;
+/// A flank that turns by more than this at a point runs back, rad: envelopes turn by half a turn in a cusp.
+const BACK_RAD: f64 = 2.8;
 
 impl Generation {
     /// The envelope of a space (any integer, counted along the arc) by a drawn tooth; `None` for involute teeth.
@@ -113,6 +116,14 @@ impl SpaceProfile {
             let problem = format!("no flank of it stands in space {space}");
             Refusal::new(FILE, problem, "draw flanks steeper than 45 deg, or look at the module and the teeth")
         })?;
+        if let Some(at_mm) = runs_back(&points[..=flanks[0]]).or_else(|| runs_back(&points[flanks[1]..])) {
+            let problem = format!(
+                "the flank that it generates in space {space} runs back on itself {:.3} mm off the axis of the gear: the \
+                 edge is too hollow or too rough where it cuts there",
+                at_mm.length()
+            );
+            return Err(Refusal::new(FILE, problem, "smooth what was measured, or allow more tolerance"));
+        }
         Ok(Self { points, loops, flanks })
     }
 }
@@ -178,6 +189,17 @@ fn within<'a>(all: &'a [EnvelopePoint], blank: &Blank) -> Result<&'a [EnvelopePo
         ));
     }
     Ok(&all[first - 1..=last + 1])
+}
+
+/// The first point at which a chain runs back.
+fn runs_back(points: &[EnvelopePoint]) -> Option<DVec2> {
+    let chords =
+        |three: &[EnvelopePoint]| [three[1].point_mm - three[0].point_mm, three[2].point_mm - three[1].point_mm];
+    let is_back = |three: &&[EnvelopePoint]| {
+        let [a, b] = chords(three);
+        a.length().min(b.length()) > SAME_MM && turn_rad(a, b).abs() > BACK_RAD
+    };
+    points.windows(3).find(is_back).map(|three| three[1].point_mm)
 }
 
 /// A chain without the loops behind its crossings, each of which is two points, one with either normal; and the loops.

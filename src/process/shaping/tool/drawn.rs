@@ -3,7 +3,7 @@
 //! In: points of the contour ([`contour`]) and a tolerance. Out: [`DrawnTooth`], the parts of the edge in the order of
 //! the chain, from which the envelope is made ([`crate::process::shaping::target::drawn`]), and the segments that cut.
 //!
-//! The contour is divided at its corners, and every smooth run is fitted with arcs that meet without a kink
+//! The contour is divided at its corners ([`runs`]), and every smooth run is fitted with arcs that meet without a kink
 //! ([`biarcs`]) within half the tolerance. Where arcs are hollow, tangents stand for them that cross within the other
 //! half: bounds of passes and Newton's method along a ray rest on convex segments, and a line is one. So a cut by a
 //! drawn edge equals brute force bit for bit, on both backends, by what holds for every edge. Tangents lie in the tool:
@@ -18,6 +18,7 @@
 
 pub mod biarcs;
 pub mod contour;
+mod runs;
 
 use biarcs::{ArcPiece, turn_rad};
 use contour::{CutterCircle, FILE};
@@ -29,9 +30,6 @@ use std::path::Path;
 
 /// Key of the tolerance.
 const TOLERANCE: &str = "tool.shaper_cutter.profile.tolerance_um";
-/// A chain that turns by more than this at a point has a corner there, rad: ten times what points of a round of 0.3 mm
-/// turn that are 0.005 mm apart, and less than any corner that is meant.
-const CORNER_RAD: f64 = 0.2;
 /// Normals further than this from the tooth's centre line are those of flanks, rad: half-way between tip and flank.
 const FLANK_RAD: f64 = FRAC_PI_4;
 /// Ends of parts whose normals differ by more than this have a corner between them, rad.
@@ -147,7 +145,7 @@ impl DrawnTooth {
 
     /// Through points in the blade's frame; none where no part crosses the centre line as a tip.
     pub fn through(points_mm: &[DVec2], tolerance_mm: f64) -> Option<Self> {
-        let runs = smooth_runs(points_mm);
+        let runs = runs::smooth(points_mm, 0.5 * tolerance_mm);
         let pieces = runs.iter().flat_map(|run| biarcs::fit(run, 0.5 * tolerance_mm));
         let laws: Vec<PartLaw> = pieces.flat_map(|piece| PartLaw::of_piece(&piece).divided()).collect();
         let parts = with_corners(&named(&laws)?);
@@ -200,15 +198,6 @@ pub fn drawn_words(tooth: &DrawnTooth) -> String {
         count(&|law| matches!(law, PartLaw::Line { .. })),
         count(&|law| matches!(law, PartLaw::Turn { radius_mm: 0.0, .. })),
     )
-}
-
-/// The chain divided at its corners; each run begins with the point with which the one before ends.
-fn smooth_runs(points_mm: &[DVec2]) -> Vec<Vec<DVec2>> {
-    let turn = |i: usize| (points_mm[i] - points_mm[i - 1]).angle_to(points_mm[i + 1] - points_mm[i]).abs();
-    let last = points_mm.len() - 1;
-    let corners = (1..last).filter(|&i| turn(i) > CORNER_RAD);
-    let ends: Vec<usize> = [0].into_iter().chain(corners).chain([last]).collect();
-    ends.windows(2).map(|pair| points_mm[pair[0]..=pair[1]].to_vec()).collect()
 }
 
 /// Arcs and lines with their names; none where no tip crosses the centre line.

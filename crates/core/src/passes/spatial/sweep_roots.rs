@@ -100,8 +100,8 @@ impl SweepRecord {
         self.roots_of(&paths(self, rays), segment, start, lowest_mm, [last_step, f64::INFINITY])
     }
 
-    /// The same from starting heights alone: one step finds the moments. Rays that ran out of the tool
-    /// [`MOST_RISES`] times are not waited for.
+    /// The same from starting heights alone: one step finds the moments. Rays that run out of the tool again and again
+    /// are not waited for.
     #[inline(always)]
     pub fn roots_from(
         &self,
