@@ -118,8 +118,8 @@ impl SpaceProfile {
         })?;
         if let Some(at_mm) = runs_back(&points[..=flanks[0]]).or_else(|| runs_back(&points[flanks[1]..])) {
             let problem = format!(
-                "the flank that it generates in space {space} runs back on itself {:.3} mm off the axis of the gear: the \
-                 edge is too hollow or too rough where it cuts there",
+                "the flank that it generates in space {space} runs back on itself {:.3} mm off the axis of the gear: \
+                 the edge is too hollow or too rough where it cuts there",
                 at_mm.length()
             );
             return Err(Refusal::new(FILE, problem, "smooth what was measured, or allow more tolerance"));

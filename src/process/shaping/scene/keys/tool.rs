@@ -132,12 +132,13 @@ pub(super) static SECTIONS: &[KeySection] = &[
                 default: Default::Number(1.0),
                 example: "1.0",
                 teach: "How far the edge that cuts may pass beside the contour: half for arcs through its points, half \
-                    for tangents along its hollows. Points may scatter by a tenth of it: what is measured is smoothed before.",
+                    for tangents along its hollows. Points may scatter by a tenth of it: what is measured is \
+                    smoothed before.",
             },
         ],
         "Cutter tooth that is drawn or measured: any profile. The gear is judged against what that edge generates. A \
-            point where the contour turns by more than 11.5 deg, or lies 20 um beside the chord of its neighbours, is a \
-            corner and stays one.",
+            point where the contour turns by more than 11.5 deg, or lies 20 um beside the chord of its neighbours, is \
+            a corner and stays one.",
     ),
     KeySection {
         path: EDGE_ROUGHNESS,
