@@ -11,13 +11,13 @@
 //! behind the edge outside the pitch circle, before it inside. Arcs, lines and corners go this way alike, and an arc
 //! about the pitch point, which touches all at once, is no exception: the edge is followed, not the parameter.
 //!
-//! **What stands.** Where the envelope crosses itself the loop between is cut away: by the path of a corner (undercut,
+//! **What is left.** Where the envelope crosses itself the loop between is cut away: by the path of a corner (undercut,
 //! protuberance) or behind a cusp. What does not touch anywhere leaves a gap, which its neighbours close.
 //!
 //! Places are some [`SPACING_MODULES`] apart; between them a flank is the cubic through points and tangents, which is
 //! off by less than a nanometre, and a crossing is that of chords, off by their arrow heights.
 //!
-//! Road not taken: the flank as a function of the linkage's parameter, as for involutes. It may stand still on arcs
+//! Road not taken: the flank as a function of the linkage's parameter, as for involutes. It may rest on arcs
 //! (rollers of a sprocket) and run backwards on others.
 
 use crate::process::shaping::target::envelope::{EnvelopePoint, SAME_MM, SpaceProfile};
@@ -113,7 +113,7 @@ impl SpaceProfile {
             (last > 0 && first + 1 < points.len()).then_some([last, first])
         });
         let flanks = ends.ok_or_else(|| {
-            let problem = format!("no flank of it stands in space {space}");
+            let problem = format!("it generates no flank in space {space}");
             Refusal::new(FILE, problem, "draw flanks steeper than 45 deg, or look at the module and the teeth")
         })?;
         if let Some(at_mm) = runs_back(&points[..=flanks[0]]).or_else(|| runs_back(&points[flanks[1]..])) {
@@ -142,9 +142,7 @@ fn envelope(generation: &Generation, tooth: &DrawnTooth, space: i64, spacing_mm:
             between(&touch, [pair[0], pair[1]], spacing_mm, MOST_HALVINGS, &mut points);
         }
     }
-    points.dedup_by(|later, kept| {
-        later.point_mm.distance(kept.point_mm) < SAME_MM && later.normal.distance(kept.normal) < SAME_MM
-    });
+    points.dedup_by(|later, kept| later.is_same(kept));
     points
 }
 
@@ -243,11 +241,7 @@ pub struct DrawnFlank {
 impl DrawnFlank {
     /// Through points of an envelope.
     pub fn through(mut points: Vec<EnvelopePoint>) -> Self {
-        // A corner is two points, one with either normal.
-        let is_same = |later: &EnvelopePoint, kept: &EnvelopePoint| {
-            later.point_mm.distance(kept.point_mm) < SAME_MM && later.normal.distance(kept.normal) < SAME_MM
-        };
-        points.dedup_by(|later, kept| is_same(later, kept));
+        points.dedup_by(|later, kept| later.is_same(kept));
         let mut arc_mm = 0.0;
         let mut arcs_mm = vec![0.0; points.len().min(1)];
         for pair in points.windows(2) {

@@ -29,12 +29,19 @@ pub struct EnvelopePoint {
     pub part: usize,
 }
 
+impl EnvelopePoint {
+    /// Whether it is one with another point. A corner is two points, one with either normal.
+    pub(super) fn is_same(&self, other: &Self) -> bool {
+        self.point_mm.distance(other.point_mm) < SAME_MM && self.normal.distance(other.normal) < SAME_MM
+    }
+}
+
 /// The envelope of one space, without what is cut away.
 #[derive(Debug, Clone)]
 pub struct SpaceProfile {
     /// From the cutter's right root to its left root, as far as the blank reaches, and one point beyond at either end.
     pub(super) points: Vec<EnvelopePoint>,
-    /// What was cut away: loops by the crossing that stands for them.
+    /// What was cut away: loops by the crossing that replaces them.
     pub(super) loops: Vec<Vec<EnvelopePoint>>,
     /// Index of the last point of the right flank and of the first one of the left flank.
     pub(super) flanks: [usize; 2],

@@ -4,7 +4,7 @@
 //! the chain, from which the envelope is made ([`crate::process::shaping::target::drawn`]), and the segments that cut.
 //!
 //! The contour is divided at its corners ([`runs`]), and every smooth run is fitted with arcs that meet without a kink
-//! ([`biarcs`]) within half the tolerance. Where arcs are hollow, tangents stand for them that cross within the other
+//! ([`biarcs`]) within half the tolerance. Where arcs are hollow, tangents replace them that cross within the other
 //! half: bounds of passes and Newton's method along a ray rest on convex segments, and a line is one. So a cut by a
 //! drawn edge equals brute force bit for bit, on both backends, by what holds for every edge. Tangents lie in the tool:
 //! a gear keeps material by so much, and is not cut below what the arcs generate.

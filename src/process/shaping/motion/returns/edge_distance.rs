@@ -3,7 +3,7 @@
 //! In: the edge of a tooth, a point of its frame. Out: the distance from the nearest chord of the edge in mm, negative
 //! inside. From both ends of the edge the tooth goes on towards the cutter's axis.
 //!
-//! Chords stand in groups with a circle round each: most are passed over.
+//! Chords come in groups with a circle round each: most are passed over.
 
 use gearcut_core::tool::edge::Edge;
 use glam::DVec2;

@@ -1,7 +1,7 @@
 //! The contour of one cutter tooth from a file: a table (CSV), or the open curve of a drawing (DXF).
 //!
 //! In: a file. Out: its points in the blade's frame, from the right root over the tip to the left root, mm. In the file
-//! the tooth stands upright: x across it, y from the cutter's axis out along its centre line. What is no tooth of this
+//! the tooth is upright: x across it, y from the cutter's axis out along its centre line. What is no tooth of this
 //! cutter is refused with its place.
 
 use crate::regular_file;
@@ -26,7 +26,7 @@ const SAME_MM: f64 = 1e-6;
 /// the file.
 const BEYOND: f64 = 1e-4;
 
-/// The circle on which the teeth of the cutter stand.
+/// The pitch circle of the cutter, and its teeth.
 #[derive(Debug, Clone, Copy)]
 pub struct CutterCircle {
     /// z0.

@@ -106,7 +106,7 @@ mod tests {
         rounded.push([last[0] + 1.9 * cos, last[1] - 1.9 * sin]);
         for points in [kinked, bumpy, tooth(&rounded)] {
             let drawn = DrawnTooth::through(&points, TOLERANCE_MM).expect("a tooth");
-            // An arc of the round stands off the chords of its own points by 0.3 um.
+            // An arc of the round is off the chords of its own points by 0.3 um.
             let places =
                 drawn.parts.iter().flat_map(|part| (0..=40).map(|i| part.law.at(f64::from(i) / 40.0).point_mm));
             let off_mm = places.map(|at| beside_mm(at, &points)).fold(0.0, f64::max);
