@@ -42,9 +42,11 @@ cfg_if::cfg_if! {
         pub mod bar_chart;
         pub mod bar_panels;
         pub mod contact_sheet;
+        pub mod dot_chart;
         pub mod flank_maps;
         pub mod growing;
         pub mod growing_folder;
+        pub mod heat_chart;
         pub mod inspection_sheet;
         pub mod map_png;
         pub mod mesh_file;
@@ -64,9 +66,11 @@ cfg_if::cfg_if! {
         pub(crate) mod bar_chart;
         pub(crate) mod bar_panels;
         pub(crate) mod contact_sheet;
+        pub(crate) mod dot_chart;
         pub(crate) mod flank_maps;
         pub(crate) mod growing;
         pub(crate) mod growing_folder;
+        pub(crate) mod heat_chart;
         pub(crate) mod inspection_sheet;
         pub(crate) mod map_png;
         pub(crate) mod mesh_file;

@@ -188,6 +188,9 @@ impl<'a> DxfText<'a> {
             let message = "the drawing has no polyline, line, arc, circle, ellipse or spline in model space";
             return self.refuse_all(message, &alone);
         }
+        if !is_closed && pieces.iter().any(|piece| piece.is_closed) && pieces.iter().any(|piece| !piece.is_closed) {
+            return self.refuse_all("a closed curve, such as a circle, lies beside the open contour", &alone);
+        }
         let mut whole = pieces.swap_remove(0);
         // An open contour grows from both ends of the piece that it begins with.
         let mut ends_left = if is_closed { 1 } else { 2 };

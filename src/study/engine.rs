@@ -9,7 +9,7 @@
 
 use super::kept::{CaseOutcome, LAST_HEADS, LAST_WORDS, cells, columns};
 use super::map::{self, FlankMap};
-use super::page;
+use super::page::{self, StudyOf};
 use super::pair::{self, PairBase};
 use super::plan::{Shard, StudyCommand, StudyPlan};
 use super::rows::StudyRows;
@@ -147,7 +147,8 @@ impl Study<'_> {
                 return Ok(());
             }
             let read = StudyRows::read([&rows, &about], self.plan.parameters().len())?;
-            notices = page::write((&self.base.scene.scene, &self.plan), &read, new)?;
+            let of = StudyOf { base: &self.base.scene, plan: &self.plan, is_pair: self.base.pair.is_some() };
+            notices = page::write(of, &read, new)?;
             Ok(())
         })?;
         Ok(StudyOutcome { path: finished, notices, ..outcome })

@@ -1,5 +1,5 @@
-//! The page of a study: which parameter moves which quantity, means along the parameters, pairs of parameters, and the
-//! best cases; and all that is written beside the rows.
+//! The page of a study: which parameter moves which quantity, means along the parameters, all cases as dots, pairs of
+//! parameters, and the best cases with their scenes; and all that is written beside the rows.
 
 use super::effects::{Effect, VarianceShare};
 use super::findings::{ParetoFront, StudyEffects, findings};
@@ -8,13 +8,17 @@ use super::plan::StudyPlan;
 use super::rows::{StudyColumn, StudyRows};
 use crate::findings::{Findings, Notice, RESULTS_FILE, unit};
 use crate::number_text::significant;
+use crate::output::atomic::write_bytes_atomically;
 use crate::output::bar_chart::BarSeries;
 use crate::output::bar_panels::{BarPanel, BarPanels};
+use crate::output::dot_chart::{Dot, DotAxis, DotChart};
 use crate::output::folder::OutputFolder;
+use crate::output::heat_chart::HeatChart;
 use crate::output::line_chart::{LineChart, LineSeries, Panel};
 use crate::output::report::{Block, FileLinks, Page, PageSection, PageTable, REPORT_FILE};
 use crate::output::table::write_tables;
-use crate::scene::Scene;
+use crate::process;
+use crate::scene::LoadedScene;
 use crate::steps::report::facts::gear_words;
 use crate::steps::report::page_of;
 use gearcut_core::error::Result;
@@ -22,7 +26,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 /// Digits in tables.
 const DIGITS: u32 = 3;
-/// Most values of either parameter in a table of both.
+/// Most values of either parameter over which means of both are shown.
 const MOST_OF_A_PAIR: usize = 12;
 /// Most rows of a table of best cases.
 const MOST_BEST: usize = 25;
@@ -35,23 +39,56 @@ const LEAST_PERCENT: f64 = 0.1;
 ///
 /// # Errors
 /// Files that cannot be written.
-pub fn write((base, plan): (&Scene, &StudyPlan), rows: &StudyRows, folder: &OutputFolder) -> Result<Vec<Notice>> {
-    let found = StudyEffects::of(plan, rows);
-    let tree = findings(base, rows, &found);
+pub fn write(of: StudyOf, rows: &StudyRows, folder: &OutputFolder) -> Result<Vec<Notice>> {
+    let found = StudyEffects::of(of.plan, rows);
+    let tree = findings(&of.base.scene, rows, &found);
     write_tables(&tree, folder)?;
+    write_scenes(of, rows, &found, folder)?;
     let mut files = folder.written()?;
     files.push(RESULTS_FILE.to_owned());
-    page((base, plan), rows, (&found, &tree), files).write(&folder.path(REPORT_FILE)?)?;
+    page(of, rows, (&found, &tree), files).write(&folder.path(REPORT_FILE)?)?;
     folder.write_json(RESULTS_FILE, &tree.to_json())?;
     Ok(tree.warnings)
 }
 
-fn page(
-    (base, plan): (&Scene, &StudyPlan),
-    rows: &StudyRows,
-    (found, tree): (&StudyEffects, &Findings),
-    files: Vec<String>,
-) -> Page {
+/// Scenes of the best cases.
+fn write_scenes(of: StudyOf, rows: &StudyRows, found: &StudyEffects, folder: &OutputFolder) -> Result<()> {
+    let best: BTreeSet<u64> = listed(found).map(|(place, _)| rows.cases[place]).collect();
+    for case in best {
+        if let Some(name) = of.scene_file(case) {
+            let scene = of.base.with_settings(&of.plan.settings(case), process::table())?;
+            write_bytes_atomically(&folder.path(name)?, scene.resolved_toml().as_bytes())?;
+        }
+    }
+    Ok(())
+}
+
+/// The best cases that the page lists, with time and value.
+fn listed<'a>(found: &'a StudyEffects) -> impl Iterator<Item = (usize, [f64; 2])> + use<'a> {
+    found.fronts.iter().take(MOST_QUANTITIES).flat_map(|front| front.best.iter().take(MOST_BEST).copied())
+}
+
+/// What a study is of.
+#[derive(Clone, Copy)]
+pub struct StudyOf<'a> {
+    /// The scene that its cases change.
+    pub base: &'a LoadedScene,
+    /// The cases.
+    pub plan: &'a StudyPlan,
+    /// Whether a case is two scenes.
+    pub is_pair: bool,
+}
+
+impl StudyOf<'_> {
+    /// The file beside the page with the scene of a case; none of a pair, and where scenes name files beside them.
+    fn scene_file(self, case: u64) -> Option<String> {
+        let is_whole = !self.is_pair && self.base.scene.process.files_read().is_empty();
+        is_whole.then(|| format!("cases/case_{case}.toml"))
+    }
+}
+
+fn page(of: StudyOf, rows: &StudyRows, (found, tree): (&StudyEffects, &Findings), files: Vec<String>) -> Page {
+    let (base, plan) = (&of.base.scene, of.plan);
     let more = found.of.len().saturating_sub(MOST_QUANTITIES);
     let left_out = (more > 0).then(|| {
         Block::Note(format!(
@@ -84,17 +121,24 @@ fn page(
         along.map(Block::Lines).collect(),
     ));
     sections.extend(add(
+        "cases",
+        "Case by case",
+        "All cases over the parameter that moves the quantity most. A dot says under the pointer which case it is.",
+        found.of.iter().filter_map(|of| cases_chart(plan, rows, of)).map(Block::Dots).collect(),
+    ));
+    sections.extend(add(
         "pairs",
         "Two parameters together",
         "Means of a quantity over the two parameters that move it most.",
-        found.of.iter().filter_map(pair_table).map(Block::Table).collect(),
+        found.of.iter().filter_map(pair_chart).map(Block::Heat).collect(),
     ));
     sections.extend(add(
         "best",
         "Best cases",
         "Time against each quantity: no other case is as fast and smaller in size, or as small and faster. The \
-         settings repeat a case: gearcut cut with the scene of the study and --set for each of them.",
-        found.fronts.iter().map(|front| Block::Table(front_table(plan, rows, front))).collect(),
+         settings repeat a case: gearcut cut with the scene of the study and --set for each of them. A dot of the line \
+         leads to the whole scene, in cases/ beside this page.",
+        found.fronts.iter().flat_map(|front| front_blocks(of, rows, front)).collect(),
     ));
     let missing = counted_missing(rows.missing.iter().map(String::as_str));
     let row = |([path, why], cases): (&[String; 2], &usize)| vec![path.clone(), cases.to_string(), why.clone()];
@@ -221,8 +265,40 @@ fn means_chart(parameter: &StudyColumn, found: &StudyEffects) -> Option<LineChar
     })
 }
 
-/// Means over the two parameters with the largest swings; none where they have too many values for a table.
-fn pair_table((quantity, on): &(&StudyColumn, Vec<(&StudyColumn, Effect)>)) -> Option<PageTable> {
+/// A case in words.
+fn case_words(plan: &StudyPlan, case: u64) -> String {
+    format!("case {case}: {}", plan.settings(case).join("; "))
+}
+
+/// An axis of a parameter or a quantity.
+fn axis(of: &StudyColumn) -> DotAxis {
+    DotAxis { name: of.name.clone(), unit: unit::signs(&of.unit), least_division: least_division(&of.unit) }
+}
+
+/// All cases over the parameter that moves a quantity most; none over words.
+fn cases_chart(
+    plan: &StudyPlan,
+    rows: &StudyRows,
+    (quantity, on): &(&StudyColumn, Vec<(&StudyColumn, Effect)>),
+) -> Option<DotChart> {
+    let (parameter, _) = on.iter().max_by(|a, b| a.1.swing().total_cmp(&b.1.swing()))?;
+    let across: BTreeMap<usize, f64> = parameter.numbers().into_iter().collect();
+    let dot = |(place, value): (usize, f64)| {
+        let at = [*across.get(&place)?, value];
+        Some(Dot { at, words: case_words(plan, rows.cases[place]), link: None })
+    };
+    let dots: Vec<Dot> = quantity.numbers().into_iter().filter_map(dot).collect();
+    (!dots.is_empty()).then(|| DotChart {
+        title: format!("{} over {}", quantity.name, parameter.name),
+        axes: [axis(parameter), axis(quantity)],
+        name: "cases".to_owned(),
+        dots,
+        line: None,
+    })
+}
+
+/// Means over the two parameters with the largest swings; none where they have too many values to be shown.
+fn pair_chart((quantity, on): &(&StudyColumn, Vec<(&StudyColumn, Effect)>)) -> Option<HeatChart> {
     let mut on: Vec<&(&StudyColumn, Effect)> = on.iter().collect();
     on.sort_by(|a, b| b.1.swing().total_cmp(&a.1.swing()));
     let [(first, down), (second, across)] = on.get(..2)? else { return None };
@@ -239,17 +315,38 @@ fn pair_table((quantity, on): &(&StudyColumn, Vec<(&StudyColumn, Effect)>)) -> O
         *sum += value;
         *count += 1;
     }
-    let cell =
-        |a: &str, b: &str| sums.get(&[a, b]).map_or_else(|| "–".to_owned(), |(sum, count)| shown(sum / *count as f64));
-    let head = format!("{} (down), {} (across)", first.name, second.name);
-    let rows = down.parts.iter().map(|row| {
-        std::iter::once(row.at.clone()).chain(across.parts.iter().map(|column| cell(&row.at, &column.at))).collect()
-    });
-    Some(PageTable {
-        caption: format!("{} [{}]", quantity.name, unit::signs(&quantity.unit)),
-        columns: std::iter::once(head).chain(across.parts.iter().map(|part| part.at.clone())).collect(),
-        rows: rows.collect(),
+    let cell = |a: &str, b: &str| {
+        let (sum, count) = sums.get(&[a, b])?;
+        let mean = sum / *count as f64;
+        Some((mean, shown(mean)))
+    };
+    let labels = [down, across].map(|effect| effect.parts.iter().map(|part| part.at.clone()).collect::<Vec<_>>());
+    Some(HeatChart {
+        title: format!("Means of {}", quantity.name),
+        value_name: [quantity.name.clone(), unit::signs(&quantity.unit)],
+        names: [first.name.clone(), second.name.clone()],
+        cells: labels[0].iter().map(|row| labels[1].iter().map(|column| cell(row, column)).collect()).collect(),
+        labels,
     })
+}
+
+/// All cases by time and a quantity, with the best of them as a line and as a table.
+fn front_blocks(of: StudyOf, rows: &StudyRows, front: &ParetoFront) -> [Block; 2] {
+    let times: BTreeMap<usize, f64> = front.time.numbers().into_iter().collect();
+    let listed: BTreeSet<usize> = front.best.iter().take(MOST_BEST).map(|best| best.0).collect();
+    let dot = |(place, value): (usize, f64)| {
+        let case = rows.cases[place];
+        let link = listed.contains(&place).then(|| of.scene_file(case)).flatten();
+        Some(Dot { at: [*times.get(&place)?, value], words: case_words(of.plan, case), link })
+    };
+    let chart = DotChart {
+        title: format!("{} against {}", front.time.name, front.quantity.name),
+        axes: [axis(front.time), axis(front.quantity)],
+        name: "cases".to_owned(),
+        dots: front.quantity.numbers().into_iter().filter_map(dot).collect(),
+        line: Some(("best".to_owned(), front.best.iter().map(|best| best.1).collect())),
+    };
+    [Block::Dots(chart), Block::Table(front_table(of.plan, rows, front))]
 }
 
 fn front_table(plan: &StudyPlan, rows: &StudyRows, front: &ParetoFront) -> PageTable {

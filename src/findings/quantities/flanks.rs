@@ -68,12 +68,12 @@ rows! {
         => or(&[NOT_CUT, BELOW_RANGE]);
     PROFILE_LENGTH: "profile_length", "mm", "length of the profile from its start to the tip, middle of the face"
         => or(&[NOT_CUT, BELOW_RANGE]);
-    START_OF_INVOLUTE: "start_of_involute", "mm",
-        "height over the pitch curve at which the involute begins: the highest of its sections, in the headline of all \
-         flanks"
-        => titled("highest start of involute"), or(&[NOT_CUT, BELOW_RANGE]);
+    START_OF_FLANK: "start_of_flank", "mm",
+        "height over the pitch curve at which the generated flank (an involute: its start of involute) begins: the \
+         highest of its sections, in the headline of all flanks"
+        => titled("highest start of flank"), or(&[NOT_CUT, BELOW_RANGE]);
     UNDERCUT_FLANKS: "undercut_flanks", "flanks",
-        "flanks that the tool's tip undercuts: it takes part of their involute away";
+        "flanks that the tool's tip undercuts: it takes part of what was generated away";
     UNTOUCHED_DEXELS: "untouched_dexels", "dexels", "dexels of flanks that no pass touched";
 }
 

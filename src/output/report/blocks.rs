@@ -6,6 +6,8 @@ use super::texture::{self, TextureBlock};
 use super::traces::{self, TraceSheet};
 use crate::output::bar_chart::BarChart;
 use crate::output::bar_panels::BarPanels;
+use crate::output::dot_chart::DotChart;
+use crate::output::heat_chart::HeatChart;
 use crate::output::line_chart::LineChart;
 use crate::output::range_chart::RangeChart;
 use crate::output::strip_chart::StripChart;
@@ -94,6 +96,10 @@ pub enum Block {
     Bars(BarChart),
     /// Bars in panels.
     Panels(BarPanels),
+    /// Dots over two axes.
+    Dots(DotChart),
+    /// Coloured cells.
+    Heat(HeatChart),
     /// Dots along lines.
     Strips(StripChart),
     /// Bars from low to high.
@@ -176,6 +182,8 @@ impl Block {
             Self::Lines(chart) => chart.figure().html(),
             Self::Bars(chart) => chart.figure().html(),
             Self::Panels(chart) => chart.figure().html(),
+            Self::Dots(chart) => chart.figure().html(),
+            Self::Heat(chart) => chart.figure().html(),
             Self::Strips(chart) => chart.figure().html(),
             Self::Ranges(chart) => chart.figure().html(),
             Self::Traces(sheets) => traces::sheets(sheets),

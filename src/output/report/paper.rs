@@ -255,6 +255,8 @@ impl Block {
             Self::Lines(of) => chart(&of.figure()),
             Self::Bars(of) => chart(&of.figure()),
             Self::Panels(of) => chart(&of.figure()),
+            Self::Dots(of) => chart(&of.figure()),
+            Self::Heat(of) => chart(&of.figure()),
             Self::Strips(of) => chart(&of.figure()),
             Self::Ranges(of) => chart(&of.figure()),
             Self::Drawing(_, svg) => {

@@ -5,6 +5,7 @@
 
 pub mod answers;
 mod chips;
+mod cmm;
 pub mod deflection;
 pub mod foreseen;
 mod headline;

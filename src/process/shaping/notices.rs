@@ -91,8 +91,8 @@ notices! {
     /// Undercut weakens the root and shortens the active flank.
     Undercut: Warning "flank.undercut", "shaping.md", (flanks, depth_um),
         "the cutter undercuts {flanks}, up to {depth_um} um deep: "
-        + "use a smaller tool.shaper_cutter.addendum_coefficient, more teeth on the gear, or a pitch curve with a \
-           larger smallest radius of curvature"
+        + "use a cutter that reaches less deep (a smaller tool.shaper_cutter.addendum_coefficient, a lower drawn tip), \
+           more teeth on the gear, or a pitch curve with a larger smallest radius of curvature"
     /// The tip is no involute there: mates do not roll on it.
     CutterBase: Warning "flank.cutter_base", "shaping.md", (flanks),
         "the cutter's involute ends before the tip of {flanks}: the rest of the tip is cut by the cutter's base; "
@@ -100,8 +100,8 @@ notices! {
     /// The teeth are lower than the drawing says, and their tips are the cutter's roots.
     Topped: Warning or Fault where "the cut is deeper than a gouge" "tip.topped", "shaping.md", (depth_um),
         "the cutter's root circle takes {depth_um} um off the tips of the teeth: "
-        + "use a larger tool.shaper_cutter.dedendum_coefficient, a smaller gear.addendum_coefficient, or teeth \
-           thinned by less"
+        + "use a cutter with deeper roots (a larger tool.shaper_cutter.dedendum_coefficient, lower roots of a drawn \
+           tooth), a smaller gear.addendum_coefficient, or teeth thinned by less"
     /// Pointed teeth break at their tips and are lower than the drawing says.
     Pointed: Warning "tip.pointed", "shaping.md", (teeth),
         "pointed below the blank's outline: tooth {teeth}"; "Use a smaller addendum of the gear, or more teeth."

@@ -40,6 +40,8 @@ pub static QUANTITIES: &[&QuantityGroup] = &[
     &SHAPED_GEAR,
     &SHAPED_FLANK,
     &ALLOWANCE,
+    &MEASURED_ALLOWANCE,
+    &CMM_TEETH,
     &OPERATION,
     &CHIPS,
     &STROKES_OF_PROGRAM,
@@ -158,6 +160,45 @@ rows! {
     ENVELOPE_UNEVENNESS: "envelope_unevenness_mean_denominator", "%",
         "|AB - CD| over the mean of AB and CD in the limit of many strokes"
         => or(&[NO_CROSSING, OTHER_STROKES]);
+}
+
+rows! {
+    /// Allowances as a coordinate measuring machine finds them.
+    MEASURED_ALLOWANCE: "cmm", "Allowance as a coordinate measuring machine finds it", "operations.<operation>.cmm";
+
+    CMM_MAX: "unevenness_max", "%",
+        "largest |AB - CD| over the mean of AB and CD, all teeth, by probe and points alone"
+        => titled("largest unevenness by probe and points"), or(&[NO_ALLOWANCE]);
+    CMM_MEAN: "unevenness_mean", "%", "mean over the teeth of the same"
+        => titled("mean unevenness by probe and points"), or(&[NO_ALLOWANCE]);
+    CMM_MAX_MEDIAN: "unevenness_max_median", "%", "median of the largest unevenness over measurements by chance"
+        => or(&[NO_ALLOWANCE]);
+    CMM_MAX_LOW: "unevenness_max_low", "%",
+        "lower end of the interval that holds 95 % of the largest unevenness over measurements by chance"
+        => or(&[NO_ALLOWANCE]);
+    CMM_MAX_HIGH: "unevenness_max_high", "%",
+        "upper end of the interval that holds 95 % of the largest unevenness over measurements by chance"
+        => or(&[NO_ALLOWANCE]);
+    CMM_MEAN_MEDIAN: "unevenness_mean_median", "%", "median of the mean unevenness over measurements by chance"
+        => titled("mean unevenness, as measured"), shown(), or(&[NO_ALLOWANCE]);
+    CMM_MEAN_LOW: "unevenness_mean_low", "%",
+        "lower end of the interval that holds 95 % of the mean unevenness over measurements by chance"
+        => titled("low end of 95 %"), shown(), or(&[NO_ALLOWANCE]);
+    CMM_MEAN_HIGH: "unevenness_mean_high", "%",
+        "upper end of the interval that holds 95 % of the mean unevenness over measurements by chance"
+        => titled("high end of 95 %"), shown(), or(&[NO_ALLOWANCE]);
+    CMM_DEVIATION: "allowance_deviation", "um",
+        "standard deviation of AB and CD over measurements by chance, root mean square of the teeth"
+        => or(&[NO_ALLOWANCE]);
+}
+
+rows! {
+    /// The same tooth by tooth.
+    CMM_TEETH: "cmm_teeth", "Allowance of each tooth by probe and points",
+        "columns of operations.<operation>.cmm.teeth";
+
+    CMM_AB: "measured_AB", "mm", "AB by probe and points, without chance" => or(&[NO_CROSSING]);
+    CMM_CD: "measured_CD", "mm", "CD by probe and points, without chance" => or(&[NO_CROSSING]);
 }
 
 /// Unevenness of an operation by each definition.

@@ -7,12 +7,14 @@ mod files;
 mod frames;
 
 use super::gear::cut_gear;
+use super::gear::measure::cmm;
 use crate::findings::Findings;
 use crate::process::CutDone;
 use crate::process::shaping::ShapingJob;
 use crate::process::shaping::axes_report::OperationAxes;
 use crate::process::shaping::findings::foreseen::foresee;
 use crate::process::shaping::findings::warnings;
+use crate::process::shaping::scene::model::Shaping;
 use crate::process::shaping::stage_costs::STAGE_COSTS;
 use crate::process::shaping::{findings, report};
 use crate::steps::attempts::Attempts;
@@ -40,6 +42,10 @@ pub(super) fn run(job: &ShapingJob, tools: &Tools, frames: Option<u32>) -> Resul
         return Err(Error::Interrupted);
     }
     let mut attempts = Attempts::new(progress);
+    if let Some(spec) = Shaping::of(&job.scene).and_then(|own| own.cmm).filter(|_| !gear.work.interrupted) {
+        let measured = cmm::measure(job, backend, &spec);
+        gear.report.cmm = attempts.of("coordinate measurement", measured)?.unwrap_or_default();
+    }
     let textures = texture::measure(job, &foreseen.windows, backend, progress, interrupt);
     let textures = attempts.of("texture", textures)?.unwrap_or_default();
     let cut_blank = wanted.has(Stage::Blank) && !gear.work.interrupted;

@@ -20,7 +20,7 @@ const COARSE: [&str; 4] = [
     "operation.finish.strokes_per_revolution=600",
 ];
 /// What follows from the meshing condition alone.
-const OF_THE_SCENE: [&str; 4] = ["start_of_involute", "undercut_flanks", "tip_land", "pointed_teeth"];
+const OF_THE_SCENE: [&str; 4] = ["start_of_flank", "undercut_flanks", "tip_land", "pointed_teeth"];
 
 fn job(settings: &[&str]) -> ShapingJob {
     let settings: Vec<String> = COARSE.iter().chain(settings).map(|&setting| setting.to_owned()).collect();
@@ -56,7 +56,7 @@ fn headlines_of_a_gear_that_is_cut_away_are_not_those_of_the_scene() {
         }
         let sections = findings::sections(&job, &gear.report, &gear.chips, &motion).expect("sections");
         let teeth = sections.iter().find(|section| section.key == "teeth").expect("teeth");
-        for path in ["tooth_01/tip_land", "tooth_24/right/start_of_involute", "tooth_07/left/tip_height"] {
+        for path in ["tooth_01/tip_land", "tooth_24/right/start_of_flank", "tooth_07/left/tip_height"] {
             assert_eq!(number(teeth, path).is_some(), lost == 0, "{path}");
         }
         assert_eq!(of("smallest_tooth_thickness").value().is_some(), lost == 0);

@@ -292,3 +292,53 @@ fn keys_of_involute_teeth_are_refused_beside_a_contour() {
         assert!(why.contains("profile.file draws"), "{setting}: {why}");
     }
 }
+
+/// A cutter measured every 0.02 mm with a scatter of 3 um to either side: smoothed within 10 um, its flanks are those
+/// of the analytic cutter, nearer than single points are.
+#[test]
+fn a_measured_contour_is_smoothed_within_its_tolerance() {
+    const SCATTER_MM: f64 = 3e-3;
+    let chain = involute_contour();
+    let mut points = Vec::new();
+    for pair in chain.windows(2) {
+        let count = (pair[0].distance(pair[1]) / 0.02).ceil();
+        points.extend((0..count as u32).map(|i| pair[0].lerp(pair[1], f64::from(i) / count)));
+    }
+    points.extend(chain.last());
+    let mut state = 1_u64;
+    let mut even = || {
+        // Knuth's linear congruential numbers of 64 bits (MMIX), the upper half.
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (state >> 32) as f64 / (1_u64 << 31) as f64 - 1.0
+    };
+    let edge = PI / 20.0;
+    let noisy: Vec<DVec2> = points
+        .iter()
+        .map(|&at| at + SCATTER_MM * DVec2::new(even(), even()))
+        .map(|at| DVec2::from_angle(at.to_angle().clamp(-edge, edge)) * at.length())
+        .collect();
+    let analytic = scene_job(ROUND, None, &[]).expect("the standard cutter");
+    let settings = ["tool.shaper_cutter.profile.tolerance_um=10"];
+    let measured =
+        scene_job(ROUND, Some(("tooth.csv", &table(&noisy))), &settings).unwrap_or_else(|why| panic!("{why}"));
+    let own = measured.cutter.drawn().expect("drawn");
+    println!("{} parts, {}", own.parts.len(), process::shaping::tool::drawn::drawn_words(own));
+    for side in [Side::Left, Side::Right] {
+        let off_mm = apart_mm(&measured, measured.target_flank(2, side), analytic.target_flank(2, side));
+        println!("{side:?}: {:.2} um", 1e3 * off_mm);
+        assert!(off_mm < SCATTER_MM && off_mm > 1e-5, "{off_mm}");
+    }
+}
+
+/// A hollow 0.15 mm deep and 0.3 mm long on the flank of a cutter would shape a bump that runs back on itself.
+#[test]
+fn a_flank_that_runs_back_is_refused() {
+    let hollow = |at: &DVec2| {
+        let deep = 0.15 * (-((at.length() - 31.0) / 0.15).powi(2)).exp();
+        *at - DVec2::new(0.0, deep * at.y.signum())
+    };
+    let points: Vec<DVec2> = involute_contour().iter().map(hollow).collect();
+    let job = scene_job(ROUND, Some(("tooth.csv", &table(&points))), &["tool.shaper_cutter.profile.tolerance_um=5"]);
+    let Err(why) = job else { panic!("no flank goes on over such a bump") };
+    assert!(why.contains("runs back on itself") && why.contains("profile.file"), "{why}");
+}

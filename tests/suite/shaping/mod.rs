@@ -6,6 +6,7 @@ mod below_zero;
 mod blank_field;
 mod chips;
 mod closing;
+mod cmm;
 mod covered;
 mod cut_away;
 mod deflection;

@@ -133,7 +133,7 @@ fn nothing_is_told_of_a_gear_that_was_not_cut() {
         // What is not told has its reason, and the places that the scene's own strokes fill are not all empty.
         let withheld = |path: &str| other[path]["why"].as_str().is_some_and(|why| why.contains("own strokes alone"));
         for path in
-            ["/teeth/tooth_01/left/start_of_involute", "/teeth/tooth_01/right/tip_height", "/headline/relief_ratio"]
+            ["/teeth/tooth_01/left/start_of_flank", "/teeth/tooth_01/right/tip_height", "/headline/relief_ratio"]
         {
             assert!(own[path]["value"].is_number() && withheld(path), "{scene}, {path}: {}", other[path]);
         }
@@ -144,7 +144,7 @@ fn nothing_is_told_of_a_gear_that_was_not_cut() {
             let column = table.headers().expect("a head").iter().position(|head| head == column).expect("a column");
             table.records().map(|row| row.expect("a row")[column].to_owned()).collect()
         };
-        for column in ["start_of_involute_mm", "tip_height_mm", "profile_length_mm"] {
+        for column in ["start_of_flank_mm", "tip_height_mm", "profile_length_mm"] {
             assert!(cells(&other_at, column).iter().all(String::is_empty), "{scene}: {column}");
             assert!(cells(&own_at, column).iter().all(|cell| !cell.is_empty()), "{scene}: {column}");
         }

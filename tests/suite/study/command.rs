@@ -239,7 +239,14 @@ fn a_page_says_what_moves_what() {
     assert!(number(1, 2) < 0.0 && number(1, 8) < 1e-12, "{effects:?}");
     assert!((number(2, 2) - 100.0).abs() < 1e-9 && (number(2, 8) - 1.0).abs() < 1e-12, "{effects:?}");
     let page = fs::read_to_string(whole.join("report.html")).expect("a page");
-    for words in ["What moves what", "Along the parameters", "Two parameters together", "18 cases of 2 parameters"] {
+    for words in [
+        "What moves what",
+        "Along the parameters",
+        "Case by case",
+        "Two parameters together",
+        "18 cases of 2 parameters",
+        "<title>case 17: tool.shaper_cutter.teeth=30; machine.double_strokes_per_minute=600</title>",
+    ] {
         assert!(page.contains(words), "{words}");
     }
     let results = fs::read_to_string(whole.join("results.json")).expect("results");
@@ -250,11 +257,19 @@ fn a_page_says_what_moves_what() {
 }
 
 /// Dexels half a millimetre apart see no scallop: rows, page, table and terminal say that there is none, and why. A
-/// case that cannot be made is said there as well.
+/// case that cannot be made is said there as well. Both others are as fast, and the page leads to the scene of the one
+/// with the smaller deviation.
 #[test]
 fn what_has_no_value_is_said() {
     let folder = folder();
-    let keep = ["--keep", "scallop_height,F_al*", "--grid", "gear.face_width_mm=4,5,-1", "--out", "s"];
+    let keep = [
+        "--keep",
+        "operations.finish.cycle_time,scallop_height,F_al*",
+        "--grid",
+        "gear.face_width_mm=4,5,-1",
+        "--out",
+        "s",
+    ];
     let swept = gearcut_in(folder.path(), &[&["sweep", "round.toml", "--quiet"], &keep[..]].concat());
     assert!(swept.err.contains("2 cases have no value of kept quantities"), "{}", swept.err);
     assert!(
@@ -274,6 +289,13 @@ fn what_has_no_value_is_said() {
     for words in ["What has no value", "no cusp between facets", "could not be made", "`gear.face_width_mm`"] {
         assert!(page.contains(words), "{words}");
     }
+    let deviation = |case: usize| rows[case + 1].split(',').nth(4).and_then(|cell| cell.parse::<f64>().ok());
+    let best = u32::from(deviation(0) > deviation(1));
+    let scene = format!("cases/case_{best}.toml");
+    assert!(page.contains(&format!("<a href=\"{scene}\"><circle")), "{scene}: {rows:?}");
+    let text = fs::read_to_string(folder.path().join("s").join(&scene)).expect("the scene of the best case");
+    assert!(text.contains(&format!("face_width_mm = {}.0\n", 4 + best)), "{text}");
+    gearcut_in(&folder.path().join("s"), &["check", &scene]).done();
 }
 
 /// Nominal gears are m (z_1 + z_2) / 2 apart, and 2 da tan(alpha) more play comes of da more distance, along their

@@ -5,7 +5,7 @@ mod headline;
 use super::{blank, force, load, marks, points};
 use crate::findings::quantities::OPERATIONS;
 use crate::findings::quantities::cutting::{CYCLE_TIME, LINKAGE, OFFSET, PASSES};
-use crate::findings::quantities::flanks::{MEAN_DEVIATION, PROFILE_LENGTH, SQ, START_OF_INVOLUTE};
+use crate::findings::quantities::flanks::{MEAN_DEVIATION, PROFILE_LENGTH, SQ, START_OF_FLANK};
 use crate::findings::{Findings, Notice, Section, Table};
 use crate::machine_errors::ErrorLayer;
 use crate::process::hobbing::axes_report::HobbingAxesReport;
@@ -94,7 +94,7 @@ pub fn findings(cutter: &HobCutter, gear: &HobbedGear, measured: &Measured) -> R
 fn flanks<'a>(cut: &'a [HobbedReport], earlier: impl IntoIterator<Item = &'a str>) -> Table {
     let um = |mm: f64| mm * UM_PER_MM;
     flank_table(cut, earlier)
-        .column(&START_OF_INVOLUTE, |of| of.own.form_height_mm)
+        .column(&START_OF_FLANK, |of| of.own.form_height_mm)
         .column(&IS_UNDERCUT, |of| if of.own.undercut { "yes" } else { "no" })
         .column(&PROFILE_LENGTH, |of| of.length_mm)
         .column(&MEAN_DEVIATION, |of| of.own.finished.map(|of| um(of.mean_mm)))

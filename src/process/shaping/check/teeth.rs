@@ -31,7 +31,7 @@ pub fn print(sheet: &mut Sheet, job: &ShapingJob, facts: &[ToothFacts], other_ge
         }
     });
     sheet.heading(if other_gear { "Teeth by the scene's own strokes, not by the program" } else { "Teeth" });
-    sheet.line("start of involute", range(facts, " over the pitch curve", |flank| flank.start_height_mm));
+    sheet.line("start of flank", range(facts, " over the pitch curve", |flank| flank.start_height_mm));
     sheet.details(|sheet| {
         sheet.line("end of flank", range(facts, " over the pitch curve", |flank| flank.tip_height_mm));
         sheet.line("length of profile", range(facts, "", |flank| flank.length_mm));

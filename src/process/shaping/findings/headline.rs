@@ -2,7 +2,7 @@
 
 use super::chips::peak;
 use super::program;
-use crate::findings::quantities::flanks::{NOT_CUT, SINGLE, START_OF_INVOLUTE, UNDERCUT_FLANKS};
+use crate::findings::quantities::flanks::{NOT_CUT, SINGLE, START_OF_FLANK, UNDERCUT_FLANKS};
 use crate::findings::{Entry, QuantityRow};
 use crate::measure::stock::Extreme;
 use crate::process::shaping::ShapingJob;
@@ -93,7 +93,7 @@ fn own(job: &ShapingJob, gear: &CutGear, motion: &[OperationAxes]) -> [Entry; 9]
         report.allowances.last().and_then(|a| summarise(a.strokes.iter().map(ToothAllowance::unevenness_mean_percent)));
     let uneven = if job.operations.len() < 2 { SINGLE } else { NO_ALLOWANCE };
     [
-        extreme(&START_OF_INVOLUTE, 1.0, flanks, form, |a, b| a > b, NOT_CUT).unless(other_gear),
+        extreme(&START_OF_FLANK, 1.0, flanks, form, |a, b| a > b, NOT_CUT).unless(other_gear),
         UNDERCUT_FLANKS.of(undercut).unless(other_gear),
         TIP_LAND.of_or(report.tip_lands_mm.iter().copied().reduce(f64::min), NO_FLANK).unless(other_gear),
         POINTED_TEETH.of(pointed).unless(other_gear),

@@ -1,6 +1,6 @@
 //! One operation on a shaped gear: strokes, axes, chips, and the stock that it leaves.
 
-use super::{chips, deflection, program, returns, strokes, teeth};
+use super::{chips, cmm, deflection, program, returns, strokes, teeth};
 use crate::findings::Section;
 use crate::findings::quantities::cutting::{CYCLE_TIME, LINKAGE, OFFSET};
 use crate::findings::quantities::flanks::{LAST, NO_FLANK_REACHED};
@@ -98,6 +98,7 @@ pub fn operation(
         ))
         .part(stock_range("root_stock", "Stock in all roots, on rays that do not end before it", &over_roots, no_stock))
         .part(unevenness)
+        .parts(report.cmm.iter().find(|of| of.operation == index).map(|of| cmm::section(of, &spec.name)))
         .part(
             STOCK_OF_TEETH
                 .section([])

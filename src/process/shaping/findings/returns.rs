@@ -30,7 +30,7 @@ pub fn section(job: &ShapingJob, index: usize, other: Option<&str>) -> Result<Op
     let Some(facts) = job.return_facts(index)? else { return Ok(None) };
     let asked = operation.retraction.asked();
     let section = RETURN_STROKES
-        .section([DIRECTION.of(asked.words()), angle(facts, asked, job.scene.gear.pressure_angle_rad)])
+        .section([DIRECTION.of(asked.words()), angle(job, facts, asked)])
         .entries(surface(facts, asked))
         .entries(stock(operation.schedule.double_strokes_per_minute(), facts))
         .table(table(operation, facts));
@@ -46,10 +46,14 @@ fn at(room: &PlacedRoom) -> Place {
 }
 
 /// Between the line of centres and the normal.
-fn angle(facts: &ReturnFacts, asked: Retraction, pressure_angle_rad: f64) -> Entry {
-    let most_rad = facts.steepest.from_normal_rad.abs();
+fn angle(job: &ShapingJob, facts: &ReturnFacts, asked: Retraction) -> Entry {
+    let (most_rad, pressure_angle_rad) = (facts.steepest.from_normal_rad.abs(), job.scene.gear.pressure_angle_rad);
     let limit = format!("the {:.1} deg of the pressure angle", pressure_angle_rad.to_degrees());
     let angle = RETRACTION_ANGLE.of(most_rad.to_degrees()).at(at(&facts.steepest));
+    if job.cutter.drawn().is_some() {
+        // Its flanks have angles of their own.
+        return angle;
+    }
     if most_rad < pressure_angle_rad {
         return angle
             .fine(format!("It is below {limit}, at which a cutter drawn along the line of centres slides on a flank"));

@@ -2,7 +2,7 @@
 //!
 //! The rows are in the files alone, since `results.json` has their numbers in the sections of teeth and flanks.
 
-use crate::findings::quantities::flanks::{PROFILE_LENGTH, START_OF_INVOLUTE};
+use crate::findings::quantities::flanks::{PROFILE_LENGTH, START_OF_FLANK};
 use crate::findings::quantities::teeth::{
     CUMULATIVE_PITCH, FLANK_PITCH, PROBE_PLACE, THICKNESS_ARC, THICKNESS_CHORD, TOOTH,
 };
@@ -15,7 +15,7 @@ use gearcut_core::terms::Side;
 /// All flanks that were cut: the stock of `earlier` operations on them, and how they are finished.
 pub fn flanks<'a>(cut: &'a [FlankReport], earlier: impl IntoIterator<Item = &'a str>, teeth: &[Section]) -> Table {
     let finished = |of: &FlankReport| teeth[of.tooth as usize - 1].side(of.side);
-    let own = [&START_OF_INVOLUTE, &TIP_HEIGHT, &PROFILE_LENGTH, &SCALLOP];
+    let own = [&START_OF_FLANK, &TIP_HEIGHT, &PROFILE_LENGTH, &SCALLOP];
     let table = own.into_iter().fold(flank_table(cut, earlier), |table, row| {
         table.column(row, |of| finished(of).and_then(|flank| flank.value(row)))
     });

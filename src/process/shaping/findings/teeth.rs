@@ -2,7 +2,7 @@
 
 use super::program::NOT_WHOLE;
 use crate::findings::quantities::flanks::{
-    BELOW_RANGE, NO_STOCK_HERE, NOT_CUT, PROFILE_LENGTH, START_OF_INVOLUTE, STOCK_LARGEST, STOCK_MEAN, STOCK_SMALLEST,
+    BELOW_RANGE, NO_STOCK_HERE, NOT_CUT, PROFILE_LENGTH, START_OF_FLANK, STOCK_LARGEST, STOCK_MEAN, STOCK_SMALLEST,
 };
 use crate::findings::quantities::teeth::TOOTH;
 use crate::findings::{QuantityRow, Section, Table};
@@ -127,7 +127,7 @@ fn finished_flank(report: &GearReport, tooth: u32, side: Side, other_gear: Optio
     let lowest = at(&BELOW_TARGET, own.and_then(|of| of.below_target), NOTHING_BELOW);
     let is_below = own.is_some_and(|of| of.below_range > 0);
     let of_scene = [
-        START_OF_INVOLUTE.of_or(own.map(|of| of.form.height_mm), why(NOT_CUT)),
+        START_OF_FLANK.of_or(own.map(|of| of.form.height_mm), why(NOT_CUT)),
         FLANK_START.of_or(own.map(|of| end_words(of.form.end)), why(NOT_CUT)),
         UNDERCUT.of_or(own.and_then(|of| of.undercut_mm).map(|mm| mm * UM_PER_MM), why(SOUND)),
         TIP_HEIGHT.of_or(own.map(|of| of.tip.height_mm), why(NOT_CUT)),

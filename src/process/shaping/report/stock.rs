@@ -10,8 +10,9 @@ use crate::output::range_chart::{RangeChart, RangeSeries};
 use crate::output::report::{Block, PageSection, PageTable};
 use crate::process::shaping::ShapingJob;
 use crate::process::shaping::quantities::{
-    AB, ALLOWANCE, CD, SPREAD_MAX, SPREAD_MEAN, SPREADS, STOCK_OF_TEETH, UNEVENNESS,
+    AB, ALLOWANCE, CD, MEASURED_ALLOWANCE, SPREAD_MAX, SPREAD_MEAN, SPREADS, STOCK_OF_TEETH, UNEVENNESS,
 };
+use crate::steps::report::quantities;
 use gearcut_core::terms::Side;
 
 /// The section; none if the scene has a single operation.
@@ -25,6 +26,7 @@ pub fn section(job: &ShapingJob, found: &Findings) -> Option<PageSection> {
             blocks.push(Block::Heading(format!("After {}", operation.key)));
         }
         blocks.extend(operation_blocks(operation, finishing));
+        blocks.extend(operation.group(&MEASURED_ALLOWANCE).map(|found| Block::Table(quantities::table(found))));
     }
     (!blocks.is_empty()).then(|| {
         PageSection::new(

@@ -1,9 +1,10 @@
 //! Checked values of a shaping scene to the model.
 
-use super::keys::{AXES, BUILT_UP_EDGE, EDGE_ROUGHNESS, EDGE_ROUNDING, PROFILE};
+use super::keys::{AXES, BUILT_UP_EDGE, CMM, EDGE_ROUGHNESS, EDGE_ROUNDING, PROFILE};
 use super::model::{
-    AxisLimits, BuiltUpEdge, CutterSpec, EdgeRoughness, EdgeRounding, Feed, GcodeDialect, Infeed, Linkage, Machine,
-    NormalReading, Operation, Retraction, Shaping, StockScatter, StrokeSpacing, Tip, ToolProfile, TraditionalDirection,
+    AxisLimits, BuiltUpEdge, CmmSpec, CutterSpec, EdgeRoughness, EdgeRounding, Feed, GcodeDialect, Infeed, Linkage,
+    Machine, NormalReading, Operation, Retraction, Shaping, StockScatter, StrokeSpacing, Tip, ToolProfile,
+    TraditionalDirection,
 };
 use crate::machine_errors::{Compliance, SideCompliance};
 use crate::material::EdgeForce;
@@ -41,7 +42,21 @@ pub(super) fn build(values: &Values, base_dir: &Path) -> Option<ScenePart> {
             "none" => GcodeDialect::None,
             _ => return None,
         },
+        cmm: if values.has_section(CMM) { Some(cmm(values)?) } else { None },
     }))
+}
+
+fn cmm(values: &Values) -> Option<CmmSpec> {
+    let cmm = values.view(CMM);
+    Some(CmmSpec {
+        points: cmm.whole("points")?,
+        probe_diameter_mm: cmm.number("probe_diameter_mm")?,
+        point_deviation_mm: cmm.mm_from_um("point_deviation_um")?,
+        clamping_offset_mm: cmm.mm_from_um("clamping_offset_um")?,
+        clamping_turn_rad: cmm.rad("clamping_turn_deg")?,
+        draws: cmm.whole("draws")?,
+        seed: cmm.whole("seed")?,
+    })
 }
 
 fn material(values: &Values) -> Option<EdgeForce> {

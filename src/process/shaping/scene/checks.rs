@@ -1,7 +1,7 @@
 //! Values of a shaping scene compared with each other.
 
 use super::defaults::reach_mm;
-use super::keys::{AXES, BUILT_UP_EDGE, BUILT_UP_EDGE_KEYS, EDGE_ROUGHNESS, EDGE_ROUNDING, PROFILE};
+use super::keys::{AXES, BUILT_UP_EDGE, BUILT_UP_EDGE_KEYS, CMM, EDGE_ROUGHNESS, EDGE_ROUNDING, PROFILE};
 use crate::scene::build::stock_or_offset_mm;
 use crate::scene::keys::join;
 use crate::scene::machine_errors;
@@ -27,6 +27,9 @@ pub(super) fn check(found: &mut Found<'_, '_, '_>) {
     together(found, EDGE_ROUNDING, &["radius_um", "minimum_chip_share"]);
     together(found, BUILT_UP_EDGE, &BUILT_UP_EDGE_KEYS);
     speeds(found);
+    let measures_nothing = found.values.has_section(CMM) && found.values.count("operation") == 1;
+    let message = || format!("`{CMM}` measures allowances between operations, and the scene has one alone");
+    found.blame(measures_nothing, CMM, message, "remove it, or write an operation that roughs before");
     drawn_tooth(found);
     machine_errors::check(found, &AXES);
     for index in 0..found.values.count("operation") {
@@ -67,6 +70,7 @@ fn drawn_tooth(found: &mut Found) {
         (cutter, "profile_shift_coefficient", Some(0.0)),
         (cutter, "thinning_mm", Some(0.0)),
         (EDGE_ROUGHNESS, "rq_um", None),
+        ("measure", "ball_diameter_mm", None),
     ];
     for (section, name, usual) in own {
         let key = join(section, name);

@@ -80,7 +80,7 @@ pub static SCENE: SceneProcess = SceneProcess {
     ],
     per_revolution: &["strokes_per_revolution"],
     of_one_gear: &["window_deg"],
-    on_demand: &[],
+    on_demand: &[keys::CMM],
     cuts_rings: true,
     senseless: &[
         Senseless {

@@ -22,6 +22,27 @@ pub struct Shaping {
     pub chip_spacing_mm: f64,
     /// Form of the axis programs.
     pub gcode: GcodeDialect,
+    /// Coordinate measurement of the allowances, if the scene asks for one.
+    pub cmm: Option<CmmSpec>,
+}
+
+/// A coordinate measurement of the allowances.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CmmSpec {
+    /// Points on a profile.
+    pub points: u32,
+    /// Diameter of the probe's ball, mm.
+    pub probe_diameter_mm: f64,
+    /// Standard deviation of a point along its normal, mm.
+    pub point_deviation_mm: f64,
+    /// Standard deviation of the gear's axis in x and in y before it is finished, mm.
+    pub clamping_offset_mm: f64,
+    /// Standard deviation of its turn then, rad.
+    pub clamping_turn_rad: f64,
+    /// Measurements by chance.
+    pub draws: u32,
+    /// Where chance begins.
+    pub seed: u32,
 }
 
 /// Form of axis programs.

@@ -22,8 +22,8 @@
 
 use crate::process::shaping::target::envelope::{EnvelopePoint, SAME_MM, SpaceProfile};
 use crate::process::shaping::target::generation::{FlankContact, Generation};
-use crate::process::shaping::tool::drawn::biarcs::turn_rad;
 use crate::process::shaping::tool::drawn::contour::{FILE, meet};
+use crate::process::shaping::tool::drawn::scattered::turn_rad;
 use crate::process::shaping::tool::drawn::{DrawnPart, DrawnTooth, EdgePlace};
 use gearcut_core::error::Refusal;
 use gearcut_core::gear::blank::Blank;

@@ -13,6 +13,7 @@ use crate::measure::crossing::Crossing;
 use crate::process::shaping::target::TargetFlank;
 use crate::process::shaping::target::generation::Generation;
 use crate::process::shaping::target::tip_relief::TipRelief;
+use crate::process::shaping::tool::drawn::contour::FILE;
 use gearcut_core::error::Refusal;
 use gearcut_core::gear::blank::Blank;
 use gearcut_core::math::roots::try_halve;
@@ -59,10 +60,17 @@ impl ToothTarget {
             let wider = |height_mm: f64| Ok::<bool, Refusal>(up_to(Some(height_mm))?.2 > POINTED_MM);
             let [pointed_mm, _] = try_halve(wider, 0.0, blank.addendum_mm, 40)?;
             if pointed_mm == 0.0 {
+                let (key, way_out) = if generation.drawn.is_some() {
+                    (FILE, "have the tooth drawn thinner, or without the notch that runs into its other flank")
+                } else {
+                    let way_out = "use a larger module, a cutter with less profile shift, or a smaller thickness \
+                                   allowance";
+                    ("gear.tooth_thickness_allowance_mm", way_out)
+                };
                 return Err(Refusal::new(
-                    "gear.tooth_thickness_allowance_mm",
-                    format!("tooth {tooth} is pointed below the pitch curve"),
-                    "use a larger module, a cutter with less profile shift, or a smaller thickness allowance",
+                    key,
+                    format!("tooth {tooth}: its flanks meet below the pitch curve"),
+                    way_out,
                 ));
             }
             up_to(Some(pointed_mm))?

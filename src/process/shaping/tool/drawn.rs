@@ -19,12 +19,14 @@
 pub mod biarcs;
 pub mod contour;
 mod runs;
+pub mod scattered;
 
-use biarcs::{ArcPiece, turn_rad};
+use biarcs::ArcPiece;
 use contour::{CutterCircle, FILE};
 use gearcut_core::error::Refusal;
 use gearcut_core::tool::edge::{Edge, Segment, SegmentName};
 use glam::DVec2;
+use scattered::turn_rad;
 use std::f64::consts::FRAC_PI_4;
 use std::path::Path;
 

@@ -2,6 +2,7 @@
 //!
 //! In: the job, the flank reports. Out: [`GearReport`].
 
+use super::cmm::CmmReport;
 use super::flank_report::FlankReport;
 use super::unevenness::{CrossedSurface, ToothAllowance, allowances, crossings, rack_allowance_mm};
 use crate::measure::inspection::GearInspection;
@@ -45,6 +46,8 @@ pub struct GearReport {
     pub tip_lands_mm: Vec<f64>,
     /// Allowances of every operation but the last, if they were wanted.
     pub allowances: Vec<OperationAllowance>,
+    /// The same as a coordinate measuring machine finds them, if the scene asks for it.
+    pub cmm: Vec<CmmReport>,
     /// Pitch, runout and thickness of what the strokes leave.
     pub inspection: GearInspection,
     /// Flanks on which what some strokes leave has no crossing with the pitch curve that can be found.
@@ -105,6 +108,7 @@ pub fn measure(
         roots,
         tip_lands_mm: (1..=teeth).map(|tooth| job.target(tooth).tip_land_mm).collect(),
         allowances,
+        cmm: Vec::new(),
         inspection: GearInspection::of_crossings(&job.blank, [&left, &right], job.scene.gear.pressure_angle_rad),
         unsettled: unsettled.into_iter().collect(),
         period_teeth: job.curve.period_teeth(teeth),

@@ -2,6 +2,7 @@
 
 pub mod below_finished;
 pub mod closing;
+pub mod cmm;
 pub mod crossing;
 pub mod flank_deflection;
 pub mod flank_report;

@@ -132,8 +132,8 @@ pub(super) static SECTIONS: &[KeySection] = &[
                 default: Default::Number(1.0),
                 example: "1.0",
                 teach: "How far the edge that cuts may pass beside the contour: half for arcs through its points, half \
-                    for tangents along its hollows. Points may scatter by a tenth of it: what is measured is \
-                    smoothed before.",
+                    for tangents along its hollows. Three times the scatter of measured points or more: they are \
+                    smoothed within it.",
             },
         ],
         "Cutter tooth that is drawn or measured: any profile. The gear is judged against what that edge generates. A \

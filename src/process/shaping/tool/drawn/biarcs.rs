@@ -4,22 +4,26 @@
 //! (tan(sweep / 4), positive counter-clockwise), from point to point of the chain, two to a step.
 //!
 //! **Law.** Tangents are those of the circle through a point and two others beside it, far enough apart that what
-//! points are off hardly turns them. Two arcs with the same tangent where they meet lead from a point and its tangent
-//! to another point and its tangent (a biarc, both legs equally long: Bolton, *Biarc curves*, Computer-Aided Design 7,
-//! 1975). The greedy walk takes the longest step whose arcs pass all points between within the tolerance.
+//! points are off hardly turns them; dense points give place and tangent together ([`super::scattered`]). Two arcs with
+//! the same tangent where they meet lead from a point and its tangent to another point and its tangent (a biarc, both
+//! legs equally long: Bolton, *Biarc curves*, Computer-Aided Design 7, 1975). The greedy walk takes the longest step
+//! whose arcs pass all points between within the tolerance. It leads from the centre line outwards on both sides, so
+//! that a symmetric chain has symmetric arcs; what arcs are one with the next become one piece.
 //!
 //! Road not taken: the free arcs of exported drawings, two thirds as many, with kinks between them. An edge
 //! with kinks leaves marks on the gear, and the contact of a continuous motion jumps over them.
 
+use super::scattered::{CurvePlace, REACH, Scattered, turn_rad};
 use crate::gcode::longest_lines;
 use glam::DVec2;
-use std::f64::consts::FRAC_PI_8;
+use std::f64::consts::{FRAC_PI_2, FRAC_PI_8};
 
-/// Tangents come from points this many tolerances apart at least: what points are off by a tolerance then turns them
-/// by a fiftieth.
-const TANGENT_REACH: f64 = 50.0;
 /// An arc that leaves its chord by less than this is a line, mm.
 const STRAIGHT_MM: f64 = 1e-9;
+/// Points nearer to the centre line than this are on it, mm.
+const CENTRE_MM: f64 = 1e-6;
+/// Pieces are one where their ends keep their directions so well, rad.
+const SAME_RAD: f64 = 1e-10;
 
 /// An arc or a line.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -70,43 +74,107 @@ impl ArcPiece {
     }
 }
 
-/// Turn from one direction to another one, rad: to the last digits where it is small, which an arc cosine is not.
-pub fn turn_rad(from: DVec2, to: DVec2) -> f64 {
-    from.perp_dot(to).atan2(from.dot(to))
+/// Arcs along a chain of at least two points, which leads from right to left round the axis of the blade.
+pub fn fit(chain: &[DVec2], tolerance_mm: f64) -> Vec<ArcPiece> {
+    let last = chain.len() - 1;
+    let to = chain.iter().position(|at| at.y > CENTRE_MM).unwrap_or(last);
+    let from = chain[..=to].iter().rposition(|at| at.y < -CENTRE_MM).unwrap_or(0);
+    let walk = ArcWalk::new(chain, tolerance_mm);
+    let mirrored: Vec<DVec2> = chain.iter().rev().map(|&at| mirror(at)).collect();
+    let right = ArcWalk::new(&mirrored, tolerance_mm).outwards(last - from);
+    let right = right.iter().rev().map(|piece| ArcPiece {
+        start_mm: mirror(piece.end_mm),
+        end_mm: mirror(piece.start_mm),
+        bulge: piece.bulge,
+    });
+    joined(right.chain(walk.over(from, to)).chain(walk.outwards(to)))
 }
 
-/// Arcs along a chain of at least two points.
-pub fn fit(chain: &[DVec2], tolerance_mm: f64) -> Vec<ArcPiece> {
-    let tangents = tangents(chain, TANGENT_REACH * tolerance_mm);
-    let between = |from: usize, to: usize| biarc([chain[from], chain[to]], [tangents[from], tangents[to]]);
-    let within = |from: usize, to: usize, pieces: &[ArcPiece; 2]| {
-        let [first, second] = pieces;
-        let is_short = pieces.iter().all(|piece| piece.bulge.abs() <= FRAC_PI_8.tan());
+fn mirror(at: DVec2) -> DVec2 {
+    DVec2::new(at.x, -at.y)
+}
+
+/// The walk along a chain.
+struct ArcWalk<'a> {
+    chain: &'a [DVec2],
+    places: Vec<CurvePlace>,
+    tolerance_mm: f64,
+}
+
+impl<'a> ArcWalk<'a> {
+    fn new(chain: &'a [DVec2], tolerance_mm: f64) -> Self {
+        Self { chain, places: places(chain, tolerance_mm), tolerance_mm }
+    }
+
+    fn between(&self, from: usize, to: usize) -> Option<[ArcPiece; 2]> {
+        biarc(self.places[from], self.places[to])
+    }
+
+    /// Whether arcs pass all points between two within the tolerance.
+    fn fits(&self, from: usize, to: usize) -> bool {
+        let Some([first, second]) = self.between(from, to) else { return false };
+        let is_short = [first, second].iter().all(|piece| piece.bulge.abs() <= FRAC_PI_8.tan());
         let across = second.end_mm - first.start_mm;
         is_short
-            && chain[from + 1..to].iter().all(|&p| {
+            && self.chain[from + 1..to].iter().all(|&p| {
                 let is_first = (p - first.end_mm).dot(across) < 0.0;
-                (if is_first { first } else { second }).beside_mm(p) <= tolerance_mm
+                (if is_first { first } else { second }).beside_mm(p) <= self.tolerance_mm
             })
-    };
-    let fits = |from: usize, to: usize| between(from, to).is_some_and(|pieces| within(from, to, &pieces));
-    let mut from = 0;
-    let step = |to: usize| {
-        let start = std::mem::replace(&mut from, to);
-        // Neighbours whose tangents lead astray are joined by a line.
-        let near = |pieces: &[ArcPiece; 2]| {
-            let chord = ArcPiece::line(chain[start], chain[to]);
-            to > start + 1 || chord.beside_mm(pieces[0].end_mm) <= tolerance_mm
-        };
-        match between(start, to).filter(near) {
-            Some([first, second]) if first.bulge == 0.0 && second.bulge == 0.0 => {
-                vec![ArcPiece::line(chain[start], chain[to])]
-            }
-            Some(pieces) => pieces.to_vec(),
-            None => vec![ArcPiece::line(chain[start], chain[to])],
+    }
+
+    /// Arcs from a point to the end of the chain.
+    fn outwards(&self, from: usize) -> Vec<ArcPiece> {
+        let ends = longest_lines(self.chain.len() - 1 - from, |a, b| self.fits(from + a, from + b));
+        let ends: Vec<usize> = [0].into_iter().chain(ends).map(|end| from + end).collect();
+        ends.windows(2).flat_map(|pair| self.step(pair[0], pair[1])).collect()
+    }
+
+    /// Arcs over a few points, in one step if it may be.
+    fn over(&self, from: usize, to: usize) -> Vec<ArcPiece> {
+        if self.fits(from, to) {
+            return self.step(from, to);
         }
+        (from..to).flat_map(|i| self.step(i, i + 1)).collect()
+    }
+
+    fn step(&self, from: usize, to: usize) -> Vec<ArcPiece> {
+        let chord = ArcPiece::line(self.places[from].point_mm, self.places[to].point_mm);
+        // Neighbours whose tangents lead astray are joined by a line.
+        let is_near = |pieces: &[ArcPiece; 2]| to > from + 1 || chord.beside_mm(pieces[0].end_mm) <= self.tolerance_mm;
+        self.between(from, to).filter(is_near).map_or_else(|| vec![chord], |pieces| pieces.to_vec())
+    }
+}
+
+/// Pieces without the ends at which nothing changes.
+fn joined(pieces: impl Iterator<Item = ArcPiece>) -> Vec<ArcPiece> {
+    let mut all: Vec<ArcPiece> = Vec::new();
+    for piece in pieces {
+        if let Some(before) = all.last_mut() {
+            let half_rad = 0.5 * (before.sweep_rad() + piece.sweep_rad());
+            let bulge = if half_rad == 0.0 { 0.0 } else { (0.5 * half_rad).tan() };
+            let both = ArcPiece { start_mm: before.start_mm, end_mm: piece.end_mm, bulge };
+            let ends = [(both.directions()[0], before.directions()[0]), (both.directions()[1], piece.directions()[1])];
+            if half_rad.abs() < FRAC_PI_2 && ends.iter().all(|&(a, b)| turn_rad(a, b).abs() < SAME_RAD) {
+                *before = both;
+                continue;
+            }
+        }
+        all.push(piece);
+    }
+    all
+}
+
+/// The curve at all points of a chain.
+fn places(chain: &[DVec2], tolerance_mm: f64) -> Vec<CurvePlace> {
+    let scattered = Scattered::new(chain, tolerance_mm);
+    let last = chain.len() - 1;
+    let place = |(i, tangent): (usize, DVec2)| {
+        let own = CurvePlace { point_mm: chain[i], tangent };
+        let found = scattered.at(i).unwrap_or(own);
+        // Neighbouring chains begin and end with the same points.
+        if i == 0 || i == last { CurvePlace { tangent: found.tangent, ..own } } else { found }
     };
-    longest_lines(chain.len() - 1, fits).into_iter().flat_map(step).collect()
+    tangents(chain, REACH * tolerance_mm).into_iter().enumerate().map(place).collect()
 }
 
 /// Unit tangents at all points of a chain, from points at least so far to either side.
@@ -130,7 +198,8 @@ fn tangents(chain: &[DVec2], reach_mm: f64) -> Vec<DVec2> {
 }
 
 /// Both arcs from one point with its tangent to another one; none where the tangents lead away from each other.
-fn biarc([start, end]: [DVec2; 2], [from, to]: [DVec2; 2]) -> Option<[ArcPiece; 2]> {
+fn biarc(start: CurvePlace, end: CurvePlace) -> Option<[ArcPiece; 2]> {
+    let ([from, to], [start, end]) = ([start.tangent, end.tangent], [start.point_mm, end.point_mm]);
     let (v, t) = (end - start, from + to);
     // Legs of length d along both tangents, whose tips are 2 d apart.
     let (square, linear) = (2.0 * (1.0 - from.dot(to)), v.dot(t));

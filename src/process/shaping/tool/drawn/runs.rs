@@ -7,7 +7,7 @@
 //!
 //! Road not taken: the kinds of a drawing's entities. A table has none, and drawings come as polylines.
 
-use super::biarcs::turn_rad;
+use super::scattered::{Scattered, turn_rad};
 use glam::DVec2;
 
 /// A chain that turns by more than this at a point has a corner there, rad: ten times what points of a round of 0.3 mm
@@ -37,7 +37,14 @@ pub fn smooth(points_mm: &[DVec2], tolerance_mm: f64) -> Vec<Vec<DVec2>> {
             turn_rad(points_mm[i] - points_mm[i - 1], points_mm[i + 1] - points_mm[i]).abs()
         })
         .collect();
+    let scattered = Scattered::new(points_mm, tolerance_mm);
+    let turns_at_once: Vec<Option<f64>> = (0..=last).map(|i| scattered.turn_rad(i)).collect();
     let is_corner = |i: usize| {
+        // Of scattered points the one at which the curve turns most among those beside.
+        if let Some(turn) = turns_at_once[i] {
+            let is_most = scattered.beside(i).all(|j| j == i || turns_at_once[j].is_none_or(|other| other < turn));
+            return turn > CORNER_RAD && is_most;
+        }
         let [a, b] = [points_mm[i].distance(points_mm[i - 1]), points_mm[i + 1].distance(points_mm[i])];
         let beside_mm = turns[i] * a * b / (a + b);
         // A neighbour that is a corner says nothing of how smooth the chain is.
