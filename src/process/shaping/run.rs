@@ -26,6 +26,7 @@ use crate::steps::report::{RunWords, deviations};
 use crate::steps::{Tools, Work, conclusion, meshes, stages, summary, write_meshes_and_pictures};
 use crate::texture;
 use gearcut_core::error::{Error, Result};
+use gearcut_core::terms::Side;
 use std::mem::take;
 
 /// Cuts a job and writes everything; `frames` is how many pictures of the cut as it happens are drawn.
@@ -43,7 +44,11 @@ pub(super) fn run(job: &ShapingJob, tools: &Tools, frames: Option<u32>) -> Resul
     }
     let mut attempts = Attempts::new(progress);
     if let Some(spec) = Shaping::of(&job.scene).and_then(|own| own.cmm).filter(|_| !gear.work.interrupted) {
-        let measured = cmm::measure(job, backend, &spec);
+        let flanks = &gear.report.flanks;
+        let is_lost = |tooth: u32, side: Side| {
+            flanks.iter().any(|flank| (flank.tooth, flank.side) == (tooth, side) && flank.own.is_lost)
+        };
+        let measured = cmm::measure(job, backend, &spec, is_lost);
         gear.report.cmm = attempts.of("coordinate measurement", measured)?.unwrap_or_default();
     }
     let textures = texture::measure(job, &foreseen.windows, backend, progress, interrupt);

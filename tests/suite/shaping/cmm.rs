@@ -24,7 +24,7 @@ fn measured(strokes: u32, settings: &[&str]) -> CmmReport {
     let scene = process::parse(&text, "round.toml", Path::new("."), &settings).expect("a scene").scene;
     let spec = Shaping::of(&scene).and_then(|own| own.cmm).expect("a measurement");
     let job = ShapingJob::new(scene).expect("a gear");
-    measure(&job, &Cpu::default(), &spec).expect("measured").remove(0)
+    measure(&job, &Cpu::default(), &spec, |_, _| false).expect("measured").remove(0)
 }
 
 /// The rough flank is the involute of the same base circle, turned by (z + z0) / z (inv alpha' - inv alpha), where

@@ -16,7 +16,7 @@
 //! Road not taken: cutting the gear off its axis. That moves roughing and finishing alike.
 
 use super::unevenness::{ToothAllowance, ToothCrossings, allowances, summarise};
-use crate::job::GearJob;
+use crate::job::{GearJob, RAY_DEPTH_MODULES, RAY_HEIGHT_MODULES};
 use crate::measure::crossing::Crossing;
 use crate::process::shaping::ShapingJob;
 use crate::process::shaping::scene::model::CmmSpec;
@@ -107,6 +107,8 @@ fn measured(
     let layers = job.cut_flank(backend, tooth, side, &arcs_mm, &[0.0])?;
     let targets: Vec<_> = arcs_mm.iter().map(|&arc_mm| flank.at_arc(arc_mm)).collect();
     let last = arcs_mm.len() - 1;
+    let ends_mm = [-RAY_DEPTH_MODULES, RAY_HEIGHT_MODULES].map(|end| 0.999 * end * job.scene.gear.module_mm);
+    let range_mm = ends_mm[0]..ends_mm[1];
     // Even along the profile, half a distance from its ends.
     let mut indices: Vec<usize> = (0..spec.points)
         .map(|k| ((f64::from(k) + 0.5) / f64::from(spec.points) * last as f64).round() as usize)
@@ -118,8 +120,12 @@ fn measured(
             .zip(heights_mm)
             .map(|(at, &height)| CutPlace { point_mm: at.point_mm, normal: at.normal, height_mm: f64::from(height) })
             .collect();
-        let read = |&i: &usize| Some((arcs_mm[i], touched_mm(&places, i, 0.5 * spec.probe_diameter_mm)?));
-        let points: Vec<(f64, f64)> = indices.iter().filter_map(read).collect();
+        // A ray that nothing cut, or that was cut beyond its end, says nothing of the surface.
+        let read = |&i: &usize| {
+            let is_known = range_mm.contains(&places[i].height_mm);
+            Some((arcs_mm[i], touched_mm(&places, i, 0.5 * spec.probe_diameter_mm)?, is_known))
+        };
+        let points: Vec<(f64, f64, bool)> = indices.iter().filter_map(read).collect();
         if points.len() < AROUND {
             return None;
         }
@@ -137,6 +143,9 @@ fn measured(
         let crossed = nodes.windows(2).find(|pair| over(pair[0]).0 <= 0.0 && over(pair[1]).0 > 0.0)?;
         let arc_mm = bisect(|arc_mm| over(arc_mm).0 <= 0.0, crossed[0], crossed[1]);
         let (point_mm, target, weights) = on_profile(arc_mm);
+        if !weights.iter().all(|&(i, _)| points[i].2) {
+            return None;
+        }
         let phi_rad = over(arc_mm).1;
         Some(ProbedCrossing {
             crossing: Crossing { point_mm, phi_rad, arc_mm: job.curve.arc_mm(phi_rad) },
@@ -148,18 +157,29 @@ fn measured(
     Ok(layers.iter().map(|layer| of_layer(&layer.heights_mm)).collect())
 }
 
-/// Measures all flanks after every operation; nothing where a scene has one operation alone.
+/// Measures all flanks after every operation, but for those that are cut away; nothing where a scene has one operation
+/// alone.
 ///
 /// # Errors
 /// The backend's.
-pub fn measure(job: &ShapingJob, backend: &dyn Backend, spec: &CmmSpec) -> Result<Vec<CmmReport>> {
+pub fn measure(
+    job: &ShapingJob,
+    backend: &dyn Backend,
+    spec: &CmmSpec,
+    is_lost: impl Fn(u32, Side) -> bool,
+) -> Result<Vec<CmmReport>> {
     let finished = job.operations.len() - 1;
     if finished == 0 {
         return Ok(Vec::new());
     }
     let mut flanks = Vec::new();
     for tooth in 1..=job.scene.gear.teeth {
-        let [left, right] = [Side::Left, Side::Right].map(|side| measured(job, backend, (tooth, side), spec));
+        let [left, right] = [Side::Left, Side::Right].map(|side| {
+            if is_lost(tooth, side) {
+                return Ok(vec![None; job.operations.len()]);
+            }
+            measured(job, backend, (tooth, side), spec)
+        });
         flanks.push([left?, right?]);
     }
     let surface = |operation: usize| -> Vec<[Option<ProbedCrossing>; 2]> {
