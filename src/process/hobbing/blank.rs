@@ -27,7 +27,7 @@ pub struct HobbedBlank {
     pub cut: CutBlank,
     /// What the passes of each operation took.
     pub chips: Vec<Vec<PassChip>>,
-    /// The same slice by slice; empty where the scene does not name the material, and no force is computed.
+    /// The same slice by slice; empty where the scene names neither material nor wear, which alone take it.
     pub in_slices: Vec<Vec<PassChip>>,
 }
 
@@ -180,7 +180,7 @@ impl HobCutter<'_> {
             };
             cut.cuts.push(done.cut);
             chips.push(done.chips);
-            if self.job.material.is_some() {
+            if self.job.material.is_some() || self.job.wear.is_some() {
                 in_slices.push(done.in_slices);
             }
             cut.left_mm3.push(cut.field.volumes_mm3());

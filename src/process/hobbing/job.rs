@@ -69,6 +69,8 @@ pub struct HobbingJob {
     pub programs: bool,
     /// Cutting force of the work's material, where the scene names it.
     pub material: Option<CuttingForce>,
+    /// How the hob wears, where the scene says.
+    pub wear: Option<model::WearSpec>,
     /// The pitch curve.
     pub curve: Arc<PitchCurve>,
     /// The hob.
@@ -102,7 +104,8 @@ impl HobbingJob {
     /// Geometry that cannot be cut.
     pub fn past_hollows(scene: &Scene) -> Result<Self> {
         let gear = &scene.gear;
-        let Some(Hobbing { tool, limits, errors, operations: specs, material, programs }) = Hobbing::of(scene) else {
+        let Some(Hobbing { tool, limits, errors, operations: specs, material, wear, programs }) = Hobbing::of(scene)
+        else {
             return Err(Refusal::new("tool", "this tool does not hob gears", "write [tool.hob] for hobbing").into());
         };
         let curve = Arc::new(PitchCurve::new(&gear.pitch_curve, gear.transverse_module_mm(), gear.teeth)?);
@@ -141,6 +144,7 @@ impl HobbingJob {
             errors: errors.clone(),
             programs: *programs,
             material: *material,
+            wear: *wear,
             curve,
             hob,
             stock,

@@ -6,6 +6,7 @@ pub mod force;
 pub mod load;
 mod marks;
 mod points;
+pub mod wear;
 
 use super::foreseen::foresee;
 use super::gear::cut_gear;
@@ -47,6 +48,7 @@ pub(super) fn run(job: &HobbingJob, tools: &Tools) -> Result<CutDone> {
     gear.work.interrupted |= whole.is_none();
     let loads = whole.as_ref().map_or_else(Vec::new, |whole| load::measure(&cutter, &whole.blank));
     let forces = whole.as_ref().map_or_else(Vec::new, |whole| force::measure(&cutter, &whole.blank));
+    let worn = whole.as_ref().and_then(|whole| wear::measure(&cutter, &whole.blank));
     let inspected = Inspected::new(&cutter, &gear.flanks, &gear.inspection)?;
     let measured = findings::Measured {
         inspected: &inspected,
@@ -55,10 +57,12 @@ pub(super) fn run(job: &HobbingJob, tools: &Tools) -> Result<CutDone> {
         textures: &textures,
         lattices: &lattices,
         whole: whole.as_ref().map(|whole| (whole, loads.as_slice(), forces.as_slice())),
+        wear: worn.as_ref(),
     };
     let mut found = findings::findings(&cutter, &gear, &measured)?;
     let mut load_charts = load::charts(job, &loads);
     load_charts.extend(force::bars(job, &forces));
+    let wear_chart = worn.as_ref().and_then(|worn| wear::bars(job, worn));
     let force_charts = force::over_time(job, &forces);
     let points_chart = points::chart(&job.scene.name, &gear);
     if let Some(whole) = whole.as_ref().filter(|_| parts.has(Part::Meshes)) {
@@ -66,7 +70,7 @@ pub(super) fn run(job: &HobbingJob, tools: &Tools) -> Result<CutDone> {
     }
     if parts.has(Part::Chips) {
         let write = || {
-            for (stem, chart) in &load_charts {
+            for (stem, chart) in load_charts.iter().chain(&wear_chart) {
                 chart.write_svg(&folder.path(format!("load/{stem}.svg"))?)?;
             }
             for (stem, chart) in &force_charts {
@@ -104,8 +108,13 @@ pub(super) fn run(job: &HobbingJob, tools: &Tools) -> Result<CutDone> {
     if parts.has(Part::Report) {
         attempts.of("inspection sheet", deviations::write_sheet(&sheet, folder))?;
     }
-    let charts =
-        report::Charts { inspection: &inspection, loads: load_charts, forces: force_charts, points: points_chart };
+    let charts = report::Charts {
+        inspection: &inspection,
+        loads: load_charts,
+        forces: force_charts,
+        wear: wear_chart.map(|(_, chart)| chart),
+        points: points_chart,
+    };
     let page = |found: &Findings| report::page(&cutter, &gear, found, charts, &motion, &words, folder);
     found.complete = !gear.work.interrupted;
     conclusion::write(&mut found, &motion, tools, &mut attempts, &job.scene, page, Some(sheet))?;

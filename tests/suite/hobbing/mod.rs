@@ -25,3 +25,4 @@ mod surface;
 mod thickness;
 mod tip_relief;
 mod tools;
+mod wear;

@@ -93,6 +93,7 @@ fn defaults_are_allowed_and_units_stand_in_the_names() {
             "1/min" => "_per_minute",
             "m/min" => "_m_per_min",
             "1/mm^2" => "_per_mm2",
+            "m" => "_m",
             "s" => "_s",
             "ms" => "_ms",
             "min" => "_min",

@@ -381,6 +381,9 @@ fn needed(name: &str) -> &'static [&'static str] {
             "scratch_length_um",
         ],
         "stock_scatter_length_mm" => &["stock_scatter_um"],
+        "limit_mm" => &["life_m"],
+        "life_m" | "gears_to_limit" => &["limit_mm"],
+        "life_range_m" | "thickness_exponent_range" => &["limit_mm", "life_m"],
         _ => &[],
     }
 }

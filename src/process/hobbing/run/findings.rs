@@ -2,7 +2,7 @@
 
 mod headline;
 
-use super::{blank, force, load, marks, points};
+use super::{blank, force, load, marks, points, wear};
 use crate::findings::quantities::OPERATIONS;
 use crate::findings::quantities::cutting::{CYCLE_TIME, LINKAGE, OFFSET, PASSES};
 use crate::findings::quantities::flanks::{MEAN_DEVIATION, PROFILE_LENGTH, SQ, START_OF_FLANK};
@@ -14,6 +14,7 @@ use crate::process::hobbing::linkage::dynamics::AXES;
 use crate::process::hobbing::measure::flank_report::HobbedReport;
 use crate::process::hobbing::measure::hob_force::OperationForce;
 use crate::process::hobbing::measure::hob_load::OperationLoad;
+use crate::process::hobbing::measure::hob_wear::HobWear;
 use crate::process::hobbing::measure::marks::MarkLattice;
 use crate::process::hobbing::quantities::{
     AXIAL_FEED, EVALUATED, IDLE_TIME, IS_UNDERCUT, NOT_NAMED, PROFILE_END, PROFILE_START,
@@ -45,6 +46,8 @@ pub struct Measured<'a> {
     pub lattices: &'a [MarkLattice],
     /// The whole blank with the hob's load and its forces; none after Ctrl-C.
     pub whole: Option<(&'a blank::WholeBlank, &'a [OperationLoad], &'a [OperationForce])>,
+    /// Wear of the hob, where the scene says how it wears.
+    pub wear: Option<&'a HobWear>,
 }
 
 /// Everything that was found.
@@ -79,6 +82,7 @@ pub fn findings(cutter: &HobCutter, gear: &HobbedGear, measured: &Measured) -> R
     if let Some((whole, loads, forces)) = measured.whole {
         sections.push(load::findings(job, loads));
         sections.extend(force::findings(job, forces));
+        sections.extend(measured.wear.and_then(|worn| wear::findings(job, worn)));
         sections.push(blank::findings(cutter, whole));
     }
     let mut list = measured.foreseen.to_vec();

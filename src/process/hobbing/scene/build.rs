@@ -1,9 +1,10 @@
 //! Checked values of a hobbing scene to the model.
 
-use super::keys::AXES;
+use super::keys::{AXES, WEAR};
 use super::model::{
     Approach, EvenMotion, ExtraRotation, FeedDirection, FeedOf, GashForm, HobRelief, HobSize, HobSpec, Hobbing,
-    HobbingAxisLimits, HobbingKind, HobbingOperation, LinkageForm, Protuberance, ShiftDirection, ShiftStrategy, Worm,
+    HobbingAxisLimits, HobbingKind, HobbingOperation, LinkageForm, Protuberance, ShiftDirection, ShiftStrategy,
+    WearLife, WearSpec, Worm,
 };
 use super::standard_hob::{self, HobTip};
 use crate::scene::ScenePart;
@@ -12,6 +13,9 @@ use crate::scene::machine_errors::{machine_errors, tool_mounting};
 use crate::scene::values::{Values, View};
 use gearcut_core::units::{TURN_RAD, UM_PER_MM};
 use std::path::Path;
+
+const MM_PER_M: f64 = 1e3;
+const S_PER_MIN: f64 = 60.0;
 
 /// Hobbing: hob, limits and operations.
 pub(super) fn build(values: &Values, base_dir: &Path) -> Option<ScenePart> {
@@ -24,6 +28,10 @@ pub(super) fn build(values: &Values, base_dir: &Path) -> Option<ScenePart> {
         material if material.text("name").is_some() => Some(cutting_force(material)?),
         _ => None,
     };
+    let wear = match values.view(WEAR) {
+        wear if wear.number("limit_mm").is_some() => Some(hob_wear(wear)?),
+        _ => None,
+    };
     let programs = linear_programs(values)?;
     Some(ScenePart::new(Hobbing {
         tool,
@@ -31,6 +39,7 @@ pub(super) fn build(values: &Values, base_dir: &Path) -> Option<ScenePart> {
         errors: machine_errors(values, &AXES)?,
         operations: operations?,
         material,
+        wear,
         programs,
     }))
 }
@@ -98,6 +107,26 @@ fn tip_reliefs(hob: View<'_>, gear: View<'_>) -> Option<Vec<HobRelief>> {
         reliefs.push(HobRelief { height_mm, slope });
     }
     Some(reliefs)
+}
+
+fn hob_wear(wear: View<'_>) -> Option<WearSpec> {
+    let ends = |key: &str| wear.numbers(key).and_then(|ends| <[f64; 2]>::try_from(ends).ok());
+    let life = match (wear.number("life_m"), wear.whole("gears_to_limit")) {
+        (Some(m), _) => {
+            WearLife::Length { mm: m * MM_PER_M, ends_mm: ends("life_range_m").map(|ends| ends.map(|m| m * MM_PER_M)) }
+        }
+        (None, Some(gears)) => WearLife::Gears(f64::from(gears)),
+        (None, None) => return None,
+    };
+    Some(WearSpec {
+        limit_mm: wear.number("limit_mm")?,
+        life,
+        thickness_exponent: wear.number("thickness_exponent")?,
+        thickness_exponent_ends: ends("thickness_exponent_range"),
+        thickness_mm: wear.number("thickness_mm")?,
+        speed_mm_per_s: wear.number("speed_m_per_min").map(|m_per_min| m_per_min * MM_PER_M / S_PER_MIN),
+        taylor_exponent: wear.number("taylor_exponent")?,
+    })
 }
 
 fn limits(values: &Values) -> HobbingAxisLimits {

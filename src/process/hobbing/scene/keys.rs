@@ -7,6 +7,7 @@ mod tool;
 use crate::scene::keys::{Addition, HELIX, KeySection};
 
 pub(super) use machine::AXES;
+pub(super) use tool::WEAR;
 
 /// Sections of its own.
 pub(super) static SECTIONS: &[&[KeySection]] = &[tool::SECTIONS, machine::SECTIONS, operation::SECTIONS];
