@@ -333,8 +333,8 @@ mod tests {
         }
     }
 
-    /// What a tooth 2 mm wide that plunges so deep does at its places, its quarters of a flank 1 mm high: area swept, and
-    /// thickness under the tip; means over 400 places of the slot.
+    /// What a tooth 2 mm wide that plunges so deep does at its places, its quarters of a flank 1 mm high: area swept,
+    /// and thickness under the tip; means over 400 places of the slot.
     fn work_of_a_slot(depth_mm: f64) -> ([f64; EDGE_PLACES], f64) {
         let spacing_mm = 0.075;
         let mut mean_mm = [0.0; EDGE_PLACES];
@@ -360,8 +360,8 @@ mod tests {
     }
 
     /// 1.3 mm deep the tip works over 2 mm, the quarter beside it over 1 mm, the next one over 0.3 mm, on both flanks.
-    /// Of the depth over the tip rays up to 45 degrees off the normal see less near the walls, through which they leave:
-    /// a share of depth / (2 * 2 mm) times the mean of the tangent over those angles, 4 / pi ln sqrt(2) = 0.441, at most.
+    /// Of the depth over the tip rays up to 45 degrees off the normal see less near the walls, through which they
+    /// leave: at most depth / (2 * 2 mm) times the mean tangent of those angles, 4 / pi ln sqrt(2) = 0.441.
     #[test]
     fn work_along_the_edge_of_a_straight_slot_is_where_the_slot_is() {
         let (mean_mm, under_tip_mm) = work_of_a_slot(1.3);
