@@ -7,11 +7,11 @@
 //! steady stage of Archard's law (J. F. Archard, J. Appl. Phys. 24, 1953, 981-988: worn volume in proportion to the
 //! sliding distance). L, the length of cut after which VB_lim is reached, is Taylor's tool life times the speed
 //! (F. W. Taylor, On the Art of Cutting Metals, Trans. ASME 28, 1907: v T^n = C, n = 1/8 for high-speed steel), with a
-//! power of the chip thickness beside it, as the feed stands in his equation:
+//! power of the chip thickness beside it, as the feed in his equation:
 //!
 //! `L(h, v) = L_1 (h / h_1)^-x (v / v_1)^-(1/n - 1)`.
 //!
-//! Shares of life add up, whatever their order. L_1 and x are the two constants; h_1, v_1 and n are given. That wear of
+//! Shares of life add up in any order. L_1 and x are the two constants; h_1, v_1 and n are given. That wear of
 //! a hob tooth is the sum over its cuts, and that a shift lays the same sum over other teeth, is the way of K.-D.
 //! Bouzakis and A. Antoniadis (CIRP Annals 44, 1995, 75-78); their own equation has more constants, which take
 //! fly-hobbing tests.
@@ -197,7 +197,7 @@ pub struct GearShift {
     pub gears: u64,
 }
 
-/// Shifts after every gear that a hob has room for, from where it stands: a quarter, a half, one and more whole teeth.
+/// Shifts after every gear that a hob has room for, from its place: a quarter, a half, one and more whole teeth.
 /// `None`: a tooth at the hob's end works, and the load would not move along with the shift. `threads` are the teeth of
 /// each thread, `share` is what one gear takes of the life of every place, `room` how many teeth the hob may move to
 /// its entering and to its leaving end before it no longer carries the contact.

@@ -11,7 +11,7 @@ fn life_of_one_chip_is_that_by_hand() {
     assert!((life_m - 120.0 / 3.583_180_8).abs() < 1e-9, "{life_m}");
 }
 
-/// Taylor: v T^n = C whatever the speed, under one chip.
+/// Taylor: v T^n = C at any speed, under one chip.
 #[test]
 fn tool_life_under_one_chip_is_taylors() {
     let constant = |speed_mm_per_s: f64| {
