@@ -5,14 +5,15 @@ use std::path::Path;
 use crate::backend::Choice;
 use crate::export::drawing::Drawing;
 use crate::export::dxf::dxf;
+use crate::export::flank_faces::FlankFaces;
 use crate::export::points::{self, PointsWish};
 use crate::export::section::{GearSection, ProfileSource, SectionCurve, SectionWish, profile_mm};
 use crate::export::solid::GearSolid;
-use crate::export::step::{StepWords, step};
+use crate::export::step::{self, StepFile, StepWords};
 use crate::export::unit::FileUnit;
 use crate::export::wire::{WireProgram, WireWish};
 use crate::interrupt::Interrupt;
-use crate::job::{CylindricalGear, GearJob};
+use crate::job::GearJob;
 use crate::number_text::{plain, significant};
 use crate::output::atomic::write_bytes_atomically;
 use crate::output::text::Sheet;
@@ -78,22 +79,20 @@ impl Exporter<'_> {
     fn export(&mut self, gear: &dyn GearJob) -> Result<()> {
         let arguments = self.arguments;
         let cylinder = gear.cylindrical();
-        let wants_cylinder =
-            [&arguments.dxf, &arguments.tool_dxf, &arguments.step, &arguments.wire].into_iter().any(Option::is_some);
+        let wants_cylinder = [&arguments.dxf, &arguments.tool_dxf, &arguments.wire].into_iter().any(Option::is_some);
         if wants_cylinder && cylinder.is_none() {
-            let way_out =
-                "export a shaped or hobbed gear; of a bevel gear there are --points, and mesh/ of `gearcut cut`";
+            let way_out = "export a shaped or hobbed gear; of a bevel gear there are --step, --points, and mesh/ of `gearcut cut`";
             return Err(Refusal::new("gear", "a bevel gear has no transverse section", way_out).into());
         }
         if let Some(path) = &arguments.points {
             self.points(gear, path)?;
         }
+        if let Some(path) = &arguments.step {
+            self.step(gear, path)?;
+        }
         let Some(gear) = cylinder.filter(|_| wants_cylinder) else { return Ok(()) };
         if let Some(path) = &arguments.tool_dxf {
             self.drawing(path, &Drawing::of_tool(gear, self.wish.tolerance_mm), "")?;
-        }
-        if let Some(path) = &arguments.step {
-            self.solid(gear, path)?;
         }
         if arguments.dxf.is_none() && arguments.wire.is_none() {
             return Ok(());
@@ -139,15 +138,23 @@ impl Exporter<'_> {
         Ok(())
     }
 
-    fn solid(&mut self, gear: &dyn CylindricalGear, path: &Path) -> Result<()> {
-        let solid = GearSolid::new(gear, self.choice.backend.as_ref(), &self.wish, &self.watch)?;
-        let file = step(&solid, &StepWords::new(gear, &self.wish));
+    /// The solid of a cylindrical gear, the flanks of another one.
+    fn step(&mut self, gear: &dyn GearJob, path: &Path) -> Result<()> {
+        let (wish, words) = (&self.wish, StepWords::new(gear, &self.wish));
+        let backend = self.choice.backend.as_ref();
+        let (what, of, file, off_mm) = if let Some(gear) = gear.cylindrical() {
+            let solid = GearSolid::new(gear, backend, wish, &self.watch)?;
+            ("solid", "profile", step::solid::step(&solid, &words), solid.off_mm)
+        } else {
+            let flanks = FlankFaces::new(gear, backend, wish, &self.watch)?;
+            ("flanks", "flanks", step::flanks::step(&flanks, &words), flanks.off_mm)
+        };
+        let StepFile { text, faces } = file;
         self.watch.check()?;
-        write_bytes_atomically(path, file.text.as_bytes())?;
+        write_bytes_atomically(path, text.as_bytes())?;
         self.sheet.heading(&path.display().to_string());
-        let kb = file.text.len().div_ceil(1000);
-        self.sheet.line("solid", format!("{} faces, {kb} kB", file.faces));
-        self.sheet.line("off the profile", format!("{} um at most", significant(solid.off_mm * UM_PER_MM, 2)));
+        self.sheet.line(what, format!("{faces} faces, {} kB", text.len().div_ceil(1000)));
+        self.sheet.line(&format!("off the {of}"), format!("{} um at most", significant(off_mm * UM_PER_MM, 2)));
         Ok(())
     }
 

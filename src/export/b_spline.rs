@@ -1,4 +1,4 @@
-//! Cubic B-splines with clamped ends, in the plane: places, and least squares through points.
+//! Cubic B-splines with clamped ends, in the plane or in space: places, and least squares through points.
 //!
 //! In: parameters and points. Out: control points, the first and the last of them the first and the last point. So two
 //! faces that meet in a line of points have one edge to the last bit, next to any others.
@@ -6,7 +6,9 @@
 //! The normal equations of B-splines are banded and well conditioned (de Boor, *A Practical Guide to Splines*, XIV):
 //! a Cholesky factor of four diagonals solves them. With as many points as control points they interpolate.
 
-use glam::DVec2;
+use glam::{DVec2, DVec3};
+use std::iter::Sum;
+use std::ops::{AddAssign, Div, Mul, Sub};
 
 /// Degree of all of them.
 pub const DEGREE: usize = 3;
@@ -14,6 +16,15 @@ pub const DEGREE: usize = 3;
 const LEAST_PIVOT: f64 = 1e-6;
 /// Basis functions that are not zero at a place.
 const ORDER: usize = DEGREE + 1;
+
+/// What splines run through.
+pub trait SplinePoint:
+    Copy + Default + AddAssign + Sub<Output = Self> + Mul<f64, Output = Self> + Div<f64, Output = Self> + Sum
+{
+}
+
+impl SplinePoint for DVec2 {}
+impl SplinePoint for DVec3 {}
 
 /// Places where the polynomials of a spline meet.
 #[derive(Debug, Clone, PartialEq)]
@@ -87,28 +98,28 @@ impl CubicKnots {
     }
 
     /// Place and derivative at a parameter.
-    pub fn place_mm(&self, controls_mm: &[DVec2], param: f64) -> [DVec2; 2] {
+    pub fn place_mm<P: SplinePoint>(&self, controls_mm: &[P], param: f64) -> [P; 2] {
         let (first, values, derivatives) = self.weights(param);
-        [values, derivatives].map(|weights| (0..ORDER).map(|k| weights[k] * controls_mm[first + k]).sum())
+        [values, derivatives].map(|weights| (0..ORDER).map(|k| controls_mm[first + k] * weights[k]).sum())
     }
 
     /// Control points of the curve that is nearest to points at rising parameters, by least squares, and passes through
     /// the first and the last one; `None`: the points do not determine them.
-    pub fn fit(&self, params: &[f64], points_mm: &[DVec2]) -> Option<Vec<DVec2>> {
+    pub fn fit<P: SplinePoint>(&self, params: &[f64], points_mm: &[P]) -> Option<Vec<P>> {
         let (count, last) = (self.count(), points_mm.len() - 1);
         let ends_mm = [points_mm[0], points_mm[last]];
         // Rows of the symmetric matrix from three before the diagonal to the diagonal; ends are known.
         let mut band = vec![[0.0_f64; ORDER]; count];
-        let mut right = vec![DVec2::ZERO; count];
+        let mut right = vec![P::default(); count];
         for (&param, &point_mm) in params.iter().zip(points_mm).take(last).skip(1) {
             let (first, values) = self.blend(param);
             let known = |control: usize| control == 0 || control == count - 1;
             let end_mm = |control: usize| ends_mm[usize::from(control > 0)];
             let rest_mm = (0..ORDER)
                 .filter(|&k| known(first + k))
-                .fold(point_mm, |rest_mm, k| rest_mm - values[k] * end_mm(first + k));
+                .fold(point_mm, |rest_mm, k| rest_mm - end_mm(first + k) * values[k]);
             for i in (0..ORDER).filter(|&i| !known(first + i)) {
-                right[first + i] += values[i] * rest_mm;
+                right[first + i] += rest_mm * values[i];
                 for k in (0..=i).filter(|&k| !known(first + k)) {
                     band[first + i][DEGREE + k - i] += values[i] * values[k];
                 }
@@ -131,11 +142,11 @@ impl CubicKnots {
             if band[i][DEGREE].is_nan() || band[i][DEGREE] <= LEAST_PIVOT {
                 return None;
             }
-            let known: DVec2 = (from..i).map(|m| band[i][DEGREE + m - i] * right[m]).sum();
+            let known: P = (from..i).map(|m| right[m] * band[i][DEGREE + m - i]).sum();
             right[i] = (right[i] - known) / band[i][DEGREE];
         }
         for i in (0..count).rev() {
-            let known: DVec2 = (i + 1..count.min(i + ORDER)).map(|m| band[m][DEGREE + i - m] * right[m]).sum();
+            let known: P = (i + 1..count.min(i + ORDER)).map(|m| right[m] * band[m][DEGREE + i - m]).sum();
             right[i] = (right[i] - known) / band[i][DEGREE];
         }
         right[0] = ends_mm[0];

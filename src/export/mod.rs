@@ -10,7 +10,8 @@
 //! | [`dxf`] | the drawing as a DXF file |
 //! | [`b_spline`] | cubic B-splines through points |
 //! | [`solid`] | the gear as a solid of such faces |
-//! | [`step`] | the solid as a STEP file |
+//! | [`flank_faces`] | flanks as such faces, where a gear is no swept section |
+//! | [`step`] | solid or flanks as a STEP file |
 //! | [`points`] | points of flanks with their normals as CSV |
 //! | [`wire`] | programs of wire erosion |
 //! | [`mod@unit`] | units of length, and how numbers are written |
@@ -19,6 +20,7 @@ pub mod arcs;
 pub mod b_spline;
 pub mod drawing;
 pub mod dxf;
+pub mod flank_faces;
 pub mod points;
 pub mod section;
 pub mod solid;

@@ -93,7 +93,7 @@ impl GearSolid {
         let fine_mm = MEASURED_SHARE * spacing_mm(gear, wish);
         let solid = |walls, across, off_mm| {
             let solid = Self { walls, across, half_face_mm, back: gear.blank().back, off_mm };
-            if off_mm > wish.tolerance_mm { Err(too_coarse(wish, off_mm).into()) } else { Ok(solid) }
+            if off_mm > wish.tolerance_mm { Err(too_coarse_a_wall(wish, off_mm).into()) } else { Ok(solid) }
         };
         if wish.source == ProfileSource::Cut {
             if !is_straight {
@@ -144,10 +144,15 @@ impl GearSolid {
     }
 }
 
-fn too_coarse(wish: &SectionWish, off_mm: f64) -> Refusal {
+/// Faces that are farther off than the tolerance; `instead`: what else can be exported.
+pub fn too_coarse(wish: &SectionWish, off_mm: f64, instead: &str) -> Refusal {
     let [off_um, within_um] = [off_mm, wish.tolerance_mm].map(|mm| significant(mm * UM_PER_MM, 2));
     let problem = format!("smooth faces are {off_um} um off the profile, and {within_um} um are allowed");
-    Refusal::new("--tolerance-um", problem, "allow more, or export the section with --dxf")
+    Refusal::new("--tolerance-um", problem, format!("allow more, or {instead}"))
+}
+
+fn too_coarse_a_wall(wish: &SectionWish, off_mm: f64) -> Refusal {
+    too_coarse(wish, off_mm, "export the section with --dxf")
 }
 
 /// Walls through all sections, each of which has the same parts; control points are still those of the sections.
@@ -160,7 +165,7 @@ fn fitted(sections: &[Vec<Vec<DVec2>>], wish: &SectionWish) -> Result<Vec<SolidW
     }
     let walls_of = |i: usize| {
         let rows: Vec<PartPoints> = sections.iter().map(|parts| PartPoints::new(&parts[i])).collect();
-        walls_of(rows, PROFILE_SHARE * wish.tolerance_mm).map_err(|off_mm| too_coarse(wish, off_mm).into())
+        walls_of(rows, PROFILE_SHARE * wish.tolerance_mm).map_err(|off_mm| too_coarse_a_wall(wish, off_mm).into())
     };
     let walls: Vec<Vec<SolidWall>> = (0..count).into_par_iter().map(walls_of).collect::<Result<_>>()?;
     Ok(walls.into_iter().flatten().collect())

@@ -1,10 +1,7 @@
-//! STEP: a solid as a file of ISO 10303-21 after AP214 (`AUTOMOTIVE_DESIGN`), in mm.
+//! STEP: a solid or surfaces as a file of ISO 10303-21 after AP214 (`AUTOMOTIVE_DESIGN`), in mm.
 //!
-//! In: a [`GearSolid`]. Out: the text of the file: one `MANIFOLD_SOLID_BREP` whose shell is closed. Every edge belongs
-//! to two faces, which run through it in opposite senses.
-//!
-//! Straight walls are cubic B-splines swept along z (`SURFACE_OF_LINEAR_EXTRUSION`), helical ones bicubic B-spline
-//! surfaces, ends planes. The bore or the rim is two half cylinders, so that no face closes upon itself.
+//! In: a [`GearSolid`], or [`FlankFaces`] of a gear that has none. Out: the text of the file: one `MANIFOLD_SOLID_BREP`
+//! whose shell is closed ([`solid`]), or one `SHELL_BASED_SURFACE_MODEL` with a shell for each flank ([`flanks`]).
 //!
 //! The accuracy in the head is what readers join edges by: the tolerance, and at most [`LARGEST_ACCURACY_MM`], so that
 //! no tip land of a coarse file is taken for a point.
@@ -14,14 +11,18 @@
 
 use super::b_spline::{CubicKnots, DEGREE};
 use super::section::{ProfileSource, SectionWish};
-use super::solid::GearSolid;
 use super::unit::fixed;
-use crate::job::CylindricalGear;
+use crate::job::GearJob;
 use crate::number_text::plain;
-use gearcut_core::gear::GearKind;
 use gearcut_core::units::UM_PER_MM;
-use glam::{DVec2, DVec3};
+use glam::DVec3;
 use std::fmt::Write as _;
+
+pub mod flanks;
+pub mod solid;
+
+#[cfg(doc)]
+use super::{flank_faces::FlankFaces, solid::GearSolid};
 
 /// Digits of lengths in mm and of knots.
 const DIGITS: [usize; 2] = [9, 12];
@@ -40,19 +41,24 @@ pub struct StepWords {
 }
 
 impl StepWords {
-    /// What is said of a gear.
-    pub fn new(gear: &dyn CylindricalGear, wish: &SectionWish) -> Self {
+    /// What is said of a gear: as a solid if it is cylindrical, else of its flanks.
+    pub fn new(gear: &dyn GearJob, wish: &SectionWish) -> Self {
         let name = gear.scene().name.clone();
+        let is_solid = gear.cylindrical().is_some();
         let what = match wish.source {
             ProfileSource::Target => "target: the envelope of the finishing operation".to_owned(),
-            ProfileSource::Cut => format!("as cut {} mm from the middle of the face, swept straight", plain(wish.z_mm)),
+            ProfileSource::Cut if is_solid => {
+                format!("as cut {} mm from the middle of the face, swept straight", plain(wish.z_mm))
+            }
+            ProfileSource::Cut => "as cut".to_owned(),
         };
-        let within = format!("faces are within {} um of the profile", plain(wish.tolerance_mm * UM_PER_MM));
-        let notes = vec![
-            format!("{name}: {what}"),
-            within,
-            "gear frame: axis along z, z = 0 in the middle of the face, a tooth space on the x axis".to_owned(),
-        ];
+        let (of, frame) = if is_solid {
+            ("profile", "z = 0 in the middle of the face, a tooth space on the x axis")
+        } else {
+            ("flanks", "the apex of the pitch cone at the origin, the back below it, a tooth space on the x axis")
+        };
+        let within = format!("faces are within {} um of the {of}", plain(wish.tolerance_mm * UM_PER_MM));
+        let notes = vec![format!("{name}: {what}"), within, format!("gear frame: axis along z, {frame}")];
         Self { name, notes, tolerance_mm: wish.tolerance_mm }
     }
 }
@@ -78,45 +84,6 @@ struct InstanceWriter {
     text: String,
     count: usize,
     faces: Vec<InstanceId>,
-}
-
-/// Edges of a closed wall: at the lower and at the upper end and between faces, counter-clockwise.
-struct WallEdges {
-    lower: Vec<InstanceId>,
-    upper: Vec<InstanceId>,
-    seams: Vec<InstanceId>,
-}
-
-/// The solid as a file.
-pub fn step(solid: &GearSolid, words: &StepWords) -> StepFile {
-    let mut file = InstanceWriter::default();
-    let is_external = solid.back.kind == GearKind::External;
-    let half_mm = solid.half_face_mm;
-    let (edges, surfaces) = file.profile(solid);
-    file.wall(&edges, &surfaces, is_external);
-    let back = (solid.back.radius_mm > 0.0).then(|| {
-        let (edges, surface) = file.back(solid.back.radius_mm, half_mm);
-        file.wall(&edges, &[surface; 2], !is_external);
-        edges
-    });
-    for (z_mm, is_upper) in [(-half_mm, false), (half_mm, true)] {
-        let loop_of = |edges: &WallEdges, is_forward: bool| -> EdgeLoop {
-            let own = if is_upper { &edges.upper } else { &edges.lower };
-            oriented(own.iter().map(|&edge| (edge, true)).collect(), is_forward == is_upper)
-        };
-        let mut loops = vec![loop_of(&edges, is_external)];
-        loops.extend(back.iter().map(|edges| loop_of(edges, !is_external)));
-        if !is_external {
-            loops.reverse();
-        }
-        let up = if is_upper { DVec3::Z } else { DVec3::NEG_Z };
-        let place = file.placement(DVec3::Z * z_mm, up);
-        let plane = file.add(&format!("PLANE('',#{place})"));
-        file.face(plane, true, loops);
-    }
-    let faces = file.faces.len();
-    file.product(words);
-    StepFile { text: whole(&file.text, words), faces }
 }
 
 /// A loop, or the same backwards.
@@ -170,12 +137,6 @@ impl InstanceWriter {
         ))
     }
 
-    /// A length along z.
-    fn upwards(&mut self, length_mm: f64) -> InstanceId {
-        let up = self.direction(DVec3::Z);
-        self.add(&format!("VECTOR('',#{up},{})", real(length_mm, DIGITS[0])))
-    }
-
     fn face(&mut self, surface: InstanceId, is_forward: bool, loops: Vec<EdgeLoop>) {
         let mut bounds = Vec::new();
         for (i, edges) in loops.into_iter().enumerate() {
@@ -192,61 +153,6 @@ impl InstanceWriter {
         self.faces.push(face);
     }
 
-    /// Faces round the axis; `is_forward`: the material lies on the side of the axis. Surfaces look away from it.
-    fn wall(&mut self, edges: &WallEdges, surfaces: &[InstanceId], is_forward: bool) {
-        for (i, &surface) in surfaces.iter().enumerate() {
-            let next = edges.seams[(i + 1) % edges.seams.len()];
-            let around = vec![(edges.lower[i], true), (next, true), (edges.upper[i], false), (edges.seams[i], false)];
-            self.face(surface, is_forward, vec![oriented(around, is_forward)]);
-        }
-    }
-
-    /// Edges and surfaces round the teeth.
-    fn profile(&mut self, solid: &GearSolid) -> (WallEdges, Vec<InstanceId>) {
-        let half_mm = solid.half_face_mm;
-        let heights_mm: Vec<f64> = match &solid.across {
-            None => vec![-half_mm, half_mm],
-            Some(across) => (0..across.count()).map(|row| across.greville(row)).collect(),
-        };
-        let last = heights_mm.len() - 1;
-        let mut points: Vec<Vec<Vec<InstanceId>>> = Vec::new();
-        for wall in &solid.walls {
-            let row = |(row, &z_mm): (usize, &f64)| {
-                let own_mm: &[DVec2] = &wall.rows_mm[row.min(wall.rows_mm.len() - 1)];
-                // The last one is the first of the next wall.
-                own_mm[..own_mm.len() - 1].iter().map(|point_mm| self.point(point_mm.extend(z_mm))).collect()
-            };
-            points.push(heights_mm.iter().enumerate().map(row).collect());
-        }
-        let firsts: Vec<Vec<InstanceId>> = points.iter().map(|rows| rows.iter().map(|row| row[0]).collect()).collect();
-        for (i, rows) in points.iter_mut().enumerate() {
-            for (row, &first) in rows.iter_mut().zip(&firsts[(i + 1) % firsts.len()]) {
-                row.push(first);
-            }
-        }
-        let ends: Vec<[InstanceId; 2]> =
-            firsts.iter().map(|column| [column[0], column[last]].map(|point| self.vertex(point))).collect();
-        let mut edges = WallEdges { lower: Vec::new(), upper: Vec::new(), seams: Vec::new() };
-        let mut surfaces = Vec::new();
-        let upwards = self.upwards(2.0 * half_mm);
-        for (i, wall) in solid.walls.iter().enumerate() {
-            let next = ends[(i + 1) % ends.len()];
-            let [lower, upper] = [0, last].map(|row| self.curve(&wall.along, &points[i][row]));
-            edges.lower.push(self.edge([ends[i][0], next[0]], lower));
-            edges.upper.push(self.edge([ends[i][1], next[1]], upper));
-            let (seam, surface) = match &solid.across {
-                None => (
-                    self.add(&format!("LINE('',#{},#{upwards})", firsts[i][0])),
-                    self.add(&format!("SURFACE_OF_LINEAR_EXTRUSION('',#{lower},#{upwards})")),
-                ),
-                Some(across) => (self.curve(across, &firsts[i]), self.surface([&wall.along, across], &points[i])),
-            };
-            edges.seams.push(self.edge(ends[i], seam));
-            surfaces.push(surface);
-        }
-        (edges, surfaces)
-    }
-
     /// A surface through rows of control points, each along the profile.
     fn surface(&mut self, knots: [&CubicKnots; 2], rows: &[Vec<InstanceId>]) -> InstanceId {
         let column = |i: usize| references(&rows.iter().map(|row| row[i]).collect::<Vec<_>>());
@@ -258,37 +164,9 @@ impl InstanceWriter {
         ))
     }
 
-    /// Edges of two half cylinders about the axis, and their surface.
-    fn back(&mut self, radius_mm: f64, half_mm: f64) -> (WallEdges, InstanceId) {
-        let upwards = self.upwards(2.0 * half_mm);
-        let mut edges = WallEdges { lower: Vec::new(), upper: Vec::new(), seams: Vec::new() };
-        let mut columns = Vec::new();
-        for side in [1.0, -1.0] {
-            let points = [-half_mm, half_mm].map(|z_mm| self.point(DVec3::new(side * radius_mm, 0.0, z_mm)));
-            let ends = points.map(|point| self.vertex(point));
-            let line = self.add(&format!("LINE('',#{},#{upwards})", points[0]));
-            edges.seams.push(self.edge(ends, line));
-            columns.push(ends);
-        }
-        let radius = real(radius_mm, DIGITS[0]);
-        for (end, z_mm) in [-half_mm, half_mm].into_iter().enumerate() {
-            let place = self.placement(DVec3::Z * z_mm, DVec3::Z);
-            let circle = self.add(&format!("CIRCLE('',#{place},{radius})"));
-            for side in [0, 1] {
-                let edge = self.edge([columns[side][end], columns[1 - side][end]], circle);
-                if end == 0 { edges.lower.push(edge) } else { edges.upper.push(edge) }
-            }
-        }
-        let place = self.placement(DVec3::Z * -half_mm, DVec3::Z);
-        (edges, self.add(&format!("CYLINDRICAL_SURFACE('',#{place},{radius})")))
-    }
-
-    /// The solid of all faces, its representation in mm, and the product whose shape it is.
-    fn product(&mut self, words: &StepWords) {
-        let faces = references(&self.faces);
-        let shell = self.add(&format!("CLOSED_SHELL('',{faces})"));
+    /// The representation of a shape in mm, and the product that has it.
+    fn product(&mut self, words: &StepWords, kind: &str, shape: InstanceId) {
         let name = text(&words.name);
-        let brep = self.add(&format!("MANIFOLD_SOLID_BREP({name},#{shell})"));
         let axes = self.placement(DVec3::ZERO, DVec3::Z);
         let mm = self.add("(LENGTH_UNIT()NAMED_UNIT(*)SI_UNIT(.MILLI.,.METRE.))");
         let rad = self.add("(NAMED_UNIT(*)PLANE_ANGLE_UNIT()SI_UNIT($,.RADIAN.))");
@@ -301,7 +179,7 @@ impl InstanceWriter {
             "(GEOMETRIC_REPRESENTATION_CONTEXT(3)GLOBAL_UNCERTAINTY_ASSIGNED_CONTEXT((#{accuracy}))\
              GLOBAL_UNIT_ASSIGNED_CONTEXT((#{mm},#{rad},#{sr}))REPRESENTATION_CONTEXT('',''))"
         ));
-        let shape = self.add(&format!("ADVANCED_BREP_SHAPE_REPRESENTATION({name},(#{axes},#{brep}),#{context})"));
+        let shape = self.add(&format!("{kind}({name},(#{axes},#{shape}),#{context})"));
         let application = self.add("APPLICATION_CONTEXT('core data for automotive mechanical design processes')");
         self.add(&format!(
             "APPLICATION_PROTOCOL_DEFINITION('international standard','automotive_design',2000,#{application})"

@@ -1,4 +1,5 @@
-"""Opens STEP files of `gearcut export` with OpenCASCADE: a valid solid, its volume, target points on its faces."""
+"""Opens STEP files of `gearcut export` with OpenCASCADE: a valid solid, its volume, target points on its faces;
+flanks of bevel gears as faces."""
 
 import argparse
 import csv
@@ -21,7 +22,7 @@ from OCP.gp import gp_Pnt
 from OCP.IFSelect import IFSelect_RetDone
 from OCP.ShapeAnalysis import ShapeAnalysis_Surface
 from OCP.STEPControl import STEPControl_Reader
-from OCP.TopAbs import TopAbs_FACE, TopAbs_SOLID
+from OCP.TopAbs import TopAbs_FACE, TopAbs_SHELL, TopAbs_SOLID
 from OCP.TopExp import TopExp_Explorer
 from OCP.TopoDS import TopoDS
 
@@ -34,6 +35,8 @@ CASES = [
     ("ring", "scenes/shaping/internal_circle.toml", [], "1..4", "15x3", 16.0),
     ("helical", "scenes/hobbing/circular_helical.toml", HELICAL, "1..4", "15x5", 6.0),
 ]
+# Bevel gears: name, scene, teeth.
+BEVELS = [("formate", "scenes/bevel/formate.toml", 41), ("hypoid", "scenes/bevel/hypoid.toml", 62)]
 TOLERANCE_MM = 1e-3
 
 
@@ -100,17 +103,40 @@ def one(program, folder, name, scene, settings, teeth, grid, face_mm):
     run("--dxf", drawing, "--tolerance-um", "0.1")
     table = folder / f"{name}_points.csv"
     run("--points", table, "--teeth", teeth, "--grid", grid)
-    reader = STEPControl_Reader()
-    check(f"{name}: is read", reader.ReadFile(str(path)) == IFSelect_RetDone)
-    reader.TransferRoots()
-    shape = reader.OneShape()
-    check(f"{name}: valid", BRepCheck_Analyzer(shape).IsValid())
+    shape = read(name, path)
     check(f"{name}: one solid", len(list(parts(shape, TopAbs_SOLID))) == 1)
     faces = len(list(parts(shape, TopAbs_FACE)))
     check(f"{name}: faces", f"{faces} faces" in said, f"{faces}, {path.stat().st_size // 1000} kB")
     expected = section_mm2(drawing) * face_mm
     off = abs(volume_mm3(shape) / expected - 1)
     check(f"{name}: volume", off < 1e-5, f"{expected:.3f} mm3, off by {off:.1e}")
+    on_faces(name, shape, table)
+    return shape
+
+
+def bevel(program, folder, name, scene, teeth):
+    path, table = folder / f"{name}.step", folder / f"{name}_points.csv"
+    command = [program, "export", scene, "--quiet", "--force"]
+    subprocess.run([*command, "--step", path], check=True, capture_output=True)
+    subprocess.run([*command, "--points", table, "--grid", "9x6"], check=True, capture_output=True)
+    shape = read(name, path)
+    shells, faces = (len(list(parts(shape, kind))) for kind in (TopAbs_SHELL, TopAbs_FACE))
+    size = f"{path.stat().st_size // 1000} kB"
+    check(f"{name}: a face for each flank", [shells, faces] == [2 * teeth] * 2, f"{faces}, {size}")
+    on_faces(name, shape, table)
+    return shape
+
+
+def read(name, path):
+    reader = STEPControl_Reader()
+    check(f"{name}: is read", reader.ReadFile(str(path)) == IFSelect_RetDone)
+    reader.TransferRoots()
+    shape = reader.OneShape()
+    check(f"{name}: valid", BRepCheck_Analyzer(shape).IsValid())
+    return shape
+
+
+def on_faces(name, shape, table):
     rows = list(csv.DictReader(table.open()))
     points = np.array([[float(row[column]) for column in ("x_mm", "y_mm", "z_mm")] for row in rows])
     off = off_mm(shape, points)
@@ -118,7 +144,6 @@ def one(program, folder, name, scene, settings, teeth, grid, face_mm):
     # A fault of two tolerances is seen.
     normals = np.array([[float(row[column]) for column in ("nx", "ny", "nz")] for row in rows[:20]])
     check(f"{name}: points beside are not", off_mm(shape, points[:20] + 2 * TOLERANCE_MM * normals) > TOLERANCE_MM)
-    return shape
 
 
 def drawn(shape, path):
@@ -160,10 +185,11 @@ def main():
     with tempfile.TemporaryDirectory() as scratch:
         folder = arguments.keep or Path(scratch)
         folder.mkdir(parents=True, exist_ok=True)
-        for case in CASES:
-            shape = one(arguments.program, folder, *case)
-            if arguments.keep:
-                drawn(shape, folder / f"{case[0]}_solid.png")
+        for cases, opened in [(CASES, one), (BEVELS, bevel)]:
+            for case in cases:
+                shape = opened(arguments.program, folder, *case)
+                if arguments.keep:
+                    drawn(shape, folder / f"{case[0]}_solid.png")
 
 
 if __name__ == "__main__":

@@ -21,7 +21,7 @@ pub struct ExportArguments {
     /// DXF of the tool to write: the whole shaper cutter, or the edge of one hob tooth.
     #[arg(long, value_name = "FILE")]
     pub tool_dxf: Option<PathBuf>,
-    /// STEP file of the whole gear to write: one closed solid of smooth faces.
+    /// STEP file of the whole gear to write: one closed solid of smooth faces; of a bevel gear its flanks as surfaces.
     #[arg(long, value_name = "FILE", conflicts_with = "teeth")]
     pub step: Option<PathBuf>,
     /// Points of the flanks with their normals to write, as CSV: of all gears, bevel gears too.

@@ -1,4 +1,5 @@
-//! STEP files read back as text: the shell is closed, and its walls are on the target.
+//! STEP files read back as text: the shell is closed, and its walls are on the target; flanks of bevel gears are faces
+//! with their material behind them.
 //!
 //! B-splines are computed here by the recursion that defines them.
 
@@ -64,6 +65,21 @@ impl StepText {
         DVec3::from_slice(&self.lists(id)[0])
     }
 
+    /// Edges of a loop, each with whether it is run through from its start.
+    fn edges(&self, bound: usize) -> Vec<(usize, bool)> {
+        let oriented = self.references(self.references(bound)[0]);
+        oriented.into_iter().map(|id| (self.references(id)[0], self.is_forward(id))).collect()
+    }
+
+    fn has_gap(&self, bound: usize) -> bool {
+        let ends = |(edge, is_forward): (usize, bool)| {
+            let edge = self.references(edge);
+            if is_forward { [edge[0], edge[1]] } else { [edge[1], edge[0]] }
+        };
+        let ends: Vec<[usize; 2]> = self.edges(bound).into_iter().map(ends).collect();
+        ends.iter().zip(ends.iter().cycle().skip(1)).any(|(own, next)| own[1] != next[0])
+    }
+
     /// What is wrong with the shell: edges that are not used once in either sense, loops with gaps, faces that do not
     /// belong to it, another number of holes than one.
     fn faults(&self) -> Vec<String> {
@@ -76,15 +92,10 @@ impl StepText {
             let parts = self.references(face);
             for bound in &parts[..parts.len() - 1] {
                 loops += 1;
-                let mut ends = Vec::new();
-                for oriented in self.references(self.references(*bound)[0]) {
-                    let (edge, is_forward) = (self.references(oriented)[0], self.is_forward(oriented));
-                    *uses.entry((edge, is_forward)).or_default() += 1;
-                    let edge = self.references(edge);
-                    ends.push(if is_forward { [edge[0], edge[1]] } else { [edge[1], edge[0]] });
+                for used in self.edges(*bound) {
+                    *uses.entry(used).or_default() += 1;
                 }
-                let next = ends.iter().cycle().skip(1);
-                if ends.iter().zip(next).any(|(own, next)| own[1] != next[0]) {
+                if self.has_gap(*bound) {
                     faults.push(format!("face {face}: a loop with a gap"));
                 }
             }
@@ -114,18 +125,21 @@ impl StepText {
         FileSpline { knots: knots(&times, &places), controls }
     }
 
+    /// The curve along the profile of a surface at a parameter along the tooth.
+    fn along_profile(&self, surface: usize, param: f64) -> FileSpline {
+        let [times_u, times_v, places_u, places_v]: [Vec<f64>; 4] =
+            self.lists(surface).try_into().expect("four lists of numbers");
+        let (u, v) = (knots(&times_u, &places_u), knots(&times_v, &places_v));
+        let rows = v.len() - 4;
+        let controls: Vec<DVec3> = self.references(surface).into_iter().map(|point| self.point(point)).collect();
+        let controls = controls.chunks(rows).map(|column| place(&v, column, param)).collect();
+        FileSpline { knots: u, controls }
+    }
+
     /// Walls of the profile in the section at `z_mm`.
     fn section(&self, z_mm: f64) -> Vec<FileSpline> {
         let swept = self.all("SURFACE_OF_LINEAR_EXTRUSION").map(|id| self.spline(self.references(id)[0]));
-        let curved = self.all("B_SPLINE_SURFACE_WITH_KNOTS").map(|id| {
-            let [times_u, times_v, places_u, places_v]: [Vec<f64>; 4] =
-                self.lists(id).try_into().expect("four lists of numbers");
-            let (u, v) = (knots(&times_u, &places_u), knots(&times_v, &places_v));
-            let rows = v.len() - 4;
-            let controls: Vec<DVec3> = self.references(id).into_iter().map(|point| self.point(point)).collect();
-            let controls = controls.chunks(rows).map(|column| place(&v, column, z_mm)).collect();
-            FileSpline { knots: u, controls }
-        });
+        let curved = self.all("B_SPLINE_SURFACE_WITH_KNOTS").map(|id| self.along_profile(id, z_mm));
         swept.chain(curved).collect()
     }
 }
@@ -195,7 +209,11 @@ fn step_file(scene: &str, arguments: &[&str]) -> (String, String) {
 
 /// The number before `um at most`.
 fn said_um(out: &str) -> f64 {
-    let line = out.lines().find(|line| line.contains("off the profile")).expect("a distance");
+    out_um(out, "off the profile")
+}
+
+fn out_um(out: &str, words: &str) -> f64 {
+    let line = out.lines().find(|line| line.contains(words)).expect("a distance");
     line.split_whitespace().nth_back(3).expect("a number").parse().expect("a number")
 }
 
@@ -281,5 +299,58 @@ fn a_solid_as_cut_has_marks_and_what_is_none_is_refused() {
     refused(&[scene, "--step", "a.step", "--units", "inch"], &["--units", "STEP files are in mm"]);
     let helical = "scenes/hobbing/circular_helical.toml";
     refused(&[helical, "--step", "a.step", "--as-cut"], &["--as-cut", "helical", "way out"]);
-    refused(&["scenes/bevel/crown_gear.toml", "--step", "a.step"], &["bevel", "way out"]);
+    let bevel = "scenes/bevel/crown_gear.toml";
+    refused(&[bevel, "--dxf", "a.dxf"], &["bevel", "--step", "way out"]);
+    let fine = ["--as-cut", "--tolerance-um", "0.01"];
+    refused(&[&[bevel, "--step", "a.step"], &fine[..]].concat(), &["--tolerance-um", "smooth faces are", "way out"]);
+}
+
+/// Every flank of a bevel gear is a face whose material lies behind it, of the named tooth and side; its parameters are
+/// those of tables, so that the points for measuring machines are places of it. A flank that is 3 um off is seen.
+#[test]
+fn flanks_of_bevel_gears_are_faces_through_their_points() {
+    for (scene, teeth, more) in [
+        ("scenes/bevel/formate.toml", 41, &[][..]),
+        ("scenes/bevel/hypoid.toml", 62, &[]),
+        ("scenes/bevel/formate.toml", 41, &["--as-cut", "--tolerance-um", "5"]),
+    ] {
+        let (text, out) = step_file(scene, more);
+        let file = StepText::read(&text);
+        assert!(out.contains(&format!("{} faces, ", 2 * teeth)), "{out}");
+        assert_eq!(file.all("OPEN_SHELL").count(), 2 * teeth);
+        let model = file.all("SHELL_BASED_SURFACE_MODEL").next().expect("a model");
+        assert_eq!(file.references(model).len(), 2 * teeth);
+        let tolerance_mm = if more.is_empty() { TOLERANCE_MM } else { 5.0 * TOLERANCE_MM };
+        let said_mm = 1e-3 * out_um(&out, "off the flanks");
+        assert!(said_mm <= tolerance_mm, "{said_mm}");
+        let folder = tempfile::tempdir().expect("a folder for the test");
+        let table = folder.path().join("points.csv");
+        let points = ["--points", table.to_str().expect("UTF-8"), "--teeth", "3..4", "--grid", "7x6"];
+        let as_cut = &more[..more.len().min(1)];
+        gearcut(&[&["export", scene, "--quiet"], &points[..], as_cut].concat()).done();
+        let mut reader = csv::Reader::from_path(&table).expect("CSV");
+        let mut count = 0;
+        for row in reader.records().map(|row| row.expect("a row")) {
+            let number = |i: usize| row[i].parse::<f64>().expect("a number");
+            let shell = file.0.iter().find(|(_, (name, body))| {
+                name == "OPEN_SHELL" && body.starts_with(&format!("'tooth {}, {} flank'", &row[0], &row[1]))
+            });
+            let face = file.references(*shell.expect("its shell").0)[0];
+            let [bound, surface] = file.references(face).try_into().expect("one loop");
+            assert!(!file.has_gap(bound));
+            let at = |u_mm: f64, v_mm: f64| {
+                let profile = file.along_profile(surface, v_mm);
+                place(&profile.knots, &profile.controls, u_mm)
+            };
+            let [u_mm, v_mm] = [2, 3].map(number);
+            let [point, normal] = [4, 7].map(|i| DVec3::new(number(i), number(i + 1), number(i + 2)));
+            let off_mm = at(u_mm, v_mm).distance(point);
+            assert!(off_mm <= tolerance_mm, "{scene}: {off_mm} mm at {row:?}");
+            let out = (at(u_mm + 1e-3, v_mm) - at(u_mm, v_mm)).cross(at(u_mm, v_mm + 1e-3) - at(u_mm, v_mm));
+            assert_eq!(out.dot(normal) > 0.0, file.is_forward(face), "{row:?}");
+            assert!(at(u_mm, v_mm).distance(point + 3.0 * tolerance_mm * normal) > tolerance_mm);
+            count += 1;
+        }
+        assert_eq!(count, 2 * 2 * 7 * 6);
+    }
 }
