@@ -267,7 +267,7 @@ impl ToothFrame {
 /// Teeth of a cylindrical gear with the largest and with the smallest radius of the pitch curve, where its curvature
 /// and so the marks differ most.
 pub fn teeth_of_extreme_radius(curve: &PitchCurve, teeth: u32) -> Vec<u32> {
-    let pitch_mm = curve.perimeter_mm() / f64::from(teeth);
+    let pitch_mm = curve.perimeter_mm() / f64::from(curve.pitches());
     // Differences below a nanometre are rounding: a circular gear then takes its first tooth.
     let radius_nm = |tooth: u32| {
         let phi = curve.phi_at_arc((f64::from(tooth) - 0.5) * pitch_mm);

@@ -25,7 +25,7 @@ use gearcut_core::dexel::{Layer, NO_PASS, Ray};
 use gearcut_core::error::{Refusal, Result};
 use gearcut_core::frame::Rigid2;
 use gearcut_core::terms::Side;
-use gearcut_core::units::{TURN_RAD, UM_PER_MM};
+use gearcut_core::units::UM_PER_MM;
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 use std::sync::Arc;
@@ -210,16 +210,14 @@ impl PlanarView {
             gear_mm.extend(of.target_section(tooth, 0.0, spacing_mm)?.outline_mm());
         }
         let blank = of.blank();
-        let round = |height_mm: f64| {
-            let places = 24 * teeth;
-            let at = |i: u32| blank.at_height_mm(TURN_RAD * f64::from(i) / f64::from(places), height_mm);
-            (0..places).map(at).collect()
-        };
+        let places = 24 * blank.curve().pitches();
+        let [from, to] = blank.curve().toothed_rad();
+        let at = |i: u32| blank.at_height_mm(from + (to - from) * f64::from(i) / f64::from(places), 0.0);
         let place = |place: Rigid2| (place.rotation.to_angle(), place.translation_mm);
         Ok(Self {
             gear_mm,
-            pitch_mm: round(0.0),
-            stock_mm: round(blank.addendum_mm),
+            pitch_mm: (0..places).map(at).collect(),
+            stock_mm: blank.polygon_mm(places as usize),
             back_radius_mm: blank.back.radius_mm,
             tool_mm: of.tool_section(chord_mm).points_mm,
             strokes: of.tool_places().into_iter().map(place).collect(),

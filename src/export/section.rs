@@ -54,7 +54,7 @@ pub struct SectionWish {
     pub tolerance_mm: f64,
 }
 
-/// A closed curve of the section.
+/// A curve of the section.
 #[derive(Debug, Clone, PartialEq)]
 pub enum SectionCurve {
     /// A circle about the gear's axis: its radius, mm.
@@ -70,9 +70,9 @@ pub struct GearSection {
     pub profile: ArcPath,
     /// Lines that a polyline within the same tolerance has.
     pub polyline_count: usize,
-    /// The pitch curve.
+    /// The pitch curve, of a sector from its beginning to its end.
     pub pitch_curve: SectionCurve,
-    /// The stock's outline, on which the tips lie.
+    /// The stock's outline over the teeth, on which the tips lie.
     pub tips: SectionCurve,
     /// Bore or rim.
     pub back: Back,
@@ -85,19 +85,21 @@ impl GearSection {
         let fitted = |pieces| ArcPath::fit(chain_mm, wish.teeth.is_none(), tolerance_mm, pieces);
         let (blank, curve) = (gear.blank(), gear.curve());
         let points = (curve.perimeter_mm() / spacing_mm(gear, wish)).max(LEAST_POINTS).ceil();
-        let closed = |height_mm: f64| {
+        let [from, to] = curve.toothed_rad();
+        let is_closed = curve.sector_rad().is_none();
+        let along = |height_mm: f64| {
             if is_round(curve) {
                 return SectionCurve::Circle(blank.at_height_mm(0.0, height_mm).length());
             }
-            let at = |i: u32| blank.at_height_mm(TURN_RAD * f64::from(i) / points, height_mm);
-            let chain_mm: Vec<DVec2> = (0..points as u32).map(at).collect();
-            SectionCurve::Path(ArcPath::fit(&chain_mm, true, tolerance_mm, PathPieces::Arcs))
+            let at = |i: u32| blank.at_height_mm(from + (to - from) * f64::from(i) / points, height_mm);
+            let chain_mm: Vec<DVec2> = (0..points as u32 + u32::from(!is_closed)).map(at).collect();
+            SectionCurve::Path(ArcPath::fit(&chain_mm, is_closed, tolerance_mm, PathPieces::Arcs))
         };
         Self {
             profile: fitted(PathPieces::Arcs),
             polyline_count: fitted(PathPieces::Lines).count(),
-            pitch_curve: closed(0.0),
-            tips: closed(blank.addendum_mm),
+            pitch_curve: along(0.0),
+            tips: along(blank.addendum_mm),
             back: blank.back,
         }
     }

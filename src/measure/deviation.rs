@@ -143,13 +143,18 @@ impl PitchDeviations {
     }
 }
 
-/// Pitch deviations from the crossings of all flanks of one side in order of teeth, on a pitch curve of this length.
-/// `None` if one is missing.
-pub fn pitch(crossings: &[Option<Crossing>], perimeter_mm: f64) -> Option<PitchDeviations> {
+/// Pitch deviations from the crossings of all flanks of one side in order of teeth, on a pitch curve of this length
+/// with so many pitches. `None` if one is missing. Before tooth 1 of a sector there is no tooth: its single
+/// deviation is 0.
+pub fn pitch(crossings: &[Option<Crossing>], perimeter_mm: f64, pitches: u32) -> Option<PitchDeviations> {
     let arcs: Vec<f64> = crossings.iter().map(|c| c.map(|c| c.arc_mm)).collect::<Option<_>>()?;
     let first = *arcs.first()?;
-    let mean_mm = perimeter_mm / arcs.len() as f64;
-    let previous = |i: usize| if i == 0 { arcs[arcs.len() - 1] - perimeter_mm } else { arcs[i - 1] };
+    let mean_mm = perimeter_mm / f64::from(pitches);
+    let previous = |i: usize| match i {
+        0 if arcs.len() < pitches as usize => first - mean_mm,
+        0 => arcs[arcs.len() - 1] - perimeter_mm,
+        _ => arcs[i - 1],
+    };
     Some(PitchDeviations {
         single_mm: (0..arcs.len()).map(|i| arcs[i] - previous(i) - mean_mm).collect(),
         cumulative_mm: arcs.iter().enumerate().map(|(i, arc)| arc - first - mean_mm * i as f64).collect(),
@@ -159,7 +164,7 @@ pub fn pitch(crossings: &[Option<Crossing>], perimeter_mm: f64) -> Option<PitchD
 /// Radial places of a probe in the spaces of a gear, about their mean.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Runout {
-    /// Of the space after each tooth, mm, positive outwards.
+    /// Of the space after each tooth, mm, positive outwards; behind the last tooth of a sector there is none.
     pub radial_mm: Vec<f64>,
 }
 
@@ -194,8 +199,8 @@ pub fn runout(
     let first = right.first()?;
     let after_turn = Crossing { arc_mm: first.arc_mm + curve.perimeter_mm(), ..*first };
     // The space after a tooth lies between its left flank and the next tooth's right one.
-    let spaces: Vec<(Crossing, Crossing)> =
-        left.into_iter().zip(right[1..].iter().copied().chain([after_turn])).collect();
+    let last = curve.sector_rad().is_none().then_some(after_turn);
+    let spaces: Vec<(Crossing, Crossing)> = left.into_iter().zip(right[1..].iter().copied().chain(last)).collect();
     let width_mm = |(left, right): &(Crossing, Crossing)| right.arc_mm - left.arc_mm;
     let mean_mm = spaces.iter().map(width_mm).sum::<f64>() / spaces.len() as f64;
     let depth = |(left, right): &(Crossing, Crossing)| {
@@ -238,7 +243,7 @@ mod tests {
             |tooth: u32| f64::from(tooth) / f64::from(teeth) * perimeter_mm + if tooth == 2 { off_mm } else { 0.0 };
         let crossing = |tooth| Some(Crossing { point_mm: DVec2::ZERO, phi_rad: 0.0, arc_mm: at(tooth) });
         let mut crossings: Vec<_> = (0..teeth).map(crossing).collect();
-        let found = pitch(&crossings, perimeter_mm).expect("all teeth");
+        let found = pitch(&crossings, perimeter_mm, teeth).expect("all teeth");
         assert!(found.single_mm.iter().sum::<f64>().abs() < 1e-10);
         for (tooth, expected_mm) in [(0, 0.0), (2, off_mm), (3, -off_mm), (41, 0.0)] {
             assert!((found.single_mm[tooth] - expected_mm).abs() < 1e-10, "tooth {tooth}: {:?}", found.single_mm);
@@ -246,7 +251,7 @@ mod tests {
         assert!((found.total_mm() - off_mm).abs() < 1e-10);
         assert!(found.total_mm() >= found.largest_single_mm() - 1e-10);
         crossings[7] = None;
-        assert_eq!(pitch(&crossings, perimeter_mm), None);
+        assert_eq!(pitch(&crossings, perimeter_mm, teeth), None);
     }
 
     /// Four teeth on 40 mm, by hand: mean pitch 10 mm, single -1, 3, -5, 3 um, cumulative 0, 3, -2, 1 um, F_p 5 um. Any
@@ -254,14 +259,14 @@ mod tests {
     #[test]
     fn pitch_deviations_are_those_made_by_hand() {
         let at = |arc_mm| Some(Crossing { point_mm: DVec2::ZERO, phi_rad: 0.0, arc_mm });
-        let found = pitch(&[0.0, 10.003, 19.998, 30.001].map(at), 40.0).expect("all teeth");
+        let found = pitch(&[0.0, 10.003, 19.998, 30.001].map(at), 40.0, 4).expect("all teeth");
         let um = |values: &[f64]| values.iter().map(|mm| (mm * 1e6).round() / 1e3).collect::<Vec<_>>();
         assert_eq!(um(&found.single_mm), [-1.0, 3.0, -5.0, 3.0]);
         assert_eq!(um(&found.cumulative_mm), [0.0, 3.0, -2.0, 1.0]);
         assert_eq!(um(&[found.largest_single_mm(), found.total_mm()]), [5.0, 5.0]);
         // Whatever the places: the order of two teeth exchanged, one far off.
         for arcs in [[0.0, 9.0, 21.0, 30.0], [0.0, 10.0, 20.0, 39.0], [3.0, 12.5, 20.0, 31.0]] {
-            let found = pitch(&arcs.map(at), 40.0).expect("all teeth");
+            let found = pitch(&arcs.map(at), 40.0, 4).expect("all teeth");
             assert!(found.total_mm() >= found.largest_single_mm() - 1e-12, "{found:?}");
         }
     }

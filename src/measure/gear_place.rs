@@ -47,7 +47,8 @@ impl GearPlace {
         let (height_mm, phi_rad) = blank.height(point_mm, point_mm.to_angle());
         let teeth = gear.teeth;
         let curve = blank.curve();
-        let pitches = (curve.arc_mm(phi_rad) - turned_mm) / curve.perimeter_mm() * f64::from(teeth);
+        let per_turn = f64::from(curve.pitches());
+        let pitches = (curve.arc_mm(phi_rad) - turned_mm) / curve.perimeter_mm() * per_turn;
         let tooth = pitches.floor();
         let zone = match height_mm {
             h if h < -gear.module_mm => Zone::Root,
@@ -55,7 +56,8 @@ impl GearPlace {
             _ => Zone::Tip,
         };
         Self {
-            tooth: (tooth as i64).rem_euclid(i64::from(teeth)) as u32 + 1,
+            // On the dwell of a sector the last tooth.
+            tooth: (tooth.rem_euclid(per_turn) as u32).min(teeth - 1) + 1,
             side: if pitches - tooth < 0.5 { Side::Right } else { Side::Left },
             zone,
             height_mm,

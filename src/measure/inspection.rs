@@ -123,7 +123,8 @@ impl GearInspection {
     /// transverse section.
     pub fn of_crossings(blank: &Blank, [left, right]: [&[Option<Crossing>]; 2], pressure_angle_rad: f64) -> Self {
         Self {
-            pitch: [left, right].map(|side| deviation::pitch(side, blank.curve().perimeter_mm())),
+            pitch: [left, right]
+                .map(|side| deviation::pitch(side, blank.curve().perimeter_mm(), blank.curve().pitches())),
             runout: deviation::runout(blank, left, right, pressure_angle_rad),
             thickness: left
                 .iter()

@@ -60,10 +60,10 @@ pub struct RoundGear {
     pub thickness_mm: f64,
 }
 
-/// Whether a pitch curve is a circle about the gear's axis.
+/// Whether a pitch curve is a whole circle about the gear's axis.
 pub fn is_round(curve: &PitchCurve) -> bool {
     let facts = curve.facts();
-    facts.largest_radius_mm - facts.smallest_radius_mm <= 1e-9 * facts.largest_radius_mm
+    curve.sector_rad().is_none() && facts.largest_radius_mm - facts.smallest_radius_mm <= 1e-9 * facts.largest_radius_mm
 }
 
 /// Diameters of a tooth's ends, mm.

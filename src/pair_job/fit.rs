@@ -29,7 +29,7 @@ use crate::pair::rolling::turns_of_period;
 use crate::scene::Scene;
 use crate::scene::model::Gear;
 use gearcut_core::error::Refusal;
-use gearcut_core::gear::{GearKind, PitchCurve};
+use gearcut_core::gear::{GearKind, PitchCurve, PitchCurveShape};
 use gearcut_core::terms::Side;
 
 /// Driver and driven gear.
@@ -100,6 +100,11 @@ impl Fit {
                 let problem = format!("gear {name} has drawn teeth, and pairs are followed by the law of involutes");
                 return Err(Refusal::new(key, problem, "roll gears whose tools have involute teeth"));
             }
+        }
+        let is_sector = |(_, gear): &(&str, &Gear)| matches!(gear.pitch_curve, PitchCurveShape::Sector { .. });
+        if let Some((name, _)) = [("a", a), ("b", b)].into_iter().find(is_sector) {
+            let problem = format!("gear {name} is a sector, and pairs are followed over whole turns");
+            return Err(Refusal::new("gear.sector_deg", problem, "roll gears with teeth all round"));
         }
         teeth_alike(a, b)?;
         let named_mm = match center_distance_mm {

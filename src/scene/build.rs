@@ -17,6 +17,12 @@ use gearcut_core::math::formula::Formula;
 use gearcut_core::terms::{Hand, Side};
 use gearcut_texture::Form;
 
+/// Polar angles between which a gear has teeth, where that is a part of the turn alone; processes that cut such gears
+/// know the key.
+pub(crate) fn sector_deg(values: &Values) -> Option<[f64; 2]> {
+    values.view("gear").numbers("sector_deg")?.try_into().ok()
+}
+
 /// The scene called `name`; `base_dir` holds the files it refers to.
 pub(super) fn build(name: &str, process: &SceneProcess, base_dir: &Path, values: &Values) -> Option<Scene> {
     let pictures: Option<Vec<Picture>> = (0..values.count("picture"))
@@ -139,8 +145,17 @@ fn gear(values: &Values) -> Option<Gear> {
         rim_mm: gear.number("rim_mm").unwrap_or(0.0),
         tooth_thickness_allowance_mm: gear.number("tooth_thickness_allowance_mm")?,
         center_distance_mm: gear.number("center_distance_mm"),
-        pitch_curve: pitch_curve(values, "gear.pitch_curve", kind)?,
+        dwell_radius_mm: gear.number("dwell_radius_mm"),
+        pitch_curve: over_sector(values, pitch_curve(values, "gear.pitch_curve", kind)?),
     })
+}
+
+/// The curve over the sector that a scene has teeth on, if it has not all round.
+fn over_sector(values: &Values, law: PitchCurveShape) -> PitchCurveShape {
+    match sector_deg(values) {
+        Some(range_deg) => PitchCurveShape::Sector { law: Box::new(law), range_rad: range_deg.map(f64::to_radians) },
+        None => law,
+    }
 }
 
 /// The curve that a table chooses: `[gear.pitch_curve]`, or that of a mate's driver.

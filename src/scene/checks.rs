@@ -5,6 +5,7 @@
 
 use std::collections::BTreeMap;
 
+use super::build::sector_deg;
 use super::keys::join;
 use super::problems::Found;
 
@@ -27,7 +28,8 @@ pub(super) fn cross_check(found: &mut Found<'_, '_, '_>) {
 
 fn gear_bore(found: &mut Found) -> Option<()> {
     let gear = found.view("gear");
-    if gear.text("kind")? == "internal" {
+    // What a sector's bore may be follows from its dwell.
+    if gear.text("kind")? == "internal" || sector_deg(found.values).is_some() {
         return None;
     }
     let (module_mm, teeth) = (gear.number("module_mm")?, f64::from(gear.whole("teeth")?));
@@ -99,7 +101,8 @@ fn of_round_gears(found: &mut Found) -> Option<()> {
     let curve = found.view("gear").variant("pitch_curve")?;
     // The mate of a circle is one.
     let driver = found.view("gear.pitch_curve.mate").variant("driver").filter(|_| curve == "mate");
-    let is_round = driver.unwrap_or(curve) == "circle";
+    let is_sector = sector_deg(found.values).is_some();
+    let is_round = driver.unwrap_or(curve) == "circle" && !is_sector;
     for (key, what, way_out) in [
         (
             "iso_1328_class",
@@ -109,6 +112,7 @@ fn of_round_gears(found: &mut Found) -> Option<()> {
         ),
         ("ball_diameter_mm", "dimensions over balls", "remove it; tables/teeth.csv has the thickness of every tooth"),
     ] {
+        let curve = if is_sector { "a sector" } else { curve };
         let message = || format!("`measure.{key}`: {what} are for round gears, and the pitch curve is {curve}");
         let wrong = !is_round && found.values.is_written("measure", key);
         found.blame(wrong, &join("measure", key), message, way_out);

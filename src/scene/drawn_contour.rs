@@ -65,9 +65,9 @@ struct DxfEntity<'a, 'g> {
 
 type Refused = Box<Problem>;
 
-/// The closed contour of a drawing, that of a pitch curve; `name` is the file's, for messages.
-pub(super) fn contour(name: &str, text: &str) -> Result<DrawnContour, Refused> {
-    DxfText { name, text, layer: PITCH_CURVE }.contour(true)
+/// The contour of a drawing that is a pitch curve, closed or of a sector; `name` is the file's, for messages.
+pub(super) fn contour(name: &str, text: &str, is_closed: bool) -> Result<DrawnContour, Refused> {
+    DxfText { name, text, layer: PITCH_CURVE }.contour(is_closed)
 }
 
 /// The open contour of a drawing, on a layer of this name if the drawing has it; `name` is the file's, for messages.
@@ -237,7 +237,11 @@ impl<'a> DxfText<'a> {
             return self.refuse_all("the drawing has more than one contour", &alone);
         }
         if whole.is_closed && !is_closed {
-            let way_out = "draw one tooth from root to root and leave the body out";
+            let way_out = if self.layer == PITCH_CURVE {
+                "draw the curve from end to end of the sector, or remove gear.sector_deg"
+            } else {
+                "draw one tooth from root to root and leave the body out"
+            };
             return self.refuse_all("the contour is closed, and one with two ends is needed", way_out);
         }
         let mut points_mm = whole.points;
@@ -252,7 +256,11 @@ impl<'a> DxfText<'a> {
     fn gap<T>(&self, end: DVec2, gap_mm: f64) -> Result<T, Refused> {
         self.refuse_all(
             format!("the contour is open at x {:.4}, y {:.4} mm: a gap of {gap_mm:.4} mm", end.x, end.y),
-            "join its ends in CAD; ends within 0.0001 mm are one point",
+            if self.layer == PITCH_CURVE {
+                "join its ends in CAD, ends within 0.0001 mm are one point; an open curve needs gear.sector_deg"
+            } else {
+                "join its ends in CAD; ends within 0.0001 mm are one point"
+            },
         )
     }
 }

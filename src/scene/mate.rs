@@ -68,6 +68,13 @@ impl LoadedScene {
                 "give the scene of the external gear, and make the mate with --internal",
             ));
         }
+        if matches!(gear.pitch_curve, PitchCurveShape::Sector { .. }) {
+            return Err(Refusal::new(
+                "gear.sector_deg",
+                "a mate's law follows from its driver's whole turn, and this gear has teeth on a part of it alone",
+                "write the mate's scene with a sector_deg and its own law: r2 = a - r1 after equal arcs",
+            ));
+        }
         if matches!(gear.pitch_curve, PitchCurveShape::Mate { .. }) {
             return Err(Refusal::new(
                 "gear.pitch_curve.mate",

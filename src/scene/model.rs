@@ -59,14 +59,27 @@ impl Gear {
         2.0 * shift_mm * self.transverse_pressure_angle_rad().tan() + self.tooth_thickness_allowance_mm
     }
 
+    /// Radius of the stock where a sector has no teeth, mm; `None` of a gear with teeth all round.
+    pub fn dwell_radius_mm(&self, curve: &PitchCurve) -> Option<f64> {
+        let lowest_mm = curve.facts().smallest_radius_mm - DWELL_DEPTH_MODULES * self.module_mm;
+        curve.sector_rad().map(|_| self.dwell_radius_mm.unwrap_or(lowest_mm))
+    }
+
     /// The stock round its pitch curve.
     ///
     /// # Errors
-    /// A pitch curve that is curved more sharply than the addendum allows.
+    /// A pitch curve that is curved more sharply than the addendum allows; a dwell that does not fit a sector.
     pub fn blank(&self, curve: Arc<PitchCurve>) -> Result<Blank, Refusal> {
         let addendum_mm = self.addendum_mm();
         match self.kind {
-            GearKind::External => Ok(Blank::new(curve, addendum_mm)?.with_bore(0.5 * self.bore_diameter_mm)),
+            GearKind::External => {
+                let dwell_radius_mm = self.dwell_radius_mm(&curve);
+                let blank = Blank::new(curve, addendum_mm)?.with_bore(0.5 * self.bore_diameter_mm);
+                match dwell_radius_mm {
+                    Some(radius_mm) => blank.with_dwell(radius_mm),
+                    None => Ok(blank),
+                }
+            }
             GearKind::Internal => Blank::ring(curve, addendum_mm, self.rim_mm),
         }
     }
@@ -79,6 +92,10 @@ impl Scene {
     }
 }
 
+/// Depth of a sector's dwell below the smallest radius of its pitch curve, in modules, unless the scene gives its
+/// radius: the depth of teeth, 1.25, and as much again for a cutter that rolls out over falling radii.
+pub const DWELL_DEPTH_MODULES: f64 = 2.5;
+
 /// The gear: pitch curve, teeth and blank.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Gear {
@@ -86,7 +103,7 @@ pub struct Gear {
     pub kind: GearKind,
     /// Module m in mm; on a helical gear the normal module, the tool's own.
     pub module_mm: f64,
-    /// Number of teeth z on the closed pitch curve.
+    /// Number of teeth z on the pitch curve: all round, or of the sector.
     pub teeth: u32,
     /// Pressure angle alpha of gear and cutter on the pitch curve; on a helical gear in the normal section.
     pub pressure_angle_rad: f64,
@@ -108,6 +125,8 @@ pub struct Gear {
     pub tooth_thickness_allowance_mm: f64,
     /// Distance of the axes at which a pair with it is rolled; `None`: that of the profile shifts.
     pub center_distance_mm: Option<f64>,
+    /// Radius of the stock where a sector has no teeth; `None`: [`DWELL_DEPTH_MODULES`] below its pitch curve.
+    pub dwell_radius_mm: Option<f64>,
     /// Shape of the pitch curve.
     pub pitch_curve: PitchCurveShape,
 }

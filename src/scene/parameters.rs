@@ -7,7 +7,7 @@ use gearcut_core::parameter as of;
 /// Section of pitch curves.
 const CURVE: &str = "gear.pitch_curve.";
 
-const KEYS: [(&str, &str); 38] = [
+const KEYS: [(&str, &str); 40] = [
     (of::MODULE, "gear.module_mm"),
     (of::ADDENDUM, "gear.addendum_coefficient"),
     (of::FACE_WIDTH, "gear.face_width_mm"),
@@ -36,6 +36,8 @@ const KEYS: [(&str, &str); 38] = [
     (of::MATE, "gear.pitch_curve.mate"),
     (of::MATE_DRIVER, "gear.pitch_curve.mate.driver"),
     (of::MATE_DRIVER_TEETH, "gear.pitch_curve.mate.driver_teeth"),
+    (of::SECTOR, "gear.sector_deg"),
+    (of::DWELL_RADIUS, "gear.dwell_radius_mm"),
     (of::PITCH_ANGLE, "gear.bevel.pitch_angle_deg"),
     (of::ROOT_ANGLE, "gear.bevel.root_angle_deg"),
     (of::FACE_ANGLE, "gear.bevel.face_angle_deg"),

@@ -1,4 +1,4 @@
-//! Points of a pitch curve from a file: a table (CSV), or the closed curve of a drawing (DXF).
+//! Points of a pitch curve from a file: a table (CSV), or the curve of a drawing (DXF), closed or of a sector.
 //!
 //! Tables are read by hand: the two numbers of a line need no quoting rules, and every problem keeps its line and
 //! column. The curve of a drawing runs round the origin, the axis of the gear. Vertices of a polyline of lines are
@@ -6,6 +6,7 @@
 
 use std::path::Path;
 
+use super::build::sector_deg;
 use super::drawn_contour;
 use super::errors::Problem;
 use super::keys::{self, Kind};
@@ -50,7 +51,8 @@ pub(super) fn read_points(values: &mut Values, table: &KeyTable, base_dir: &Path
         } else {
             read_text(&path)
         };
-        let read = if is_drawing { drawn } else { parse };
+        // A driver has teeth all round.
+        let is_closed = section != SECTIONS[0] || sector_deg(values).is_none();
         match text {
             Err(why) => problems.add(
                 &at,
@@ -59,7 +61,11 @@ pub(super) fn read_points(values: &mut Values, table: &KeyTable, base_dir: &Path
                  drawing (.dxf)"
                     .to_owned(),
             ),
-            Ok(text) => match read(&shown(base_dir, &name), &text, key.kind) {
+            Ok(text) => match if is_drawing {
+                drawn(&shown(base_dir, &name), &text, key.kind, is_closed)
+            } else {
+                parse(&shown(base_dir, &name), &text, key.kind)
+            } {
                 Ok(points) => {
                     let held = Held { value: Checked::Points(points), at: Some(at) };
                     values.held.insert(keys::join(section, "points_deg_mm"), held);
@@ -137,10 +143,10 @@ fn parse(name: &str, text: &str, kind: Kind) -> Result<Vec<[f64; 2]>, Box<Proble
     Ok(points)
 }
 
-/// The points of the closed curve that `text`, a drawing, has round its origin.
-fn drawn(name: &str, text: &str, kind: Kind) -> Result<Vec<[f64; 2]>, Box<Problem>> {
+/// The points of the curve that `text`, a drawing, has round its origin: closed, or open over a sector.
+fn drawn(name: &str, text: &str, kind: Kind, is_closed: bool) -> Result<Vec<[f64; 2]>, Box<Problem>> {
     let Kind::Points { radius, fewest, most, .. } = kind else { return Ok(Vec::new()) };
-    let contour = drawn_contour::contour(name, text)?;
+    let contour = drawn_contour::contour(name, text, is_closed)?;
     let refuse = |message: String, way_out: &str| {
         let place = line_place(name, text, 0..0).without_excerpt();
         Err(Box::new(Problem { place, message, way_out: way_out.to_owned() }))
@@ -161,7 +167,10 @@ fn drawn(name: &str, text: &str, kind: Kind) -> Result<Vec<[f64; 2]>, Box<Proble
         (next(i + 1) - next(i)).angle_to(next(i + 2) - next(i + 1))
     };
     let largest_deg = LARGEST_TURN_DEG[usize::from(contour.is_curved)];
-    if let Some(corner) = (0..points.len()).find(|&i| turns(&points, i).abs().to_degrees() > largest_deg) {
+    // Steps from point to point, and turns between two of them.
+    let steps = points.len() - usize::from(!is_closed);
+    let corners = if is_closed { steps } else { steps.saturating_sub(1) };
+    if let Some(corner) = (0..corners).find(|&i| turns(&points, i).abs().to_degrees() > largest_deg) {
         let (at, turn_deg) = (points[(corner + 1) % points.len()], turns(&points, corner).abs().to_degrees());
         return refuse(
             format!("the drawn curve has a corner of {turn_deg:.1} deg at x {:.4}, y {:.4} mm", at.x, at.y),
@@ -169,19 +178,22 @@ fn drawn(name: &str, text: &str, kind: Kind) -> Result<Vec<[f64; 2]>, Box<Proble
         );
     }
     // Counter-clockwise from the smallest polar angle on.
-    if (0..points.len()).map(|i| points[i].perp_dot(points[(i + 1) % points.len()])).sum::<f64>() < 0.0 {
+    if (0..steps).map(|i| points[i].perp_dot(points[(i + 1) % points.len()])).sum::<f64>() < 0.0 {
         points.reverse();
     }
     let step_deg = |i: usize| points[i].angle_to(points[(i + 1) % points.len()]).to_degrees();
     let round_once = "the origin of the drawing is the axis of the gear: the curve runs round it, and every ray from \
         it meets the curve once";
-    if let Some(at) = (0..points.len()).find(|&i| step_deg(i) <= 0.0).map(|i| points[i]) {
+    if let Some(at) = (0..steps).find(|&i| step_deg(i) <= 0.0).map(|i| points[i]) {
         let message = format!("the polar angle does not grow along the drawn curve at x {:.4}, y {:.4} mm", at.x, at.y);
         return refuse(message, round_once);
     }
-    let rounds = (0..points.len()).map(step_deg).sum::<f64>() / 360.0;
-    if rounds > 1.5 {
+    let rounds = (0..steps).map(step_deg).sum::<f64>() / 360.0;
+    if rounds > 1.5 || (!is_closed && rounds >= 1.0) {
         return refuse(format!("the drawn curve runs {rounds:.0} times round the origin"), round_once);
+    }
+    if !is_closed {
+        return Ok(open_polar(&points, contour.is_curved));
     }
     let polar = |at: &DVec2| [at.y.atan2(at.x).to_degrees().rem_euclid(360.0) % 360.0, at.length()];
     let mut polar: Vec<[f64; 2]> = points.iter().map(polar).collect();
@@ -196,4 +208,24 @@ fn drawn(name: &str, text: &str, kind: Kind) -> Result<Vec<[f64; 2]>, Box<Proble
         });
     }
     Ok(polar)
+}
+
+/// Polar angles, growing from the first point's on, and radii of the points of an open curve, counter-clockwise.
+fn open_polar(points: &[DVec2], is_curved: bool) -> Vec<[f64; 2]> {
+    let mut deg = points[0].to_angle().to_degrees();
+    let mut polar = vec![[deg, points[0].length()]];
+    for pair in points.windows(2) {
+        deg += pair[0].angle_to(pair[1]).to_degrees();
+        polar.push([deg, pair[1].length()]);
+    }
+    if is_curved {
+        let (mut last_deg, end_deg) = (f64::NEG_INFINITY, deg);
+        polar.retain(|[deg, _]| {
+            let is_end = *deg == end_deg;
+            let is_kept = is_end || (*deg >= last_deg + POINT_DEG && *deg <= end_deg - 0.5 * POINT_DEG);
+            last_deg = if is_kept { *deg } else { last_deg };
+            is_kept
+        });
+    }
+    polar
 }

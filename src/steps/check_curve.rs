@@ -20,12 +20,20 @@ pub fn print(sheet: &mut Sheet, curve: &PitchCurve, gear: &Gear, rolling_radius_
     sheet.heading("Pitch curve");
     sheet.line("shape", gear.pitch_curve.words());
     let (name, given) = size_words(&gear.pitch_curve);
-    let origin = if given { "given" } else { "solved so that the curve closes" };
+    let solved = if curve.sector_rad().is_none() { "the curve closes" } else { "the teeth fill the sector" };
+    let origin = if given { "given".to_owned() } else { format!("solved so that {solved}") };
     sheet.details(|sheet| sheet.line(name, format!("{:.6} mm, {origin}", curve.size_mm())));
     if let Some(factor) = curve.scaling() {
         sheet.line("scaling", format!("radii of the points times {factor:.6}"));
     }
     sheet.line("radius", format!("{:.3} to {:.3} mm", facts.smallest_radius_mm, facts.largest_radius_mm));
+    if let Some([from, to]) = curve.sector_rad() {
+        let [arc_mm, width_deg] = [curve.arc_mm(to), (to - from).to_degrees()];
+        sheet.line("sector", format!("{} teeth on {arc_mm:.6} mm of arc, {width_deg:.3} deg", gear.teeth));
+        if let Some(radius_mm) = gear.dwell_radius_mm(curve) {
+            sheet.line("dwell", format!("{radius_mm:.3} mm in radius, without teeth"));
+        }
+    }
     let wanted_mm = std::f64::consts::PI * gear.transverse_module_mm() * f64::from(gear.teeth);
     let error_um = UM_PER_MM * curve.closure_error_mm();
     let closes = if error_um.abs() < 1e-5 {
@@ -34,7 +42,10 @@ pub fn print(sheet: &mut Sheet, curve: &PitchCurve, gear: &Gear, rolling_radius_
         let word = if error_um > 0.0 { "too long" } else { "too short" };
         format!("{} um {word}", significant(error_um.abs(), 3))
     };
-    sheet.line("perimeter", format!("{:.6} mm for pi m z = {wanted_mm:.6} mm: {closes}", curve.perimeter_mm()));
+    if curve.sector_rad().is_none() {
+        let length = format!("{:.6} mm for pi m z = {wanted_mm:.6} mm: {closes}", curve.perimeter_mm());
+        sheet.line("perimeter", length);
+    }
     if facts.curvature_extrema.is_empty() {
         sheet.line("radius of curvature", format!("{:.3} mm everywhere; convex", facts.smallest_curvature_radius_mm));
         return;
@@ -87,7 +98,7 @@ pub fn warnings(curve: &PitchCurve, gear: &Gear) -> Vec<Notice> {
         let word = if error_mm > 0.0 { "too long" } else { "too short" };
         CurveClosure { error_um: significant(UM_PER_MM * error_mm.abs(), 3), word, teeth }.notice()
     };
-    let asked = matches!(gear.pitch_curve, PitchCurveShape::Table { scaling: TableScaling::Any, .. });
+    let asked = matches!(gear.pitch_curve.law(), PitchCurveShape::Table { scaling: TableScaling::Any, .. });
     let scaled = curve.scaling().filter(|factor| !asked && (factor - 1.0).abs() > NOTABLE_SCALING);
     let scaled = scaled.map(|factor| CurveScaled { factor: format!("{factor:.6}"), teeth }.notice());
     notable.then(closure).into_iter().chain(scaled).collect()
@@ -95,7 +106,7 @@ pub fn warnings(curve: &PitchCurve, gear: &Gear) -> Vec<Notice> {
 
 /// What the size of a shape is called, and whether the scene gives it.
 fn size_words(shape: &PitchCurveShape) -> (&'static str, bool) {
-    match shape {
+    match shape.law() {
         PitchCurveShape::Circle => ("pitch radius", false),
         PitchCurveShape::Ellipse { semi_major_axis_mm, .. } => ("semi-major axis", semi_major_axis_mm.is_some()),
         PitchCurveShape::SinusoidalRatio { center_distance_mm, .. } => {
@@ -109,7 +120,7 @@ fn size_words(shape: &PitchCurveShape) -> (&'static str, bool) {
         }
         PitchCurveShape::Formula { size_mm, .. } => ("centre distance of the pair", size_mm.is_some()),
         PitchCurveShape::Table { scaling, .. } => ("mean radius", *scaling == TableScaling::AsGiven),
-        PitchCurveShape::Mate { .. } => ("centre distance of the pair", false),
+        PitchCurveShape::Mate { .. } | PitchCurveShape::Sector { .. } => ("centre distance of the pair", false),
     }
 }
 

@@ -199,7 +199,7 @@ fn limits_of_mean_gear(sheet: &mut Sheet, job: &dyn CylindricalGear) {
     let gear = &job.scene().gear;
     let sizes = ToleranceSizes {
         teeth: gear.teeth,
-        reference_diameter_mm: gear.transverse_module_mm() * f64::from(gear.teeth),
+        reference_diameter_mm: gear.transverse_module_mm() * f64::from(job.curve().pitches()),
         normal_module_mm: gear.module_mm,
         face_width_mm: gear.face_width_mm,
         helix_angle_rad: gear.helix_angle_rad,

@@ -110,7 +110,21 @@ impl Outline {
             let down: Vec<usize> = (0..tooth.left.columns()).rev().collect();
             outline.append(&tooth.left, &down, blank, &mut gap);
             outline.begin(format!("root_{number:02}"));
-            outline.append(&tooth.root, &all(&tooth.root), blank, &mut gap);
+            let root = all(&tooth.root);
+            match blank.dwell() {
+                Some(dwell) if number as usize == surfaces.teeth.len() => {
+                    let (last, first) = root.split_at(behind_widest_step(&tooth.root));
+                    outline.append(&tooth.root, last, blank, &mut gap);
+                    let end_mm = |column: usize| tooth.root.points_mm[column * tooth.root.rows()].truncate();
+                    let ends_mm = [last[last.len() - 1], first[0]].map(end_mm);
+                    for [point_mm, _] in dwell.path_mm(ends_mm, OUTLINE_STEP * dwell.radius_mm) {
+                        let column = outline.bare(point_mm);
+                        outline.push(column);
+                    }
+                    outline.append(&tooth.root, first, blank, &mut gap);
+                }
+                _ => outline.append(&tooth.root, &root, blank, &mut gap),
+            }
         }
         outline.close(blank, &gap);
         outline
@@ -240,6 +254,17 @@ impl Outline {
             self.columns.pop();
         }
     }
+}
+
+/// The column behind the widest step of a root: behind the last tooth of a sector, where the dwell is left out. Both
+/// halves have columns.
+fn behind_widest_step(root: &SurfaceGrid) -> usize {
+    let at_mm = |column: usize| root.points_mm[column * root.rows()];
+    let steps = (1..root.columns()).max_by(|&a, &b| {
+        let step_mm = |column: usize| at_mm(column).distance(at_mm(column - 1));
+        step_mm(a).total_cmp(&step_mm(b))
+    });
+    steps.unwrap_or(0)
 }
 
 /// Polar angle of the foot of a point on the blank's outline, rad.

@@ -45,6 +45,8 @@ parameters! {
     MATE = "mate",
     MATE_DRIVER = "mate's driver",
     MATE_DRIVER_TEETH = "teeth of the mate's driver",
+    SECTOR = "sector",
+    DWELL_RADIUS = "radius of the dwell arc",
     PITCH_ANGLE = "pitch angle",
     ROOT_ANGLE = "root angle",
     FACE_ANGLE = "face angle",

@@ -26,7 +26,7 @@ use crate::process::shaping::quantities::axes::{LARGEST_BETA, RELIEF, SMALLEST_C
 use crate::process::shaping::{PreparedOperation, ShapingJob};
 use crate::steps::axes::{AxesOfOperation, Named, NamedChart, PeakWords};
 use gearcut_core::Result;
-use gearcut_core::units::{TURN_RAD, UM_PER_MM};
+use gearcut_core::units::UM_PER_MM;
 use std::sync::OnceLock;
 use strokes::StrokeRow;
 
@@ -124,7 +124,8 @@ impl<'a> OperationAxes<'a> {
             let back = linkage.gear().tip_sign() * motion.pose.center_mm;
             out.perp_dot(back).atan2(out.dot(back)).abs()
         };
-        let places = (0..BETA_PLACES).map(|i| TURN_RAD * f64::from(i) / f64::from(BETA_PLACES));
+        let [from, to] = linkage.curve().toothed_rad();
+        let places = (0..BETA_PLACES).map(|i| from + (to - from) * f64::from(i) / f64::from(BETA_PLACES));
         *self.largest_beta_rad.get_or_init(|| {
             let betas = places.map(|phi| [beta(phi), phi]);
             betas.fold([0.0; 2], |best, here| if here[0] > best[0] { here } else { best })

@@ -122,9 +122,11 @@ fn cut_roots(job: &ShapingJob, backend: &dyn Backend, surfaces: bool) -> Result<
 
 /// All strokes in order of time, space by space; the ledger has no chips unless they are `wanted`.
 fn follow_chips(job: &ShapingJob, wanted: bool, progress: &Progress, interrupt: &Interrupt) -> Result<ChipLedger> {
-    let teeth = if wanted { job.scene.gear.teeth } else { 0 };
-    let step = progress.step("chips", u64::from(teeth), "tooth spaces");
-    let chips = ChipLedger::of_spaces(job, 1..=teeth, &|| {
+    let (first, last) = job.spaces().into_inner();
+    // An empty range where nothing is followed.
+    let spaces = first.max(u32::from(!wanted))..=if wanted { last } else { 0 };
+    let step = progress.step("chips", spaces.clone().count() as u64, "tooth spaces");
+    let chips = ChipLedger::of_spaces(job, spaces, &|| {
         step.advance(1);
         !interrupt.is_raised()
     });

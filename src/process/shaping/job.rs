@@ -37,11 +37,17 @@ use gearcut_core::terms::Side;
 use gearcut_core::tool::involute::inv;
 use glam::DVec2;
 use std::f64::consts::PI;
+use std::ops::RangeInclusive;
 use std::path::Path;
 use std::sync::{Arc, OnceLock};
 
 /// A program under test makes this many times the strokes of the scene at most.
 const MOST_TIMES_THE_STROKES: usize = 10;
+
+/// Places along a sector and along its dwell at which cutter and stock are looked at.
+const SWING_PLACES: u32 = 1024;
+/// Room between cutter and stock where a swing begins and ends, in pitches.
+const CLEAR_SHARE: f64 = 0.02;
 
 /// One operation with its strokes.
 #[derive(Debug, Clone)]
@@ -211,7 +217,7 @@ impl ShapingJob {
         let passes: f64 = shaping.operations.len() as f64;
         let mut operations: Vec<PreparedOperation> = Vec::new();
         let (mut first_pass, mut start_s) = (0, 0.0);
-        let allowance_mm = thickness_offset_mm(gear, cutter.teeth)?;
+        let allowance_mm = thickness_offset_mm(gear, curve.pitches(), cutter.teeth)?;
         for spec in &shaping.operations {
             let mut spec = spec.clone();
             spec.offset_mm += allowance_mm;
@@ -224,6 +230,9 @@ impl ShapingJob {
                     ShapingLinkage::new(gear.kind, spec.linkage, curve.clone(), cutter.pitch_radius_mm, spec.offset_mm)?
                 }
             };
+            if spec.window_rad.is_none() {
+                spec.window_rad = swing_rad(&blank, &cutter, &linkage, spec.offset_mm)?;
+            }
             let schedule = StrokeSchedule::new(&spec, &linkage, &machine)?;
             let program = spec.program.as_deref().map(|path| read_program(path, &spec, &schedule)).transpose()?;
             // Times, drifts and lags are those of the program that is cut.
@@ -269,7 +278,7 @@ impl ShapingJob {
                     let generation = Arc::new(Generation { linkage, cutter, offset_mm: spec.offset_mm, drawn });
                     let before = operations.iter().map(|before| &before.generation);
                     let generations = before.chain([&generation]).cloned().collect();
-                    let survey = Survey::new(generations, blank.clone(), gear.teeth, gear.module_mm);
+                    let survey = Survey::new(generations, blank.clone(), curve.pitches(), gear.module_mm);
                     let envelope = (0..2 * gear.teeth).map(|_| OnceLock::new()).collect();
                     (generation, envelope, Arc::new(survey))
                 }
@@ -375,6 +384,11 @@ impl ShapingJob {
         RamTimes::new(self.scene.gear.face_width_mm, self.machine.approach_mm, self.machine.overrun_mm)
     }
 
+    /// Tooth spaces, each after the tooth of its number; before tooth 1 of a sector there is one more.
+    pub fn spaces(&self) -> RangeInclusive<u32> {
+        u32::from(self.blank.dwell().is_none())..=self.scene.gear.teeth
+    }
+
     /// Target of a tooth (1 to z).
     pub fn target(&self, tooth: u32) -> &ToothTarget {
         &self.targets[tooth as usize - 1]
@@ -416,21 +430,48 @@ impl ShapingJob {
     }
 
     /// Target root of the space after tooth `space`, as points about `spacing_mm` apart: from its left flank to its
-    /// right one. Under a flank that is undercut it begins where both cross.
+    /// right one. Under a flank that is undercut it begins where both cross. Behind the last tooth of a sector these
+    /// are the half of its last space and that of its first one, with the dwell between them.
     pub fn target_root(&self, space: u32, spacing_mm: f64) -> Vec<ProfilePoint> {
-        let (fillet, ends) = self.target_fillet(space);
-        fillet.points(ends, spacing_mm)
+        let mut points: Vec<ProfilePoint> = Vec::new();
+        for (fillet, ends) in self.target_fillets(space) {
+            let own = fillet.points(ends, spacing_mm);
+            let before_mm = points.last().zip(own.first());
+            let before_mm = before_mm.map_or(0.0, |(last, next)| last.arc_mm + last.point_mm.distance(next.point_mm));
+            points.extend(own.into_iter().map(|point| ProfilePoint { arc_mm: before_mm + point.arc_mm, ..point }));
+        }
+        points
     }
 
-    /// The fillet of a space, and the places on it at which the flanks begin.
-    pub fn target_fillet(&self, space: u32) -> (Fillet<'_>, [f64; 2]) {
+    /// Fillets behind a tooth with the places on them between which they are the target: one, from the tooth's left
+    /// flank to the next one's right flank, or both halves behind the last tooth of a sector.
+    pub fn target_fillets(&self, space: u32) -> Vec<(Fillet<'_>, [f64; 2])> {
         let teeth = self.scene.gear.teeth;
-        let fillet = Fillet::new(self.target_generation(), i64::from(space));
         let before = if space == 0 { teeth } else { space };
+        let of = |space: i64| Fillet::new(self.target_generation(), space);
         let [left, right] = [(before, Side::Left), (space % teeth + 1, Side::Right)]
             .map(|(tooth, side)| self.target_flank(tooth, side).undercut.map(|undercut| undercut.fillet_at));
-        let ends = [left.unwrap_or(0.0), right.unwrap_or(fillet.end())];
-        (fillet, ends)
+        let left = left.unwrap_or(0.0);
+        if self.blank.dwell().is_none() || before < teeth {
+            let fillet = of(i64::from(space));
+            let right = right.unwrap_or(fillet.end());
+            return vec![(fillet, [left, right])];
+        }
+        let (last, first) = (of(i64::from(teeth)), of(0));
+        let (to, from, right) = (last.middle(), first.middle(), right.unwrap_or(first.end()));
+        vec![(last, [left, to]), (first, [from, right])]
+    }
+
+    /// The dwell behind a tooth, with normals out of the stock: of the last tooth of a sector, else nothing.
+    pub fn dwell_mm(&self, tooth: u32, spacing_mm: f64) -> Vec<[DVec2; 2]> {
+        let ends = |fillets: &[(Fillet<'_>, [f64; 2])]| {
+            let [(last, [_, to]), (first, [from, _])] = fillets else { return None };
+            Some([last.at(*to)?.1, first.at(*from)?.1])
+        };
+        match (self.blank.dwell(), ends(&self.target_fillets(tooth))) {
+            (Some(dwell), Some(ends_mm)) => dwell.path_mm(ends_mm, spacing_mm),
+            _ => Vec::new(),
+        }
     }
 
     /// Dexel field on the root of a space (space j lies after tooth j).
@@ -449,13 +490,13 @@ impl ShapingJob {
 /// with x = 0.5 on 24 teeth some 0.08 mm too thick, and takes 0.54 mm for 0.5 from a ring. On other gears the
 /// displacement is that of the round gear with as many teeth, and the thickness varies with the curvature by that
 /// order.
-fn thickness_offset_mm(gear: &Gear, cutter_teeth: u32) -> Result<f64, Refusal> {
+fn thickness_offset_mm(gear: &Gear, pitches: u32, cutter_teeth: u32) -> Result<f64, Refusal> {
     let thicker_mm = gear.extra_thickness_mm();
     if thicker_mm == 0.0 {
         return Ok(0.0);
     }
     let alpha = gear.pressure_angle_rad;
-    let both_mm = gear.module_mm * (f64::from(gear.teeth) * gear.kind.tip_sign() + f64::from(cutter_teeth));
+    let both_mm = gear.module_mm * (f64::from(pitches) * gear.kind.tip_sign() + f64::from(cutter_teeth));
     let wanted = inv(alpha) + thicker_mm / both_mm;
     if !wanted.is_finite() || wanted <= 0.0 {
         let [shift, allowance] = ["gear.profile_shift_coefficient", "gear.tooth_thickness_allowance_mm"];
@@ -467,6 +508,57 @@ fn thickness_offset_mm(gear: &Gear, cutter_teeth: u32) -> Result<f64, Refusal> {
     }
     let working = bisect(|angle| inv(angle) < wanted, 0.0, 0.5 * PI);
     Ok(0.5 * both_mm * (alpha.cos() / working.cos() - 1.0))
+}
+
+/// Work angles between which the cutter passes a sector: from where it is clear of the stock before the first tooth to
+/// where it is clear of it behind the last one; `None` where teeth stand all round.
+fn swing_rad(
+    blank: &Blank,
+    cutter: &ShaperCutter,
+    linkage: &ShapingLinkage,
+    offset_mm: f64,
+) -> Result<Option<[f64; 2]>, Refusal> {
+    let (curve, Some(dwell)) = (blank.curve(), blank.dwell()) else { return Ok(None) };
+    let [from, to] = curve.toothed_rad();
+    let outline = |i: u32| blank.outline_mm(from + (to - from) * f64::from(i) / f64::from(SWING_PLACES));
+    let stock_mm: Vec<DVec2> = (0..=SWING_PLACES).map(outline).collect();
+    // Between two of these places the outline comes nearer than they do by its arrow height: less than this by far.
+    let room_mm = cutter.tip_radius_mm + CLEAR_SHARE * curve.perimeter_mm() / f64::from(curve.pitches());
+    let center_mm = |phi: f64| linkage.pose(phi, offset_mm).center_mm;
+    let is_clear = |phi: f64| {
+        let center_mm = center_mm(phi);
+        stock_mm.iter().all(|place_mm| place_mm.distance(center_mm) > room_mm)
+    };
+    let (toothed_mm, dwell_mm) = (curve.arc_mm(to), curve.perimeter_mm() - curve.arc_mm(to));
+    let clear = |end_mm: f64, outwards: f64| {
+        let phi = |i: u32| curve.phi_at_arc(end_mm + outwards * dwell_mm * f64::from(i) / f64::from(SWING_PLACES));
+        (0..SWING_PLACES).map(phi).find(|&phi| is_clear(phi))
+    };
+    let (Some(first), Some(last)) = (clear(0.0, -1.0), clear(toothed_mm, 1.0)) else {
+        return Err(Refusal::new(
+            "gear.sector_deg",
+            format!(
+                "the cutter, {:.3} mm in radius at its tips, is nowhere clear of the teeth between the end of the \
+                sector and its beginning",
+                cutter.tip_radius_mm
+            ),
+            "leave a wider dwell, or take a cutter with fewer teeth",
+        ));
+    };
+    let over = |i: u32| first + (last - first) * f64::from(i) / f64::from(SWING_PLACES);
+    let reach = |phi: f64| center_mm(phi).length() - cutter.tip_radius_mm;
+    let reach_mm = (0..=SWING_PLACES).map(|i| reach(over(i))).fold(f64::INFINITY, f64::min);
+    if dwell.radius_mm >= reach_mm {
+        return Err(Refusal::new(
+            "gear.dwell_radius_mm",
+            format!(
+                "the cutter comes within {reach_mm:.3} mm of the gear's axis, and the dwell has the radius {:.3} mm",
+                dwell.radius_mm
+            ),
+            format!("make the dwell smaller than {reach_mm:.3} mm"),
+        ));
+    }
+    Ok(Some([first, last].map(|phi| linkage.axes(phi, offset_mm).psi_c_rad.value())))
 }
 
 /// Refuses a ring that the cutter cuts through.

@@ -31,7 +31,7 @@ pub const HELIX: Figures = [(&F_BETA, |of| of.total_mm), (&F_H_BETA, |of| of.slo
 pub fn tooth(gear: &GearInspection, tooth: u32) -> [Entry; 3] {
     let row = tooth as usize - 1;
     let thickness = gear.thickness.get(row).copied().flatten();
-    let probe_mm = gear.runout.as_ref().map(|of| of.radial_mm[row]);
+    let probe_mm = gear.runout.as_ref().and_then(|of| of.radial_mm.get(row).copied());
     [
         THICKNESS_ARC.of_or(thickness.map(|of| of.arc_mm), NOT_CROSSED),
         THICKNESS_CHORD.of_or(thickness.map(|of| of.chord_mm), NOT_CROSSED),

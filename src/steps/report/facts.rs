@@ -72,13 +72,20 @@ pub fn speed_limits<const N: usize>(names: [&str; N], axes: &[Axis; N], limits: 
 pub fn gear_table(gear: &Gear, curve: &PitchCurve) -> Block {
     let facts = curve.facts();
     let shape = if facts.convex { "convex" } else { "concave in places" };
+    let closing = match curve.sector_rad() {
+        None => {
+            let error_um = format!("{:.4} µm", UM_PER_MM * curve.closure_error_mm());
+            ("Closing error of the curve", error_um.replace('-', "−"))
+        }
+        Some(_) => ("Dwell without teeth, radius", gear.dwell_radius_mm(curve).map_or_else(String::new, mm)),
+    };
     table(
         "Gear",
         vec![
             ("Pitch curve", gear.pitch_curve.words()),
             ("Pitch radius", format!("{:.3} to {:.3} mm", facts.smallest_radius_mm, facts.largest_radius_mm)),
             ("Smallest radius of curvature", format!("{:.3} mm, {shape}", facts.smallest_curvature_radius_mm)),
-            ("Closing error of the curve", format!("{:.4} µm", UM_PER_MM * curve.closure_error_mm()).replace('-', "−")),
+            closing,
             ("Module, teeth", format!("{}, {}", mm(gear.module_mm), gear.teeth)),
             ("Pressure angle", format!("{}°", plain(gear.pressure_angle_rad.to_degrees()))),
             ("Face width", mm(gear.face_width_mm)),

@@ -146,7 +146,7 @@ mod slow {
         let alpha_t = gear.transverse_pressure_angle_rad();
         let perimeter_mm = job.curve.perimeter_mm();
         for (side, crossings) in [(Side::Left, &left), (Side::Right, &right)] {
-            let found = deviation::pitch(crossings, perimeter_mm).expect("all teeth");
+            let found = deviation::pitch(crossings, perimeter_mm, gear.teeth).expect("all teeth");
             // The gear is cut about a point -e from the axis that it is measured about.
             let arc_mm = |tooth: usize| {
                 let phi = crossings[tooth].expect("crosses").arc_mm / perimeter_mm * TAU;

@@ -332,6 +332,10 @@ fn everything_in_the_template_can_be_switched_on() {
                         // Of gears alone that are not generated.
                         whole = whole.replacen("#roll_ratio = 1.13", "roll_ratio = 0.0", 1);
                     }
+                    if ["sector_deg", "dwell_radius_mm"].contains(&name(key)) {
+                        // A sector is cut in one swing at depth.
+                        whole = whole.replacen("\n[operation.infeed.spiral]", "\n[operation.infeed.none]", 1);
+                    }
                     for needed in needed(name(key)) {
                         one = one.replacen(&format!("#{needed} = "), &format!("{needed} = "), 1);
                     }
@@ -381,6 +385,7 @@ fn needed(name: &str) -> &'static [&'static str] {
             "scratch_length_um",
         ],
         "stock_scatter_length_mm" => &["stock_scatter_um"],
+        "dwell_radius_mm" => &["sector_deg"],
         "limit_mm" => &["life_m"],
         "life_m" | "gears_to_limit" => &["limit_mm"],
         "life_range_m" | "thickness_exponent_range" => &["limit_mm", "life_m"],

@@ -37,6 +37,7 @@ mod ring_errors;
 mod ring_infeed;
 mod round_gear;
 mod rubbing;
+mod sector;
 mod stroke_noise;
 mod tearing;
 mod tooth_tips;

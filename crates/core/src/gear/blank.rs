@@ -7,6 +7,7 @@
 //! s of [`GearKind::tip_sign`] the foot of a height h is P + s h n, and d/ds of the distance beside it is -(1 + s h
 //! kappa).
 
+use super::dwell::Dwell;
 use super::{Back, GearKind, PitchCurve, PitchFrame};
 use crate::error::Refusal;
 use crate::math::convergence::{Step, iterate};
@@ -35,6 +36,7 @@ pub struct Blank {
     pub addendum_mm: f64,
     /// The side without teeth; its kind is the gear's.
     pub back: Back,
+    dwell: Option<Dwell>,
 }
 
 impl Blank {
@@ -55,13 +57,48 @@ impl Blank {
                 "use a smaller addendum or module, or a pitch curve with a wider hollow",
             ));
         }
-        Ok(Self { curve, addendum_mm, back: Back::bore(0.0) })
+        Ok(Self { curve, addendum_mm, back: Back::bore(0.0), dwell: None })
     }
 
     /// The same with a bore.
     #[must_use]
     pub fn with_bore(self, radius_mm: f64) -> Self {
         Self { back: Back::bore(radius_mm), ..self }
+    }
+
+    /// The same with the dwell of a sector; as it is where teeth stand all round.
+    ///
+    /// # Errors
+    /// A radius that the ends of the sector do not reach, or that lies in the bore.
+    pub fn with_dwell(self, radius_mm: f64) -> Result<Self, Refusal> {
+        let dwell = Dwell::new(&self.curve, radius_mm)?;
+        if dwell.is_some() && self.back.radius_mm >= radius_mm {
+            return Err(Refusal::new(
+                parameter::DWELL_RADIUS,
+                format!("the dwell of radius {radius_mm:.3} mm lies in the bore of radius {} mm", self.back.radius_mm),
+                "give a smaller bore or a larger radius",
+            ));
+        }
+        Ok(Self { dwell, ..self })
+    }
+
+    /// The stock's outline where a sector has no teeth.
+    pub fn dwell(&self) -> Option<&Dwell> {
+        self.dwell.as_ref()
+    }
+
+    /// The outline of the toothed side as a polygon, counter-clockwise, some `count` points to a turn.
+    pub fn polygon_mm(&self, count: usize) -> Vec<DVec2> {
+        let Some(dwell) = &self.dwell else {
+            return (0..count).map(|i| self.outline_mm(TURN_RAD * i as f64 / count as f64)).collect();
+        };
+        let [from, to] = self.curve.toothed_rad();
+        let parts = ((to - from) / TURN_RAD * count as f64).ceil().max(1.0) as usize;
+        let mut points: Vec<DVec2> =
+            (0..=parts).map(|i| self.outline_mm(from + (to - from) * i as f64 / parts as f64)).collect();
+        let spacing_mm = TURN_RAD * dwell.radius_mm / count as f64;
+        points.extend(dwell.path_mm([points[parts], points[0]], spacing_mm).iter().map(|[point, _]| *point));
+        points
     }
 
     /// Blank of a ring for internal teeth: its outline lies `addendum_mm` inside the pitch curve, and it is round
@@ -85,7 +122,7 @@ impl Blank {
             ));
         }
         let back = Back::ring(facts.largest_radius_mm + rim_mm);
-        Ok(Self { curve, addendum_mm, back })
+        Ok(Self { curve, addendum_mm, back, dwell: None })
     }
 
     /// The pitch curve.

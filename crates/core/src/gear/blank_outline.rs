@@ -3,7 +3,8 @@
 //!
 //! Parameter: polar angle phi of the foot on the pitch curve. With the distance a and the sign s of the tips'
 //! direction, the outline is P + s a n and its derivative (1 + s a kappa) s' t; the blank refuses curvatures at which
-//! it would turn back.
+//! it would turn back. Over the dwell of a sector there are two straight walls and the arc between them, whose
+//! parameter is its polar angle.
 
 use super::blank::Blank;
 use super::{Back, GearKind};
@@ -29,23 +30,52 @@ const ROUNDING_MM: f64 = 1e-9;
 pub struct BlankOutline<'a> {
     blank: &'a Blank,
     pieces: Vec<Piece>,
-    nodes: Vec<[DVec2; 2]>,
+    /// Where each piece begins, and its directions at both ends.
+    nodes: Vec<(DVec2, [DVec2; 2])>,
 }
+
+/// Laws of pieces: over teeth, and over the dwell of a sector.
+const TEETH: u32 = 0;
+const DWELL: u32 = 1;
 
 impl<'a> BlankOutline<'a> {
     /// Outline of a blank.
     pub fn new(blank: &'a Blank) -> Self {
-        let count = blank.curve().samples_per_turn().clamp(LEAST_PIECES, 1 << 14);
-        let at = |i: usize| TAU * i as f64 / count as f64;
-        let nodes: Vec<[DVec2; 2]> = (0..count).map(|i| place(blank, at(i))).collect();
-        let pieces = (0..count)
-            .map(|i| {
-                let (start, end) = (nodes[i][0], nodes[(i + 1) % count][0]);
-                let middle = place(blank, 0.5 * (at(i) + at(i + 1)))[0];
-                let sagitta = (end - start).normalize_or_zero().perp_dot(middle - start).abs();
-                Piece { law: 0, range: [at(i), at(i + 1)], sagitta_mm: SAGITTA_SAFETY * sagitta + ROUNDING_MM }
-            })
-            .collect();
+        let per_turn = blank.curve().samples_per_turn().clamp(LEAST_PIECES, 1 << 14);
+        let ranges = |[from, to]: [f64; 2]| {
+            let count = ((to - from) / TAU * per_turn as f64).ceil().max(1.0) as usize;
+            let at = move |i: usize| from + (to - from) * i as f64 / count as f64;
+            (0..count).map(move |i| [at(i), at(i + 1)])
+        };
+        let mut laws: Vec<(u32, [f64; 2])> = ranges(blank.curve().toothed_rad()).map(|range| (TEETH, range)).collect();
+        if let Some(dwell) = blank.dwell() {
+            // A chord runs from the end of the piece before it to the beginning of the one behind it.
+            laws.push((Piece::STRAIGHT, [laws[laws.len() - 1].1[1]; 2]));
+            laws.extend(ranges(dwell.arc_rad()).map(|range| (DWELL, range)));
+            laws.push((Piece::STRAIGHT, [dwell.arc_rad()[1]; 2]));
+        }
+        let before = |i: usize| if i == 0 { laws.len() - 1 } else { i - 1 };
+        let start = |i: usize| match laws[i] {
+            (Piece::STRAIGHT, [at, _]) => place(blank, laws[before(i)].0, at)[0],
+            (law, [from, _]) => place(blank, law, from)[0],
+        };
+        let starts: Vec<DVec2> = (0..laws.len()).map(start).collect();
+        let piece = |i: usize| {
+            let ((law, range), chord) = (laws[i], starts[(i + 1) % laws.len()] - starts[i]);
+            if law == Piece::STRAIGHT {
+                return (Piece { law, range, sagitta_mm: ROUNDING_MM }, (starts[i], [chord; 2]));
+            }
+            let middle = place(blank, law, 0.5 * (range[0] + range[1]))[0];
+            let sagitta = chord.normalize_or_zero().perp_dot(middle - starts[i]).abs();
+            // The end of a turn is its beginning, to the last bit.
+            let end = match laws[(i + 1) % laws.len()] {
+                (next, [from, _]) if next == law => from,
+                _ => range[1],
+            };
+            let tangents = [range[0], end].map(|at| place(blank, law, at)[1]);
+            (Piece { law, range, sagitta_mm: SAGITTA_SAFETY * sagitta + ROUNDING_MM }, (starts[i], tangents))
+        };
+        let (pieces, nodes) = (0..laws.len()).map(piece).unzip();
         Self { blank, pieces, nodes }
     }
 
@@ -58,14 +88,14 @@ impl<'a> BlankOutline<'a> {
     pub fn reach_mm(&self) -> f64 {
         match self.back() {
             Back { kind: GearKind::Internal, radius_mm } => radius_mm,
-            _ => self.nodes.iter().map(|n| n[0].length()).fold(0.0, f64::max) + self.sagitta_mm(),
+            _ => self.nodes.iter().map(|n| n.0.length()).fold(0.0, f64::max) + self.sagitta_mm(),
         }
     }
 
     /// How near the stock comes to a point in the hole of a ring, or in front of an external gear, mm, at most by what
     /// lies between the nodes too small.
     pub fn clearance_mm(&self, point_mm: DVec2) -> f64 {
-        self.nodes.iter().map(|n| n[0].distance(point_mm)).fold(f64::INFINITY, f64::min) - self.sagitta_mm()
+        self.nodes.iter().map(|n| n.0.distance(point_mm)).fold(f64::INFINITY, f64::min) - self.sagitta_mm()
     }
 
     fn sagitta_mm(&self) -> f64 {
@@ -78,7 +108,7 @@ impl<'a> BlankOutline<'a> {
             return [DVec2::splat(-radius_mm), DVec2::splat(radius_mm)];
         }
         let sagitta = DVec2::splat(self.sagitta_mm());
-        let points = self.nodes.iter().map(|n| n[0]);
+        let points = self.nodes.iter().map(|n| n.0);
         let low = points.clone().reduce(DVec2::min).unwrap_or_default();
         [low - sagitta, points.reduce(DVec2::max).unwrap_or_default() + sagitta]
     }
@@ -90,19 +120,23 @@ impl ClosedCurve for BlankOutline<'_> {
     }
 
     fn node_mm(&self, index: usize) -> DVec2 {
-        self.nodes[index][0]
+        self.nodes[index].0
     }
 
-    fn place(&self, _law: u32, phi_rad: f64) -> [DVec2; 2] {
-        place(self.blank, phi_rad)
+    fn place(&self, law: u32, parameter: f64) -> [DVec2; 2] {
+        place(self.blank, law, parameter)
     }
 
     fn tangents(&self, index: usize) -> [DVec2; 2] {
-        [self.nodes[index][1], self.nodes[(index + 1) % self.nodes.len()][1]]
+        self.nodes[index].1
     }
 }
 
-fn place(blank: &Blank, phi_rad: f64) -> [DVec2; 2] {
+fn place(blank: &Blank, law: u32, phi_rad: f64) -> [DVec2; 2] {
+    if let (DWELL, Some(dwell)) = (law, blank.dwell()) {
+        let out = dwell.radius_mm * DVec2::from_angle(phi_rad);
+        return [out, out.perp()];
+    }
     let frame = blank.curve().frame(phi_rad);
     let outwards_mm = blank.kind().tip_sign() * blank.addendum_mm;
     let stretch = 1.0 + outwards_mm * frame.curvature_per_mm;

@@ -6,11 +6,13 @@
 mod back;
 pub mod blank;
 pub mod blank_outline;
+mod dwell;
 mod kind;
 pub mod pitch_curve;
 pub mod rolling;
 
 pub use back::Back;
+pub use dwell::Dwell;
 pub use kind::GearKind;
 pub use pitch_curve::shape::{Driver, FormulaMeaning, LARGEST_UNASKED_SCALING, PitchCurveShape, TableScaling};
 pub use pitch_curve::{CurvatureExtremum, CurveFacts, PitchCurve, PitchFrame};

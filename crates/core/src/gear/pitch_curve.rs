@@ -17,6 +17,7 @@ mod facts;
 mod formula_law;
 pub mod mate;
 mod radius_law;
+pub mod sector;
 pub mod shape;
 #[cfg(test)]
 mod tests;
@@ -34,6 +35,7 @@ use crate::parameter;
 use crate::units::TURN_RAD;
 pub use facts::{CurvatureExtremum, CurveFacts};
 use radius_law::{RadiusLaw, SizedLaw};
+use sector::UnitLaw;
 
 /// Accuracy of the arc length unless asked otherwise, mm.
 pub const DEFAULT_ACCURACY_MM: f64 = 1e-10;
@@ -49,6 +51,9 @@ pub struct PitchCurve {
     size_mm: f64,
     arc: PeriodicIntegral,
     closure_error_mm: f64,
+    /// Arc from phi = 0 to the beginning of a sector; 0 of a closed curve.
+    origin_mm: f64,
+    pitches: u32,
     scaling: Option<f64>,
     facts: CurveFacts,
 }
@@ -94,14 +99,19 @@ impl PitchCurve {
         teeth: u32,
         accuracy_mm: f64,
     ) -> Result<Self, Refusal> {
-        let wanted_mm = PI * module_mm * f64::from(teeth);
-        if !(wanted_mm.is_finite() && wanted_mm > 0.0) {
+        let toothed_mm = PI * module_mm * f64::from(teeth);
+        if !(toothed_mm.is_finite() && toothed_mm > 0.0) {
             let problem = format!("module {module_mm} mm with {teeth} teeth gives no pitch curve");
             return Err(Refusal::new(parameter::MODULE, problem, "give a positive module and at least one tooth"));
         }
         let SizedLaw { law, size_mm, key, size_key } = SizedLaw::new(shape, module_mm, teeth, accuracy_mm)?;
+        let (sector_rad, pitches) = match &law {
+            RadiusLaw::Sector(sector) => (Some(sector.range_rad()), sector.pitches()),
+            _ => (None, teeth),
+        };
+        let wanted_mm = PI * module_mm * f64::from(pitches);
         let samples = law.samples_per_turn();
-        let facts = CurveFacts::new(|phi| law.unit(phi), samples);
+        let facts = CurveFacts::new(|phi| law.unit(phi), samples, sector_rad);
         let (smallest, largest) = (facts.smallest_radius_mm, facts.largest_radius_mm);
         if !(smallest > 0.0 && largest.is_finite()) {
             let problem = format!("the radius falls to {smallest} of its mean: it must stay positive and finite");
@@ -131,12 +141,16 @@ impl PitchCurve {
         if closure_error_mm.abs() > LARGEST_CLOSURE_ERROR_MODULES * module_mm {
             return Err(Refusal::new(
                 size_key,
-                format!(
-                    "the perimeter {:.6} mm misses pi m z = {wanted_mm:.6} mm by {closure_error_mm:.6} mm; {} mm is \
-                    allowed",
-                    arc.closed(),
-                    LARGEST_CLOSURE_ERROR_MODULES * module_mm
-                ),
+                if sector_rad.is_some() {
+                    format!("{teeth} teeth take {toothed_mm:.6} mm, and the sector is longer or shorter than that")
+                } else {
+                    format!(
+                        "the perimeter {:.6} mm misses pi m z = {wanted_mm:.6} mm by {closure_error_mm:.6} mm; {} mm \
+                        is allowed",
+                        arc.closed(),
+                        LARGEST_CLOSURE_ERROR_MODULES * module_mm
+                    )
+                },
                 way_to_close(shape, closing_mm, size_mm, module_mm),
             ));
         }
@@ -154,9 +168,10 @@ impl PitchCurve {
                 way_to_close(shape, closing_mm, closing_mm / factor, module_mm),
             ));
         }
-        let facts = CurveFacts::new(|phi| law.unit(phi) * size_mm, samples);
+        let facts = CurveFacts::new(|phi| law.unit(phi) * size_mm, samples, sector_rad);
+        let origin_mm = sector_rad.map_or(0.0, |[from, _]| arc.at(from));
         let scaling = scaling.map(|(factor, _)| factor);
-        Ok(Self { law, size_mm, arc, closure_error_mm, scaling, facts })
+        Ok(Self { law, size_mm, arc, closure_error_mm, origin_mm, pitches, scaling, facts })
     }
 
     /// r in mm at `phi_rad` (any real) with three derivatives with respect to phi.
@@ -182,20 +197,43 @@ impl PitchCurve {
         }
     }
 
-    /// Arc length S in mm from phi = 0 to `phi_rad`: unwrapped, so that a whole turn adds the perimeter exactly;
-    /// negative before 0.
+    /// Arc length S in mm from phi = 0, of a sector from its beginning, to `phi_rad`: unwrapped, so that a whole turn
+    /// adds the perimeter exactly; negative before.
     pub fn arc_mm(&self, phi_rad: f64) -> f64 {
-        self.arc.at(phi_rad)
+        self.arc.at(phi_rad) - self.origin_mm
     }
 
     /// Polar angle (unwrapped) at which the arc length is `arc_mm` (any real).
     pub fn phi_at_arc(&self, arc_mm: f64) -> f64 {
-        self.arc.angle_at(arc_mm)
+        self.arc.angle_at(arc_mm + self.origin_mm)
     }
 
     /// Length of the closed curve, mm.
     pub fn perimeter_mm(&self) -> f64 {
         self.arc.closed()
+    }
+
+    /// Pitches of the closed curve: its teeth, of a sector with those that would find room on its dwell.
+    pub fn pitches(&self) -> u32 {
+        self.pitches
+    }
+
+    /// First and last polar angle of a sector, rad; `None` of a curve with teeth all round.
+    pub fn sector_rad(&self) -> Option<[f64; 2]> {
+        match &self.law {
+            RadiusLaw::Sector(sector) => Some(sector.range_rad()),
+            _ => None,
+        }
+    }
+
+    /// The polar angles over which teeth stand: a sector's own, or a turn.
+    pub fn toothed_rad(&self) -> [f64; 2] {
+        self.sector_rad().unwrap_or([0.0, TURN_RAD])
+    }
+
+    /// Whether teeth stand at a polar angle (any real).
+    pub fn carries(&self, phi_rad: f64) -> bool {
+        self.sector_rad().is_none_or(|[from, to]| (phi_rad - from).rem_euclid(TURN_RAD) <= to - from)
     }
 
     /// Perimeter minus pi m z, mm: what the last pitch is too long. Rounding when the size was solved.
@@ -229,8 +267,11 @@ impl PitchCurve {
     }
 
     /// Teeth after which a gear of `teeth` teeth looks the same again: the curve repeats, and a whole number of teeth
-    /// has passed. 1 on a circle, `teeth` on a curve without symmetry.
+    /// has passed. 1 on a circle, `teeth` on a curve without symmetry and on a sector.
     pub fn period_teeth(&self, teeth: u32) -> u32 {
+        if self.sector_rad().is_some() {
+            return teeth;
+        }
         let repeats = |part: &u32| self.repeats_after(TURN_RAD * f64::from(*part) / f64::from(teeth));
         (1..teeth).filter(|part| teeth.is_multiple_of(*part)).find(repeats).unwrap_or(teeth)
     }

@@ -11,6 +11,8 @@ use crate::error::Refusal;
 use crate::math::Jet;
 use crate::units::TURN_RAD;
 
+/// A sector's end is a point's angle within this, rad: digits of drawings, 0.1 um at 100 mm.
+const END_RAD: f64 = 1e-6;
 const KEY: &str = crate::parameter::TABLE_POINTS;
 
 /// Periodic C2 spline, scaled so that the mean of its points is one.
@@ -22,14 +24,17 @@ pub struct PeriodicSpline {
     radii: Vec<f64>,
     /// Second derivatives at the points.
     bends: Vec<f64>,
+    /// Points of a sector: the outermost cubics go on beyond them.
+    is_open: bool,
 }
 
 impl PeriodicSpline {
     /// Spline and the mean radius (mm) that it was scaled by.
     ///
     /// # Errors
-    /// Fewer than four points, a radius that is not positive, angles out of order, or points over a full turn or more.
-    pub fn new(points_rad_mm: &[[f64; 2]]) -> Result<(Self, f64), Refusal> {
+    /// Fewer than four points, a radius that is not positive, angles out of order, or points over a full turn or more;
+    /// a sector beyond the points.
+    pub fn new(points_rad_mm: &[[f64; 2]], sector_rad: Option<[f64; 2]>) -> Result<(Self, f64), Refusal> {
         let n = points_rad_mm.len();
         if n < 4 {
             let problem = format!("{n} points do not give a closed curve with continuous curvature");
@@ -63,16 +68,34 @@ impl PeriodicSpline {
         let mean_mm = points_rad_mm.iter().map(|p| p[1]).sum::<f64>() / n as f64;
         let angles_rad: Vec<f64> = points_rad_mm.iter().map(|p| p[0]).collect();
         let radii: Vec<f64> = points_rad_mm.iter().map(|p| p[1] / mean_mm).collect();
-        let bends = second_derivatives(&angles_rad, &radii);
-        Ok((Self { angles_rad, radii, bends }, mean_mm))
+        let bends = match sector_rad {
+            None => second_derivatives(&angles_rad, &radii),
+            Some(sector_rad) => {
+                let points_rad = [angles_rad[0], angles_rad[n - 1]];
+                // The sector may be counted in another turn than the points.
+                let into_rad = (sector_rad[0] - points_rad[0] + END_RAD).rem_euclid(TURN_RAD) - END_RAD;
+                let width_rad = sector_rad[1] - sector_rad[0];
+                if points_rad[0] + into_rad + width_rad > points_rad[1] + END_RAD {
+                    let [from, to] = points_rad.map(f64::to_degrees);
+                    let problem = format!("the points reach from {from} to {to} deg, and the sector is wider");
+                    return Err(Refusal::new(KEY, problem, "give points over the whole sector, its ends included"));
+                }
+                open_second_derivatives(&angles_rad, &radii)
+            }
+        };
+        Ok((Self { angles_rad, radii, bends, is_open: sector_rad.is_some() }, mean_mm))
     }
 
     /// Value and derivatives at any angle.
     pub fn at(&self, phi_rad: f64) -> Jet<4> {
         let n = self.angles_rad.len();
         let first = self.angles_rad[0];
-        let phi = first + (phi_rad - first).rem_euclid(TURN_RAD);
-        let i = self.angles_rad.partition_point(|a| *a <= phi).clamp(1, n) - 1;
+        let mut phi = first + (phi_rad - first).rem_euclid(TURN_RAD);
+        let mut i = self.angles_rad.partition_point(|a| *a <= phi).clamp(1, n) - 1;
+        if self.is_open && i == n - 1 {
+            let before = first + TURN_RAD - phi;
+            (phi, i) = if phi - self.angles_rad[i] < before { (phi, n - 2) } else { (first - before, 0) };
+        }
         let j = (i + 1) % n;
         let h = width(&self.angles_rad, i);
         let (u, v) = (phi - self.angles_rad[i], self.angles_rad[i] + h - phi);
@@ -123,6 +146,33 @@ fn second_derivatives(angles_rad: &[f64], radii: &[f64]) -> Vec<f64> {
     y.iter().zip(&z).map(|(y, z)| y - factor * z).collect()
 }
 
+/// The same for points that are not closed: second derivatives at both ends are those of the cubic through the four
+/// outermost points, so that a cubic is met exactly.
+fn open_second_derivatives(angles_rad: &[f64], radii: &[f64]) -> Vec<f64> {
+    let n = radii.len();
+    let [first, last] = [[0, 1, 2, 3], [n - 1, n - 2, n - 3, n - 4]]
+        .map(|at| bend_of_cubic(at.map(|i| angles_rad[i]), at.map(|i| radii[i])));
+    let h: Vec<f64> = angles_rad.windows(2).map(|pair| pair[1] - pair[0]).collect();
+    let slope: Vec<f64> = (0..n - 1).map(|i| (radii[i + 1] - radii[i]) / h[i]).collect();
+    let diagonal: Vec<f64> = (1..n - 1).map(|i| 2.0 * (h[i - 1] + h[i])).collect();
+    let mut right: Vec<f64> = (1..n - 1).map(|i| 6.0 * (slope[i] - slope[i - 1])).collect();
+    right[0] -= h[0] * first;
+    right[n - 3] -= h[n - 2] * last;
+    let inner = solve_tridiagonal(&diagonal, &h[1..n - 1], right);
+    [first].into_iter().chain(inner).chain([last]).collect()
+}
+
+/// Second derivative at the first of four places of the cubic through them, by divided differences.
+fn bend_of_cubic(x: [f64; 4], y: [f64; 4]) -> f64 {
+    let mut d = y;
+    for k in 1..4 {
+        for i in (k..4).rev() {
+            d[i] = (d[i] - d[i - 1]) / (x[i] - x[i - k]);
+        }
+    }
+    2.0 * (d[2] + d[3] * ((x[0] - x[1]) + (x[0] - x[2])))
+}
+
 /// Symmetric tridiagonal system with off-diagonal entries `off[i]` between i and i + 1; diagonally dominant.
 fn solve_tridiagonal(diagonal: &[f64], off: &[f64], mut right: Vec<f64>) -> Vec<f64> {
     let n = right.len();
@@ -143,6 +193,23 @@ fn solve_tridiagonal(diagonal: &[f64], off: &[f64], mut right: Vec<f64>) -> Vec<
 mod tests {
     use super::*;
 
+    /// Open points of a cubic give the cubic; the ends of a sector lie within the points.
+    #[test]
+    fn open_points_of_a_cubic_are_met_exactly() {
+        let r = |phi: f64| 50.0 + 4.0 * phi - 3.0 * phi * phi + 1.5 * phi.powi(3);
+        let points: Vec<[f64; 2]> = [0.1, 0.3, 0.4, 0.7, 0.9, 1.3].map(|phi| [phi, r(phi)]).to_vec();
+        let (spline, mean_mm) = PeriodicSpline::new(&points, Some([0.1, 1.3])).unwrap();
+        for i in 0..=120 {
+            let phi = 0.1 + 0.01 * f64::from(i);
+            let found = spline.at(phi) * mean_mm;
+            assert!((found.value() - r(phi)).abs() < 1e-12, "{} at {phi}", found.value() - r(phi));
+            assert!((found.derivative(1) - 4.0 + 6.0 * phi - 4.5 * phi * phi).abs() < 1e-10);
+            assert!((found.derivative(2) + 6.0 - 9.0 * phi).abs() < 1e-10);
+        }
+        let wider = PeriodicSpline::new(&points, Some([0.1, 1.4])).unwrap_err();
+        assert!(wider.problem.contains("the sector is wider"), "{}", wider.problem);
+    }
+
     #[test]
     fn reproduces_a_smooth_curve_and_is_periodic() {
         let r = |phi: f64| 50.0 + 4.0 * (2.0 * phi + 0.3).cos();
@@ -150,7 +217,7 @@ mod tests {
             .map(|i| (f64::from(i) + 0.3 * f64::from(i % 3)) * TURN_RAD / 401.0 + 0.2)
             .map(|phi| [phi, r(phi)])
             .collect();
-        let (spline, mean_mm) = PeriodicSpline::new(&points).unwrap();
+        let (spline, mean_mm) = PeriodicSpline::new(&points, None).unwrap();
         for [phi, r_mm] in &points {
             assert!((spline.at(*phi).value() * mean_mm - r_mm).abs() < 1e-12);
         }
@@ -167,16 +234,16 @@ mod tests {
     #[test]
     fn refuses_bad_tables() {
         let circle: Vec<[f64; 2]> = (0..8).map(|i| [f64::from(i) * TURN_RAD / 8.0, 30.0]).collect();
-        assert!(PeriodicSpline::new(&circle).is_ok());
-        assert!(PeriodicSpline::new(&circle[..3]).is_err());
+        assert!(PeriodicSpline::new(&circle, None).is_ok());
+        assert!(PeriodicSpline::new(&circle[..3], None).is_err());
         let mut closed = circle.clone();
         closed.push([TURN_RAD, 30.0]);
-        assert!(PeriodicSpline::new(&closed).unwrap_err().way_out.contains("last point"));
+        assert!(PeriodicSpline::new(&closed, None).unwrap_err().way_out.contains("last point"));
         let mut swapped = circle.clone();
         swapped.swap(2, 3);
-        assert!(PeriodicSpline::new(&swapped).unwrap_err().problem.contains("increase"));
+        assert!(PeriodicSpline::new(&swapped, None).unwrap_err().problem.contains("increase"));
         let mut negative = circle;
         negative[5][1] = -1.0;
-        assert!(PeriodicSpline::new(&negative).unwrap_err().problem.contains("point 6"));
+        assert!(PeriodicSpline::new(&negative, None).unwrap_err().problem.contains("point 6"));
     }
 }

@@ -120,7 +120,9 @@ impl ShapingJob {
         }
         points.extend(left_tip.into_iter().rev());
         points.extend(along(left).into_iter().rev());
-        let (fillet, ends) = self.target_fillet(tooth);
-        Ok(ToothSection { tooth_mm: points, root_mm: fillet.chain_mm(ends, spacing_mm) })
+        let fillets = self.target_fillets(tooth).into_iter();
+        let halves: Vec<Vec<DVec2>> = fillets.map(|(fillet, ends)| fillet.chain_mm(ends, spacing_mm)).collect();
+        let dwell_mm: Vec<DVec2> = self.dwell_mm(tooth, spacing_mm).iter().map(|[point, _]| *point).collect();
+        Ok(ToothSection { tooth_mm: points, root_mm: halves.join(&dwell_mm[..]) })
     }
 }

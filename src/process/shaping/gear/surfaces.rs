@@ -134,8 +134,12 @@ impl CylindricalGear for ShapingJob {
     }
 
     fn target_roots(&self, space: u32, spacing_mm: f64, rows_z_mm: &[f64]) -> Result<Vec<SectionProfile>> {
-        let points = self.target_root(space, spacing_mm);
-        let profile: SectionProfile = points.iter().map(|point| (point.point_mm, point.normal.extend(0.0))).collect();
+        let points = self.target_fillets(space).into_iter().map(|(fillet, ends)| fillet.points(ends, spacing_mm));
+        let halves: Vec<SectionProfile> = points
+            .map(|points| points.iter().map(|point| (point.point_mm, point.normal.extend(0.0))).collect())
+            .collect();
+        let dwell = self.dwell_mm(space, spacing_mm).into_iter().map(|[point, normal]| (point, normal.extend(0.0)));
+        let profile: SectionProfile = halves.join(&dwell.collect::<Vec<_>>()[..]);
         Ok(vec![profile; rows_z_mm.len()])
     }
 
@@ -149,7 +153,15 @@ impl CylindricalGear for ShapingJob {
         let mut field = self.planar().root_field(&self.target_root(space, spacing_mm));
         field.rows_z_mm = rows_z_mm.to_vec();
         let cut = self.cut(backend, field)?;
-        Ok(points_of_sections(&cut.field, &cut.layers))
+        let mut sections = points_of_sections(&cut.field, &cut.layers);
+        let dwell_mm: Vec<DVec2> = self.dwell_mm(space, spacing_mm).iter().map(|[point, _]| *point).collect();
+        if let [(last, ends), _] = &self.target_fillets(space)[..] {
+            let half = last.points(*ends, spacing_mm).len();
+            for points in &mut sections {
+                points.splice(half..half, dwell_mm.iter().copied());
+            }
+        }
+        Ok(sections)
     }
 
     fn target_section(&self, tooth: u32, _z_mm: f64, spacing_mm: f64) -> Result<ToothSection> {

@@ -22,8 +22,6 @@
 //! statement is exact for a small d; with d = 2 mm, overlapping the outlines of cutter and gear shows that rubbing
 //! already begins about 1.5 deg before.
 
-use std::f64::consts::TAU;
-
 use super::ShapingLinkage;
 use crate::findings::Notice;
 use crate::process::shaping::notices::{ReliefRubs, ReliefTight};
@@ -94,7 +92,8 @@ pub fn relief_ratio(linkage: &ShapingLinkage, phi_rad: f64, offset_mm: f64, pres
 pub fn smallest_relief(linkage: &ShapingLinkage, offset_mm: f64, pressure_angle_rad: f64) -> SmallestRelief {
     let ratio = |phi: f64| relief_ratio(linkage, phi, offset_mm, pressure_angle_rad);
     let loss = |phi: f64| -ratio(phi).left.min(ratio(phi).right);
-    let (phi_rad, loss) = maximum(loss, 0.0, TAU, linkage.curve().samples_per_turn());
+    let [from, to] = linkage.curve().toothed_rad();
+    let (phi_rad, loss) = maximum(loss, from, to, linkage.curve().samples_per_turn());
     let flank = if ratio(phi_rad).left < ratio(phi_rad).right { ReliefFlank::Left } else { ReliefFlank::Right };
     SmallestRelief { ratio: -loss, phi_rad, flank, pressure_angle_rad }
 }

@@ -92,6 +92,19 @@ impl ShapingLinkage {
             let curvature_per_mm = || self.curve.frame(phi).curvature_per_mm;
             // A circle larger than a ring would turn the work forwards again, from beyond its centre of curvature.
             let fits = self.gear == GearKind::External || self.cutter_pitch_radius_mm * curvature_per_mm() < 1.0;
+            if (!fits || turn.is_nan() || turn <= 0.0) && !self.curve.carries(phi) {
+                return Err(Refusal::new(
+                    "gear.sector_deg",
+                    format!(
+                        "the bridge that closes the pitch curve over the dwell has a hollow of radius {:.3} mm at \
+                        polar angle {:.3} deg; the cutter's pitch radius with the offset, {reach_mm:.3} mm, does not \
+                        roll there",
+                        -1.0 / curvature_per_mm(),
+                        phi.to_degrees()
+                    ),
+                    "leave a wider dwell, let the radii at its ends differ less, or take a cutter with fewer teeth",
+                ));
+            }
             if !fits || turn.is_nan() || turn <= 0.0 {
                 let way_out = match self.gear {
                     GearKind::External => {

@@ -40,7 +40,7 @@ pub fn write(job: &ShapingJob, ledger: &ChipLedger, folder: &OutputFolder, notes
         let by_space = MapAxis {
             name: "space".into(),
             meaning: format!("mean arc of pitch curve; space j is at j times {} mm", significant(pitch_mm, 4)),
-            start_mm: pitch_mm,
+            start_mm: f64::from(*job.spaces().start()) * pitch_mm,
             step_mm: pitch_mm,
             count: chips.by_space.rows,
         };

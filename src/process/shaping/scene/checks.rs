@@ -2,7 +2,7 @@
 
 use super::defaults::reach_mm;
 use super::keys::{AXES, BUILT_UP_EDGE, BUILT_UP_EDGE_KEYS, CMM, EDGE_ROUGHNESS, EDGE_ROUNDING, PROFILE};
-use crate::scene::build::stock_or_offset_mm;
+use crate::scene::build::{sector_deg, stock_or_offset_mm};
 use crate::scene::keys::join;
 use crate::scene::machine_errors;
 use crate::scene::problems::Found;
@@ -31,6 +31,7 @@ pub(super) fn check(found: &mut Found<'_, '_, '_>) {
     let message = || format!("`{CMM}` measures allowances between operations, and the scene has one alone");
     found.blame(measures_nothing, CMM, message, "remove it, or write an operation that roughs before");
     drawn_tooth(found);
+    sector(found);
     machine_errors::check(found, &AXES);
     for index in 0..found.values.count("operation") {
         let path = format!("operation.{index}");
@@ -43,6 +44,37 @@ pub(super) fn check(found: &mut Found<'_, '_, '_>) {
             infeed(found, &path),
             scatter(found, &path),
         ];
+    }
+}
+
+/// A sector is an external gear with a law of its own, cut in one swing from beside the stock.
+fn sector(found: &mut Found) {
+    let (key, gear) = ("gear.sector_deg", found.view("gear"));
+    if sector_deg(found.values).is_none() {
+        let message = || "`gear.dwell_radius_mm`: a gear with teeth all round has no dwell".to_owned();
+        let way_out = "remove it, or write sector_deg = [-60.0, 60.0], for example";
+        found.blame(gear.number("dwell_radius_mm").is_some(), "gear.dwell_radius_mm", message, way_out);
+        return;
+    }
+    let (ring, mate) = (gear.text("kind") == Some("internal"), gear.variant("pitch_curve") == Some("mate"));
+    let message = || format!("`{key}`: a ring with teeth over a part of its turn is not cut");
+    found.blame(ring, key, message, "write kind = \"external\", or leave the sector out");
+    let message = || format!("`{key}`: the law of a mate is closed all round, with the teeth of its whole turn");
+    found.blame(mate, key, message, "write the radius or the ratio of the sector itself");
+    for index in 0..found.values.count("operation") {
+        let path = format!("operation.{index}");
+        let operation = found.view(&path);
+        let law = operation.variant("infeed").unwrap_or("none").to_owned();
+        let turns = operation.whole("revolutions").unwrap_or(1) > 1;
+        let overlap = operation.number("overlap_deg").unwrap_or(0.0) > 0.0;
+        let message = || format!("`operation.infeed.{law}`: the swing over a sector begins beside the stock, at depth");
+        let way_out = "write [operation.infeed.none]; a cut before it with an offset_mm takes less at a time";
+        found.blame(law != "none", &join(&path, &format!("infeed.{law}")), message, way_out);
+        for (name, wrong) in [("revolutions", turns), ("overlap_deg", overlap)] {
+            let message =
+                || format!("`operation.{name}`: a sector is cut in one swing, from before its teeth to behind them");
+            found.blame(wrong, &join(&path, name), message, "remove it, or write the operation twice");
+        }
     }
 }
 

@@ -10,7 +10,7 @@
 //!
 //! Road not taken: a spiral where the scene gives a window. A window shows a piece of a cut that is under way.
 
-use crate::scene::build::stock_or_offset_mm;
+use crate::scene::build::{sector_deg, stock_or_offset_mm};
 use crate::scene::values::{Checked, Values};
 use gearcut_core::units::UM_PER_MM;
 
@@ -34,7 +34,7 @@ const LARGEST_NOISE: f64 = 4.0;
 /// Puts the defaults in.
 pub(super) fn derive(values: &mut Values) {
     let gear = values.view("gear");
-    let (module_mm, teeth) = (gear.number("module_mm"), gear.whole("teeth"));
+    let (module_mm, teeth) = (gear.number("module_mm"), teeth_per_turn(values));
     if let Some(module_mm) = module_mm {
         values.put_default("fields.chips", "spacing_mm", Checked::Number((module_mm / 60.0).max(0.002)));
     }
@@ -51,6 +51,14 @@ pub(super) fn derive(values: &mut Values) {
         let _: Option<()> = infeed(values, index);
         values.put_if_missing(&path, "overlap_deg", Checked::Number(0.0));
     }
+}
+
+/// Teeth that a whole turn has room for: strokes are counted over a turn.
+fn teeth_per_turn(values: &Values) -> Option<u32> {
+    let teeth = values.view("gear").whole("teeth")?;
+    let Some([from_deg, to_deg]) = sector_deg(values) else { return Some(teeth) };
+    let turns = (to_deg - from_deg) / 360.0;
+    Some(if turns > 0.0 { (f64::from(teeth) / turns).ceil().min(1e6) as u32 } else { teeth })
 }
 
 /// How deep the cutter reaches into the blank at offset 0, mm.
@@ -117,7 +125,7 @@ fn standard_roughing(values: &mut Values) -> Option<()> {
         return None;
     }
     let gear = values.view("gear");
-    let (module_mm, teeth) = (gear.number("module_mm")?, gear.whole("teeth")?);
+    let (module_mm, teeth) = (gear.number("module_mm")?, teeth_per_turn(values)?);
     let offset_mm = STOCK_MODULES * module_mm / gear.rad("pressure_angle_deg")?.sin();
     let path = "operation.0";
     if !values.is_written(path, "stock_per_flank_mm") {
@@ -141,7 +149,8 @@ fn infeed(values: &mut Values, index: usize) -> Option<()> {
     let window = |index: usize| values.is_written(&format!("operation.{index}"), "window_deg");
     let earlier = (0..index).filter(|earlier| !window(*earlier)).filter_map(|earlier| offset_mm(values, earlier));
     let left_mm = earlier.fold(reach_mm, f64::min) - own_mm;
-    let windowed = window(index);
+    // A sector is cut in one swing, from beside the stock.
+    let windowed = window(index) || sector_deg(values).is_some();
     let choice = format!("{path}.infeed");
     if windowed || left_mm <= 0.0 {
         values.put_default_variant(&choice, "none");

@@ -5,6 +5,7 @@ mod cmm;
 mod machine;
 mod operation;
 mod output;
+mod sector;
 mod tool;
 
 use crate::scene::keys::{Addition, KeySection};
@@ -19,4 +20,5 @@ pub(super) static SECTIONS: &[&[KeySection]] =
     &[tool::SECTIONS, machine::SECTIONS, operation::SECTIONS, chips::SECTIONS, cmm::SECTIONS];
 
 /// Keys in shared sections.
-pub(super) static ADDED: &[&Addition] = &[&chips::ADDED, &machine::ADDED, &operation::ADDED, &output::ADDED];
+pub(super) static ADDED: &[&Addition] =
+    &[&chips::ADDED, &machine::ADDED, &operation::ADDED, &output::ADDED, &sector::ADDED];

@@ -14,7 +14,7 @@ use crate::process::shaping::target::drawn::DrawnFlank;
 use crate::process::shaping::target::generation::{Generation, TipPart};
 use crate::steps::planar::ProfilePoint;
 use gearcut_core::gear::GearKind;
-use gearcut_core::math::roots::halve;
+use gearcut_core::math::roots::{bisect, halve};
 use glam::DVec2;
 use std::f64::consts::PI;
 
@@ -81,6 +81,17 @@ impl<'a> Fillet<'a> {
     /// End of the parameter: the number of pieces.
     pub fn end(&self) -> f64 {
         self.pieces.len() as f64
+    }
+
+    /// Place on the normal of the pitch curve through the middle of the space.
+    pub fn middle(&self) -> f64 {
+        let curve = self.generation.linkage.curve();
+        let pitch_arc_mm = 2.0 * PI * self.generation.cutter.pitch_radius_mm / f64::from(self.generation.cutter.teeth);
+        let frame = curve.frame(curve.phi_at_arc(self.space as f64 * pitch_arc_mm));
+        let is_before = |place: f64| {
+            self.at(place).is_some_and(|(_, point_mm, _)| (point_mm - frame.point_mm).dot(frame.tangent) < 0.0)
+        };
+        bisect(is_before, 0.0, self.end())
     }
 
     /// Parameter of the linkage, point (gear frame, mm) and normal out of the gear at a place, 0 to [`Self::end`] from

@@ -190,6 +190,7 @@ pub(crate) mod tests {
             rim_mm: 0.0,
             tooth_thickness_allowance_mm: 0.0,
             center_distance_mm: None,
+            dwell_radius_mm: None,
             pitch_curve: gearcut_core::gear::PitchCurveShape::Circle,
         }
     }

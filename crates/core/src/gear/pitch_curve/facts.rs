@@ -49,14 +49,19 @@ pub(super) fn curvature(radius: &Jet<4>) -> Jet<2> {
 }
 
 impl CurveFacts {
-    pub(super) fn new(radius: impl Fn(f64) -> Jet<4>, samples: usize) -> Self {
+    /// Of a curve, or of its sector alone: then the ends of the sector are among the extremes.
+    pub(super) fn new(radius: impl Fn(f64) -> Jet<4>, samples: usize, sector_rad: Option<[f64; 2]>) -> Self {
+        let holds = |phi: f64| sector_rad.is_none_or(|[from, to]| (phi - from).rem_euclid(TURN_RAD) <= to - from);
+        let ends = || sector_rad.into_iter().flatten();
         let kappa = |phi: f64| curvature(&radius(phi));
         let extremum = |phi_rad: f64| CurvatureExtremum { phi_rad, curvature_per_mm: kappa(phi_rad).value() };
         let mut curvature_extrema: Vec<CurvatureExtremum> =
             sign_changes(|phi| kappa(phi).derivative(1), samples).iter().map(|c| extremum(c.phi_rad)).collect();
+        curvature_extrema.retain(|extremum| holds(extremum.phi_rad));
+        curvature_extrema.extend(ends().map(extremum));
         let by_curvature =
             |a: &CurvatureExtremum, b: &CurvatureExtremum| a.curvature_per_mm.total_cmp(&b.curvature_per_mm);
-        let anywhere = extremum(sample_angle_rad(1, samples));
+        let anywhere = extremum(sector_rad.map_or(sample_angle_rad(1, samples), |[from, _]| from));
         let largest_curvature = curvature_extrema.iter().copied().max_by(by_curvature).unwrap_or(anywhere);
         let smallest_curvature = curvature_extrema.iter().copied().min_by(by_curvature).unwrap_or(anywhere);
         let spread = largest_curvature.curvature_per_mm - smallest_curvature.curvature_per_mm;
@@ -68,10 +73,19 @@ impl CurveFacts {
         } else {
             smallest_curvature
         };
-        let concave_zones_rad = concave_zones(|phi| kappa(phi).value(), samples);
-        let extreme_radii = sign_changes(|phi| radius(phi).derivative(1), samples);
-        let radii =
-            || extreme_radii.iter().map(|c| radius(c.phi_rad).value()).chain([radius(anywhere.phi_rad).value()]);
+        let within = |zone: [f64; 2]| match sector_rad {
+            None => Some(zone),
+            Some([from, to]) => {
+                let turns = TURN_RAD * ((from - zone[1]) / TURN_RAD).ceil();
+                let [a, b] = [(zone[0] + turns).max(from), (zone[1] + turns).min(to)];
+                (a < b).then_some([a, b])
+            }
+        };
+        let concave_zones_rad: Vec<[f64; 2]> =
+            concave_zones(|phi| kappa(phi).value(), samples).into_iter().filter_map(within).collect();
+        let turning = sign_changes(|phi| radius(phi).derivative(1), samples);
+        let places = || turning.iter().map(|c| c.phi_rad).filter(|&phi| holds(phi)).chain(ends());
+        let radii = || places().chain([anywhere.phi_rad]).map(|phi| radius(phi).value());
         Self {
             smallest_curvature_radius_mm: 1.0 / sharpest.curvature_per_mm.abs(),
             smallest_curvature_radius_phi_rad: sharpest.phi_rad,

@@ -31,26 +31,34 @@ const CLOSING: f64 = 1e-9;
 pub(super) struct FormulaLaw {
     formula: Formula,
     meaning: FormulaMeaning,
+    /// Where the turn begins over which the formula is taken, rad.
+    start_rad: f64,
     /// Highest harmonic of the radius that counts.
     pub(super) harmonics: f64,
 }
 
 impl FormulaLaw {
     /// # Errors
-    /// A radius or a ratio that passes zero, is no number or does not come back after a turn, with the angle.
-    pub(super) fn new(formula: &Formula, meaning: FormulaMeaning) -> Result<Self, Refusal> {
-        let law = Self { formula: formula.clone(), meaning, harmonics: 1.0 };
+    /// A radius or a ratio that passes zero, is no number or does not come back after a turn, with the angle. Of a
+    /// sector, its range alone is looked at.
+    pub(super) fn new(formula: &Formula, meaning: FormulaMeaning, sector: Option<[f64; 2]>) -> Result<Self, Refusal> {
+        let [start_rad, end_rad] = sector.unwrap_or([0.0, TURN_RAD]);
+        let law = Self { formula: formula.clone(), meaning, start_rad, harmonics: 1.0 };
         let key = match meaning {
             FormulaMeaning::Radius => parameter::RADIUS_FORMULA,
             FormulaMeaning::Ratio(_) => parameter::RATIO_FORMULA,
         };
-        let angle = |i: usize| TURN_RAD * i as f64 / ANGLES as f64;
-        if let Some(i) = (0..ANGLES).find(|&i| law.fault(angle(i)).is_some()) {
-            let before = if i == 0 { 0.0 } else { angle(i - 1) };
+        let angle = |i: usize| start_rad + (end_rad - start_rad) * i as f64 / ANGLES as f64;
+        // The end of a turn is its beginning; that of a sector is looked at.
+        if let Some(i) = (0..ANGLES + usize::from(sector.is_some())).find(|&i| law.fault(angle(i)).is_some()) {
+            let before = if i == 0 { start_rad } else { angle(i - 1) };
             let phi = bisect(|phi| law.fault(phi).is_none(), before, angle(i));
             let fault = law.fault(angle(i)).unwrap_or_default();
             let problem = format!("`{}` {fault} at {:.3} deg", formula.text(), phi.to_degrees());
             return Err(Refusal::new(key, problem, law.way_out()));
+        }
+        if sector.is_some() {
+            return Ok(law);
         }
         let [start, end] = [0.0, TURN_RAD].map(|phi| formula.at::<4>(phi));
         let opens = |k: usize| {
@@ -79,7 +87,7 @@ impl FormulaLaw {
 
     /// Unit radius with its derivatives.
     pub(super) fn unit(&self, phi_rad: f64) -> Jet<4> {
-        let value = self.formula.at(phi_rad.rem_euclid(TURN_RAD));
+        let value = self.formula.at(self.start_rad + (phi_rad - self.start_rad).rem_euclid(TURN_RAD));
         match self.meaning {
             FormulaMeaning::Radius => value,
             FormulaMeaning::Ratio(kind) => (value * kind.tip_sign() + 1.0).recip(),
@@ -101,19 +109,19 @@ impl FormulaLaw {
 
     fn way_out(&self) -> &'static str {
         match self.meaning {
-            FormulaMeaning::Radius => "keep the radius above zero all round",
+            FormulaMeaning::Radius => "keep the radius above zero everywhere",
             FormulaMeaning::Ratio(GearKind::External) => {
-                "keep the ratio above zero all round: the mate would stop or turn back"
+                "keep the ratio above zero everywhere: the mate would stop or turn back"
             }
             FormulaMeaning::Ratio(GearKind::Internal) => {
-                "keep the ratio of a ring between 0 and 1 all round: it turns more slowly than the gear inside it"
+                "keep the ratio of a ring between 0 and 1 everywhere: it turns more slowly than the gear inside it"
             }
         }
     }
 }
 
 /// Number of the highest harmonic that counts, by Fourier sums over evenly spaced values.
-fn highest_harmonic(values: &[f64]) -> usize {
+pub(super) fn highest_harmonic(values: &[f64]) -> usize {
     let count = values.len();
     let waves: Vec<DVec2> =
         (0..count).map(|i| DVec2::from_angle(TURN_RAD * i as f64 / count as f64) * (2.0 / count as f64)).collect();

@@ -9,11 +9,13 @@
 
 use super::formula_law::FormulaLaw;
 use super::mate::MateLaw;
+use super::sector::{SectorLaw, UnitLaw, check_range};
 use crate::error::Refusal;
 use crate::gear::{FormulaMeaning, PitchCurveShape, TableScaling};
 use crate::math::Jet;
 use crate::math::periodic_spline::PeriodicSpline;
 use crate::parameter;
+use std::sync::Arc;
 
 /// A radius law of unit size.
 #[derive(Debug, Clone)]
@@ -26,6 +28,7 @@ pub(super) enum RadiusLaw {
     Table { spline: PeriodicSpline },
     Formula(FormulaLaw),
     Mate(Box<MateLaw>),
+    Sector(SectorLaw),
 }
 
 /// A law with its size, if one is given.
@@ -41,6 +44,21 @@ pub(super) struct SizedLaw {
 impl SizedLaw {
     /// Checks the shape's own parameters. Module, teeth and accuracy are for a mate, whose driver must close first.
     pub(super) fn new(shape: &PitchCurveShape, module_mm: f64, teeth: u32, accuracy_mm: f64) -> Result<Self, Refusal> {
+        if let PitchCurveShape::Sector { law, range_rad } = shape {
+            check_range(*range_rad)?;
+            let own = Self::over(law, Some(*range_rad), (module_mm, teeth, accuracy_mm))?;
+            let law = RadiusLaw::Sector(SectorLaw::new(Arc::new(own.law), *range_rad, teeth, own.key)?);
+            return Ok(Self { law, ..own });
+        }
+        Self::over(shape, None, (module_mm, teeth, accuracy_mm))
+    }
+
+    /// The law of a shape all round, or over a sector alone.
+    fn over(
+        shape: &PitchCurveShape,
+        sector: Option<[f64; 2]>,
+        (module_mm, teeth, accuracy_mm): (f64, u32, f64),
+    ) -> Result<Self, Refusal> {
         let sized = match shape {
             PitchCurveShape::Circle => {
                 let key = parameter::CIRCLE;
@@ -95,7 +113,7 @@ impl SizedLaw {
                 size_key: parameter::FOURIER_SIZE,
             },
             PitchCurveShape::Table { points_rad_mm, scaling } => {
-                let (spline, mean_radius_mm) = PeriodicSpline::new(points_rad_mm)?;
+                let (spline, mean_radius_mm) = PeriodicSpline::new(points_rad_mm, sector)?;
                 Self {
                     law: RadiusLaw::Table { spline },
                     size_mm: (*scaling == TableScaling::AsGiven).then_some(mean_radius_mm),
@@ -108,8 +126,21 @@ impl SizedLaw {
                     FormulaMeaning::Radius => (parameter::RADIUS_FORMULA, parameter::RADIUS_FORMULA_SIZE),
                     FormulaMeaning::Ratio(_) => (parameter::RATIO_FORMULA, parameter::RATIO_FORMULA_SIZE),
                 };
-                Self { law: RadiusLaw::Formula(FormulaLaw::new(formula, *meaning)?), size_mm: *size_mm, key, size_key }
+                Self {
+                    law: RadiusLaw::Formula(FormulaLaw::new(formula, *meaning, sector)?),
+                    size_mm: *size_mm,
+                    key,
+                    size_key,
+                }
             }
+            PitchCurveShape::Mate { .. } | PitchCurveShape::Sector { .. } if sector.is_some() => {
+                return Err(Refusal::new(
+                    parameter::SECTOR,
+                    "the law of a mate is closed all round, with the teeth of its whole turn",
+                    "write the radius or the ratio of the sector itself",
+                ));
+            }
+            PitchCurveShape::Sector { .. } => unreachable!("taken above"),
             PitchCurveShape::Mate { driver, kind } => {
                 let law = MateLaw::new(driver, *kind, module_mm, teeth, accuracy_mm)?;
                 let size_mm = Some(law.center_distance_mm());
@@ -146,9 +177,8 @@ fn below_one(key: &str, eccentricity: f64) -> Result<f64, Refusal> {
     Err(Refusal::new(key, problem, "give a value from 0 to below 1"))
 }
 
-impl RadiusLaw {
-    /// Unit radius at `phi_rad` with its derivatives with respect to phi.
-    pub(super) fn unit(&self, phi_rad: f64) -> Jet<4> {
+impl UnitLaw for RadiusLaw {
+    fn unit(&self, phi_rad: f64) -> Jet<4> {
         let wave = |order: f64| (Jet::<4>::variable(phi_rad) * order).sin_cos();
         match self {
             Self::Circle => Jet::constant(1.0),
@@ -161,21 +191,21 @@ impl RadiusLaw {
             Self::Table { spline } => spline.at(phi_rad),
             Self::Formula(law) => law.unit(phi_rad),
             Self::Mate(law) => law.unit(phi_rad),
+            Self::Sector(law) => law.unit(phi_rad),
         }
     }
 
-    /// Angles in (0, 2 pi) where the third derivative jumps.
-    pub(super) fn breaks_rad(&self) -> Vec<f64> {
+    fn breaks_rad(&self) -> Vec<f64> {
         match self {
             Self::Table { spline } => spline.knots_rad(),
             Self::Mate(law) => law.breaks_rad(),
+            Self::Sector(law) => law.breaks_rad(),
             _ => Vec::new(),
         }
     }
 
-    /// Number of samples per turn between which the curvature has no two sign changes of itself or its slope: 128 per
-    /// period of the highest harmonic that counts, 8 between knots of a table.
-    pub(super) fn samples_per_turn(&self) -> usize {
+    /// 128 per period of the highest harmonic that counts, 8 between knots of a table.
+    fn samples_per_turn(&self) -> usize {
         let periods = match self {
             Self::Circle => 1.0,
             Self::Ellipse { order, eccentricity: k } | Self::Pascal { order, eccentricity: k } => {
@@ -188,6 +218,7 @@ impl RadiusLaw {
             Self::Formula(law) => law.harmonics,
             Self::Table { spline } => return (8 * spline.knots_rad().len()).max(1024),
             Self::Mate(law) => return law.samples_per_turn().max(1024),
+            Self::Sector(law) => return law.samples_per_turn().max(1024),
         };
         ((128.0 * periods).ceil() as usize).max(1024)
     }

@@ -70,6 +70,13 @@ pub enum PitchCurveShape {
         /// External: r2 = a - r1. Internal: r2 = a + r1.
         kind: GearKind,
     },
+    /// A part of the turn with teeth; see [`super::sector`].
+    Sector {
+        /// Law over that part; its size is solved so that the part carries the teeth.
+        law: Box<PitchCurveShape>,
+        /// First and last polar angle, rad.
+        range_rad: [f64; 2],
+    },
 }
 
 /// What the values of a formula of phi are.
@@ -111,11 +118,20 @@ impl PitchCurveShape {
     /// Mean radius of the points of a table that is scaled, mm, and how far it may be.
     pub(super) fn scaled_from_mm(&self) -> Option<(f64, TableScaling)> {
         match self {
+            Self::Sector { law, .. } => law.scaled_from_mm(),
             Self::Table { points_rad_mm, scaling } if *scaling != TableScaling::AsGiven => {
                 let sum_mm: f64 = points_rad_mm.iter().map(|[_, radius_mm]| radius_mm).sum();
                 Some((sum_mm / points_rad_mm.len() as f64, *scaling))
             }
             _ => None,
+        }
+    }
+
+    /// The shape itself, or the law of a sector.
+    pub fn law(&self) -> &Self {
+        match self {
+            Self::Sector { law, .. } => law,
+            _ => self,
         }
     }
 
@@ -137,12 +153,16 @@ impl PitchCurveShape {
                 format!("Fourier series with {} harmonics", cosine.len().max(sine.len()))
             }
             Self::Table { points_rad_mm, .. } => {
-                format!("periodic spline through {} points", points_rad_mm.len())
+                format!("spline through {} points", points_rad_mm.len())
             }
             Self::Formula { formula, meaning, .. } => match meaning {
                 FormulaMeaning::Radius => format!("radius by the formula {}", formula.text()),
                 FormulaMeaning::Ratio(_) => format!("driver of the ratio {}", formula.text()),
             },
+            Self::Sector { law, range_rad } => {
+                let [from_deg, to_deg] = range_rad.map(|phi| (1e9 * phi.to_degrees()).round() / 1e9);
+                format!("sector from {from_deg} to {to_deg} deg, {}", law.words())
+            }
             Self::Mate { driver, .. } => format!("mate of {} teeth: {}", driver.teeth, driver.curve.words()),
         }
     }

@@ -66,7 +66,7 @@ pub fn deflections(
     };
     let limit_mm = LARGEST_MODULES * job.scene.gear.module_mm;
     let contours_mm = contours(job);
-    let spaces = (1..=job.scene.gear.teeth).into_par_iter();
+    let spaces = job.spaces().into_par_iter();
     let mut spaces: Vec<SpaceInWork> = spaces
         .map(|number| {
             let space = Space::new(job, &polygon, &contours_mm, number, limit_mm);

@@ -73,5 +73,5 @@ fn spaces_of(job: &ShapingJob, operation: usize, polygon: &EdgePolygon) -> Vec<u
         let near = tips_mm.iter().filter(|tip_mm| tip_mm.distance(middle_mm) < NEAR_REACHES * polygon.reach_mm);
         near.into_iter().any(|tip_mm| (tip_mm.to_angle() - from_rad).rem_euclid(TURN_RAD) < to_rad - from_rad)
     };
-    (1..=job.scene.gear.teeth).filter(holds_tip).collect()
+    job.spaces().filter(holds_tip).collect()
 }

@@ -35,7 +35,7 @@ pub struct OperationChips {
     pub strokes: Vec<StrokeChips>,
     /// Largest thickness over strokes and edge, over all cutter teeth.
     pub by_stroke: ThicknessMap,
-    /// Largest thickness over tooth spaces (1 to z) and edge.
+    /// Largest thickness over tooth spaces ([`ShapingJob::spaces`]) and edge.
     pub by_space: ThicknessMap,
 }
 
@@ -61,7 +61,7 @@ pub(super) struct SpaceChips {
 impl ChipLedger {
     /// Follows all strokes of a job; `advance` is called after every space and says whether to go on. `None`: stopped.
     pub fn new(job: &ShapingJob, advance: &(dyn Fn() -> bool + Sync)) -> Option<Self> {
-        Self::of_spaces(job, 1..=job.scene.gear.teeth, advance)
+        Self::of_spaces(job, job.spaces(), advance)
     }
 
     /// The same with the chips of these spaces alone.
@@ -89,7 +89,7 @@ impl ChipLedger {
                     enters_at_depth: operation.spec.infeed == Infeed::None,
                     strokes: vec![StrokeChips::default(); count],
                     by_stroke: map(count.min(MOST_ROWS), count.max(1) as f64 / count.clamp(1, MOST_ROWS) as f64),
-                    by_space: map(job.scene.gear.teeth as usize, 1.0),
+                    by_space: map(job.spaces().count(), 1.0),
                 }
             })
             .collect();

@@ -46,10 +46,12 @@ pub(super) fn middle_pose(job: &ShapingJob, operation: usize, stroke: usize) -> 
 /// odd and the next even crossing of a ray is material. A bore is left out: no chip reaches it.
 pub(super) fn contours(job: &ShapingJob) -> Vec<Vec<DVec2>> {
     let count = job.curve.samples_per_turn().clamp(8192, 1 << 15);
-    let closed = |at: &dyn Fn(f64) -> DVec2| (0..count).map(|i| at(TURN_RAD * i as f64 / count as f64)).collect();
-    let outline = closed(&|phi| job.blank.outline_mm(phi));
+    let circle = |radius_mm: f64| {
+        (0..count).map(|i| radius_mm * DVec2::from_angle(TURN_RAD * i as f64 / count as f64)).collect()
+    };
+    let outline = job.blank.polygon_mm(count);
     match job.blank.back {
-        Back { kind: GearKind::Internal, radius_mm } => vec![outline, closed(&|a| radius_mm * DVec2::from_angle(a))],
+        Back { kind: GearKind::Internal, radius_mm } => vec![outline, circle(radius_mm)],
         _ => vec![outline],
     }
 }

@@ -45,7 +45,11 @@ fn pitch(job: &ShapingJob, report: &GearReport) -> Option<Notice> {
     let (side, worst, single_mm) = sides.max_by(|a, b| a.2.abs().total_cmp(&b.2.abs()))?;
     let teeth = job.scene.gear.teeth;
     let tooth = worst as u32 + 1;
-    let before = if worst == 0 { teeth } else { tooth - 1 };
+    let before = match worst {
+        0 if job.curve.sector_rad().is_some() => return None,
+        0 => teeth,
+        _ => tooth - 1,
+    };
     let stroke = |tooth: u32| {
         let is_it = |flank: &&FlankReport| flank.tooth == tooth && flank.side == side;
         report.flanks.iter().find(is_it)?.own.pitch_stroke

@@ -72,7 +72,8 @@ pub struct PlacedRoom {
 }
 
 impl Survey {
-    /// Of the last of some operations, in the order in which they are cut; `teeth` of the gear.
+    /// Of the last of some operations, in the order in which they are cut; `teeth` all round, of a sector with
+    /// those of its dwell.
     ///
     /// # Panics
     /// No operation.
@@ -113,7 +114,8 @@ impl Survey {
         let clearance =
             |place: usize| Ok(self.clearance(place, &self.returning(place, back_off_mm, &law)?, Clearance::ANY));
         let period: Vec<Clearance> = self.places_of_period().map(clearance).collect::<Result<_, _>>()?;
-        let places = (0..self.room().swept.places()).step_by(STEP).zip(period.iter().cycle());
+        let all = (0..self.room().swept.places()).step_by(STEP).filter(|&place| self.is_toothed(place));
+        let places = all.zip(period.iter().cycle());
         let room = |(place, clearance): (usize, &Clearance)| {
             let phi_rad = self.room().swept.phi_rad(place);
             let (normal, centres) = (self.out_of_work(phi_rad), self.sign() * self.pose(phi_rad).center_mm);
@@ -138,10 +140,13 @@ impl Survey {
     ) -> Result<Vec<bool>, NotConverged> {
         let below = Clearance { surface_mm: least_mm, material_mm: f64::NEG_INFINITY };
         let clear = |place: usize| {
+            if !self.is_toothed(place) {
+                return Ok(true);
+            }
             let clearance = self.clearance(place, &self.returning(place, back_off_mm, &law)?, below);
             Ok(clearance.surface_mm >= least_mm)
         };
-        let period: Vec<bool> = self.places_of_period().map(clear).collect::<Result<_, _>>()?;
+        let period: Vec<bool> = self.all_places_of_period().map(clear).collect::<Result<_, _>>()?;
         Ok(period.repeat(self.room().swept.places() / STEP / period.len()))
     }
 
@@ -191,8 +196,16 @@ impl Survey {
         self.period_teeth as usize * PHASES_PER_PITCH
     }
 
-    /// Places to look at in the first period of the turn.
-    fn places_of_period(&self) -> impl IndexedParallelIterator<Item = usize> {
+    /// Places to look at in the first period of the turn; of a sector those where it has teeth.
+    fn places_of_period(&self) -> impl ParallelIterator<Item = usize> {
+        self.all_places_of_period().filter(|&place| self.is_toothed(place))
+    }
+
+    fn is_toothed(&self, place: usize) -> bool {
+        self.blank.curve().carries(self.room().swept.phi_rad(place))
+    }
+
+    fn all_places_of_period(&self) -> impl IndexedParallelIterator<Item = usize> {
         (0..self.period_places()).into_par_iter().map(|index| index * STEP)
     }
 
