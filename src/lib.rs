@@ -88,6 +88,7 @@
 //! - `measure`: what is left, in numbers
 //! - `surface`: what is left, as triangles and pictures
 //! - `gcode`: how programs are written and read
+//! - `drawn_tooth`: a tool's tooth that is drawn or measured, and the envelope of its contour
 //! - [`findings`]: what a run found, as one tree of quantities and tables
 //! - [`output`]: files, charts, tables, reports
 //! - `overlay`: two surfaces of one place, one laid over the other
@@ -132,6 +133,7 @@ cfg_if::cfg_if! {
     if #[cfg(feature = "testing")] {
         pub mod bench;
         pub mod compare;
+        pub mod drawn_tooth;
         pub mod export;
         pub mod gcode;
         pub mod influence;
@@ -155,6 +157,7 @@ cfg_if::cfg_if! {
     } else {
         mod bench;
         mod compare;
+        mod drawn_tooth;
         mod export;
         mod gcode;
         mod influence;

@@ -14,6 +14,7 @@ mod check;
 mod checks;
 pub mod draft;
 pub(crate) mod drawn_contour;
+pub(crate) mod drawn_profile;
 pub mod errors;
 mod foreign;
 mod loaded;

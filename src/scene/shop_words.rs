@@ -47,13 +47,6 @@ pub(super) fn way_out(section: &TableSection, name: &str, node: &Node) -> Option
                 .to_owned(),
         );
     }
-    if name == "profile" && section.path == "tool.hob" {
-        return Some(
-            "remove it: a hob's tooth is a rack by the keys of [tool.hob]; a contour is taken of a shaper cutter's \
-             tooth alone, by [tool.shaper_cutter.profile]"
-                .to_owned(),
-        );
-    }
     let (stem, ending) = INCHES.iter().find_map(|ending| Some((name.strip_suffix(ending)?, *ending)))?;
     let of_inch = if ending == "_mil" { 1e-3 } else { 1.0 };
     let (key, per_mm) = section.keys.iter().find_map(|key: &&Key| {

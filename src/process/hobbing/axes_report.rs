@@ -115,7 +115,7 @@ impl AxesOfOperation for HobbingAxesReport<'_> {
         let name = &spec.name;
         let mut warnings = Vec::new();
         let feed_mark_mm = self.job.feed_mark_mm(self.operation());
-        if feed_mark_mm > spec.ridge_tolerance_mm {
+        if let Some(feed_mark_mm) = feed_mark_mm.filter(|&mm| mm > spec.ridge_tolerance_mm) {
             let ratio = (spec.ridge_tolerance_mm / feed_mark_mm).sqrt();
             let [height_um, allowed_um, feed_mm] = [
                 UM_PER_MM * feed_mark_mm,

@@ -52,6 +52,11 @@ impl HobbingJob {
     /// long a chord.
     pub fn target_outline(&self, z_mm: f64, spacing_mm: f64) -> TargetOutline {
         let teeth = i64::from(self.scene.gear.teeth);
+        if let Some(rack) = &self.drawn {
+            let sections: Vec<ToothSection> =
+                (1..=teeth).into_par_iter().map(|tooth| rack.tooth_section(tooth, z_mm, spacing_mm)).collect();
+            return TargetOutline::new(sections.iter().flat_map(ToothSection::outline_mm).collect(), self.blank.back);
+        }
         // Right flanks of a space belong to the root of one tooth and to the flank of the next.
         let right_forms: Vec<FormPoint> =
             (0..=teeth).into_par_iter().map(|space| self.right_form(space, z_mm)).collect();
@@ -69,6 +74,9 @@ impl HobbingJob {
     /// The target round a tooth at `z_mm`, points about `spacing_mm` apart.
     pub fn tooth_section(&self, tooth: u32, z_mm: f64, spacing_mm: f64) -> ToothSection {
         let tooth = i64::from(tooth);
+        if let Some(rack) = &self.drawn {
+            return rack.tooth_section(tooth, z_mm, spacing_mm);
+        }
         let [before, behind] = [tooth - 1, tooth].map(|space| self.right_form(space, z_mm));
         self.tooth_outline(tooth, [&before, &behind], z_mm, spacing_mm)
     }

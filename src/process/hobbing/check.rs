@@ -1,5 +1,6 @@
 //! What a hobbing scene means: hob, teeth, operations.
 
+use crate::drawn_tooth::drawn_words;
 use crate::findings::Notice;
 use crate::number_text::{plain, significant};
 use crate::output::text::Sheet;
@@ -59,6 +60,9 @@ fn print_hob(sheet: &mut Sheet, job: &HobbingJob) {
     sheet.line("thread", format!("{starts}, {hand}-hand, lead angle {:.4} deg", hob.lead_angle_rad.to_degrees()));
     sheet
         .line("diameters", format!("pitch {:.3} mm, tip {:.3} mm", 2.0 * hob.pitch_radius_mm, 2.0 * hob.tip_radius_mm));
+    if let Some(tooth) = hob.drawn() {
+        sheet.line("tooth", drawn_words(tooth));
+    }
     let (first, last) = (&hob.teeth[0], &hob.teeth[hob.teeth.len() - 1]);
     sheet.line(
         "teeth",

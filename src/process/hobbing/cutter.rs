@@ -59,7 +59,11 @@ impl<'a> HobCutter<'a> {
     /// The hob generates no flank there.
     pub fn target(&self, tooth: u32, side: Side) -> Result<&FlankPatch, Refusal> {
         let job = self.job;
-        let find = || FlankPatch::new(&job.target, &job.blank, tooth, side, job.scene.gear.face_width_mm);
+        let face_width_mm = job.scene.gear.face_width_mm;
+        let find = || match &job.drawn {
+            Some(rack) => FlankPatch::drawn(rack, tooth, side, face_width_mm),
+            None => FlankPatch::new(&job.target, &job.blank, tooth, side, face_width_mm),
+        };
         job.targets.of(tooth, side, find)
     }
 

@@ -9,19 +9,25 @@
 //! in any section: near the ends of an undercut tooth a little flank below is left out) to the blank's outline, by
 //! shares of the roll between them: the profile's length is no smooth coordinate where the envelope nearly stands
 //! still.
+//!
+//! The flank of a drawn tooth is no polynomial: it is the curve through its envelope's points, by shares of its length,
+//! turned along the tooth ([`super::drawn_rack`]).
 
 mod chebyshev;
 mod source;
 
+use super::drawn_rack::DrawnRack;
 use super::rack_generation::{FormPoint, RackGeneration};
+use crate::drawn_tooth::flank::DrawnFlank;
 use chebyshev::{PARTS, clenshaw};
 use gearcut_core::dexel::Ray;
 use gearcut_core::error::Refusal;
 use gearcut_core::gear::blank::Blank;
 use gearcut_core::math::roots::regula_falsi;
 use gearcut_core::terms::Side;
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 use source::{Source, error_mm};
+use std::sync::Arc;
 
 /// Largest distance of the patch from the flank, mm: a hundredth of what the dexels resolve.
 const TOLERANCE_MM: f64 = 1e-9;
@@ -55,12 +61,33 @@ pub struct FlankPatch {
     /// Places of the contact on the line of action at both ends of the middle section's profile, mm from the pitch
     /// point towards the tip.
     on_line_of_action_mm: [f64; 2],
+    /// The curve itself where a drawn tooth generates it.
+    drawn: Option<DrawnPatch>,
+}
+
+/// The flank of a drawn tooth.
+#[derive(Debug, Clone)]
+struct DrawnPatch {
+    flank: Arc<DrawnFlank>,
+    turn_rad_per_mm: f64,
+    /// Rolls at equal shares of the profile, mm.
+    rolls_mm: Vec<f64>,
 }
 
 /// One section of a patch: polynomials along the profile.
 #[derive(Debug, Clone)]
-pub struct PatchSection {
-    coefficients: Vec<[f64; PARTS]>,
+pub enum PatchSection {
+    /// Polynomials along the profile.
+    Polynomials(Vec<[f64; PARTS]>),
+    /// The curve of a drawn tooth.
+    Drawn {
+        /// It.
+        flank: Arc<DrawnFlank>,
+        /// Its turn along the tooth, rad/mm.
+        turn_rad_per_mm: f64,
+        /// Its place along the tooth, mm.
+        z_mm: f64,
+    },
 }
 
 impl FlankPatch {
@@ -113,6 +140,7 @@ impl FlankPatch {
             error_mm: 0.0,
             lengths_mm: source.lengths_mm(tip_roll_mm),
             on_line_of_action_mm,
+            drawn: None,
         };
         let checks = source.checks();
         let mut terms = TERMS[0];
@@ -135,10 +163,45 @@ impl FlankPatch {
         ))
     }
 
+    /// Patch of the flank that a drawn tooth generates.
+    ///
+    /// # Errors
+    /// The contour does not shape it.
+    pub fn drawn(rack: &DrawnRack, tooth: u32, side: Side, face_width_mm: f64) -> Result<Self, Refusal> {
+        let space = i64::from(tooth) - i64::from(side == Side::Right);
+        let flank = Arc::new(rack.flank(space, side)?);
+        let undercut = rack.is_undercut(space, side);
+        let form = flank.at_arc(0.0);
+        let form_height_mm = rack.blank().height(form.point_mm, form.phi_rad).0;
+        let length_mm = flank.length_mm();
+        let panel_mm = |i: usize| length_mm * i as f64 / PANELS as f64;
+        let roll_mm = |i: usize| {
+            let at = flank.at_arc(panel_mm(i));
+            (at.point_mm - rack.pitch_point_mm(at.phi_rad)).dot(at.normal)
+        };
+        let rolls_mm: Vec<f64> = (0..=PANELS).map(roll_mm).collect();
+        let drawn = DrawnPatch { flank: flank.clone(), turn_rad_per_mm: rack.turn_rad_per_mm(), rolls_mm };
+        Ok(Self {
+            coefficients: Vec::new(),
+            face_width_mm,
+            form_roll_mm: drawn.rolls_mm[0],
+            form_height_mm,
+            middle_form: FormPoint { roll_mm: drawn.rolls_mm[0], height_mm: form_height_mm, undercut },
+            undercut,
+            error_mm: 0.0,
+            lengths_mm: (0..=PANELS).map(panel_mm).collect(),
+            on_line_of_action_mm: [drawn.rolls_mm[0], drawn.rolls_mm[PANELS]],
+            drawn: Some(drawn),
+        })
+    }
+
     /// Section at `z_mm` (from the middle of the face).
     pub fn section(&self, z_mm: f64) -> PatchSection {
+        if let Some(DrawnPatch { flank, turn_rad_per_mm, .. }) = &self.drawn {
+            return PatchSection::Drawn { flank: flank.clone(), turn_rad_per_mm: *turn_rad_per_mm, z_mm };
+        }
         let y = 2.0 * z_mm / self.face_width_mm;
-        PatchSection { coefficients: self.coefficients.iter().map(|along| clenshaw(along, y)).collect() }
+        PatchSection::Polynomials(self.coefficients.iter().map(|along| clenshaw(along, y)).collect())
     }
 }
 
@@ -151,6 +214,11 @@ impl FlankPatch {
     /// Roll ([`crate::job::GearJob::rolls_mm`]) at which the profile of the middle section is touched where it has a
     /// length, both in mm.
     pub fn roll_mm(&self, length_mm: f64) -> f64 {
+        if let Some(DrawnPatch { rolls_mm, .. }) = &self.drawn {
+            let place = self.share_at(length_mm) * PANELS as f64;
+            let panel = (place as usize).min(PANELS - 1);
+            return rolls_mm[panel] + (place - panel as f64) * (rolls_mm[panel + 1] - rolls_mm[panel]);
+        }
         let [form_mm, tip_mm] = self.on_line_of_action_mm;
         form_mm + self.share_at(length_mm) * (tip_mm - form_mm)
     }
@@ -175,6 +243,9 @@ impl FlankPatch {
             return 0.0;
         }
         let length_mm = length_mm.min(self.length_mm());
+        if self.drawn.is_some() {
+            return length_mm / self.length_mm();
+        }
         let panel = self.lengths_mm.partition_point(|&l| l <= length_mm).clamp(1, PANELS) - 1;
         let at = |i: usize| self.lengths_mm[i];
         let first = panel.clamp(1, PANELS - 1) - 1;
@@ -190,8 +261,20 @@ impl FlankPatch {
 impl PatchSection {
     /// Ray at a share of the roll, 0 at the beginning and 1 at the tip.
     pub fn ray(&self, share: f64) -> Ray {
-        let [x, y, z, nx, ny, nz] = clenshaw(&self.coefficients, 2.0 * share - 1.0);
-        Ray { origin_mm: DVec3::new(x, y, z), normal: DVec3::new(nx, ny, nz) }
+        match self {
+            Self::Polynomials(coefficients) => {
+                let [x, y, z, nx, ny, nz] = clenshaw(coefficients, 2.0 * share - 1.0);
+                Ray { origin_mm: DVec3::new(x, y, z), normal: DVec3::new(nx, ny, nz) }
+            }
+            Self::Drawn { flank, turn_rad_per_mm, z_mm } => {
+                let at = flank.at_arc(share * flank.length_mm());
+                let turn = DVec2::from_angle(turn_rad_per_mm * z_mm);
+                let (point, normal) = (turn.rotate(at.point_mm), turn.rotate(at.normal));
+                // The flank holds the tooth trace: along it points turn about the axis.
+                let lean = -turn_rad_per_mm * normal.dot(point.perp());
+                Ray { origin_mm: point.extend(*z_mm), normal: normal.extend(lean).normalize() }
+            }
+        }
     }
 }
 

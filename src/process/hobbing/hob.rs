@@ -19,6 +19,9 @@
 //! thread; in the coordinates (distance from the axis, place along it) of such a rake face all axial lengths are
 //! cos^2(lambda) of those above.
 //!
+//! **Drawn teeth.** A contour of the basic rack in the normal section takes the place of its straight flanks, and its
+//! edge in the rake face is found from that ([`drawn`]).
+//!
 //! **Blade frame.** Origin on the hob's axis, x radially through the tooth's middle, y along -z of the tool: the left
 //! flank has y > 0 and cuts left flanks of the gear.
 //!
@@ -30,18 +33,22 @@
 //! while lead and axial lengths stay: the pitch cylinder on which the thread is right shrinks with it, and a ZI hob is
 //! then no longer quite ZI. The head angle stays that of the new hob.
 
+mod drawn;
 mod edge;
 
-use crate::process::hobbing::scene::model;
-use crate::process::hobbing::scene::model::{GashForm, HobSize};
+use crate::drawn_tooth::{ContourPlace, DrawnTooth, TeethOn};
+use crate::process::hobbing::scene::model::{GashForm, HobSize, Worm};
+use crate::process::hobbing::scene::{PROFILE, model};
+use drawn::DrawnThread;
 use edge::{RakeFlank, tooth_edge};
 use gearcut_core::error::Refusal;
 use gearcut_core::frame::Rigid3;
 use gearcut_core::tool::blade_edges::BladeEdges;
 use gearcut_core::tool::edge::Edge;
 use gearcut_core::tool::{CuttingTool, SpatialTool};
-use glam::{DMat3, DVec3};
+use glam::{DMat3, DVec2, DVec3};
 use std::f64::consts::{PI, TAU};
+use std::sync::Arc;
 
 /// Largest lead angle taken: beyond it a hob is a worm gear's pinion, and tables and formulas of hobs do not hold.
 const LARGEST_LEAD_ANGLE_RAD: f64 = 0.35;
@@ -55,6 +62,14 @@ const LEAST_ROOT_OVER_BASE: f64 = 1.05;
 /// Share of the root radius by which relief lowers a tooth at most: with relief angles of some 10 deg and gashes 30 deg
 /// apart it is a tenth.
 const DEEPEST_RELIEF: f64 = 0.25;
+/// Smallest root radius of a drawn tooth as a share of the pitch radius.
+const LEAST_DRAWN_ROOT: f64 = 0.25;
+/// Normals of a drawn rack whose part towards the tip is smaller touch at no finite place: half a degree and a bit.
+/// Near the pitch line, where cycloids run square to it, the gap that is left has a length of a fiftieth of the
+/// contour's radius of curvature, and closes within 0.3 um at 5 mm.
+pub(super) const LEAST_SLOPE: f64 = 0.01;
+/// Chords by which the thickness of a drawn tooth is told, mm.
+const OUTLINE_CHORD_MM: f64 = 1e-3;
 /// A hob ready to cut.
 #[derive(Debug, Clone)]
 pub struct Hob {
@@ -85,8 +100,21 @@ pub struct Hob {
     /// Teeth in blade order.
     pub teeth: Vec<HobTooth>,
     edges: BladeEdges,
-    flank: RakeFlank,
+    flank: HobFlank,
     rake_twist_rad_per_mm: f64,
+}
+
+/// What gives a tooth its thickness.
+#[derive(Debug, Clone)]
+enum HobFlank {
+    /// The flank of a worm.
+    Worm(RakeFlank),
+    /// A contour.
+    Drawn {
+        tooth: Arc<DrawnTooth>,
+        /// Left half of the edge by chords, from the tip on.
+        left_mm: Vec<DVec2>,
+    },
 }
 
 /// Place of one tooth.
@@ -151,9 +179,21 @@ impl Hob {
         let lead_mm = starts * axial_pitch_mm;
         let parameter = lead_mm / TAU;
         let base_radius_mm = parameter / (cos_lead * alpha.cos()).acos().tan();
-        let new_tip_radius_mm = new_pitch_radius_mm + spec.addendum_coefficient * m;
-        let root_radius_mm = new_pitch_radius_mm - spec.dedendum_coefficient * m;
-        if root_radius_mm <= LEAST_ROOT_OVER_BASE * base_radius_mm {
+        let drawn = drawn_tooth(spec, m)?;
+        let [dedendum_mm, addendum_mm] =
+            drawn.as_ref().map_or([spec.dedendum_coefficient * m, spec.addendum_coefficient * m], |drawn| {
+                [-drawn.reach_mm[0], drawn.reach_mm[1]]
+            });
+        let new_tip_radius_mm = new_pitch_radius_mm + addendum_mm;
+        let root_radius_mm = new_pitch_radius_mm - dedendum_mm;
+        if drawn.is_some() && root_radius_mm < LEAST_DRAWN_ROOT * new_pitch_radius_mm {
+            return Err(Refusal::new(
+                size_key,
+                format!("the drawn tooth leaves a root radius of {root_radius_mm:.3} mm"),
+                "use a larger reference diameter",
+            ));
+        }
+        if drawn.is_none() && root_radius_mm <= LEAST_ROOT_OVER_BASE * base_radius_mm {
             return Err(Refusal::new(
                 size_key,
                 format!(
@@ -180,7 +220,7 @@ impl Hob {
             GashForm::Axial => (1.0, 0.0),
             GashForm::Helical => (cos_lead * cos_lead, spec.hand.sign() * tan_lead / new_pitch_radius_mm),
         };
-        let flank = RakeFlank {
+        let worm = RakeFlank {
             worm: spec.worm,
             reference_radius_mm: new_pitch_radius_mm,
             half_mm: 0.5 * (0.5 * PI * m - spec.thinning_mm) / cos_lead,
@@ -192,8 +232,25 @@ impl Hob {
             relief: None,
         };
         let tip_radius_mm = new_tip_radius_mm - spec.regrind_mm;
-        let (segments, flank_end_radius_mm) =
-            tooth_edge(spec, &flank, [root_radius_mm, new_tip_radius_mm], scale * axial_pitch_mm, m, cos_lead)?;
+        let (edge, flank, flank_end_radius_mm) = if let Some(tooth) = drawn {
+            let thread = DrawnThread {
+                generates: spec.worm == Worm::Involute,
+                pitch_radius_mm: new_pitch_radius_mm,
+                parameter_mm_per_rad: parameter,
+                lead_angle_rad,
+                scale,
+                regrind_mm: spec.regrind_mm,
+            };
+            let edge = thread.edge(&tooth)?;
+            let mut left_mm = edge.points_mm(OUTLINE_CHORD_MM);
+            left_mm.retain(|at| at.y >= 0.0);
+            (edge, HobFlank::Drawn { tooth: Arc::new(tooth), left_mm }, tip_radius_mm)
+        } else {
+            let ends_mm = [root_radius_mm, new_tip_radius_mm];
+            let (segments, flank_end_radius_mm) =
+                tooth_edge(spec, &worm, ends_mm, scale * axial_pitch_mm, m, cos_lead)?;
+            (Edge::new(segments), HobFlank::Worm(worm), flank_end_radius_mm)
+        };
 
         let step_mm = scale * lead_mm / f64::from(spec.gashes);
         let hand = spec.hand.sign();
@@ -229,21 +286,41 @@ impl Hob {
             length_mm: spec.length_mm,
             flank_end_radius_mm,
             teeth,
-            edges: BladeEdges::shared(Edge::new(segments)),
+            edges: BladeEdges::shared(edge),
             flank,
             rake_twist_rad_per_mm,
         })
     }
 
     /// Half the thickness of a tooth in its rake face at a distance from the axis: y of the left flank, analytic, mm.
+    /// That of a drawn tooth is the largest at that distance, by chords of its edge; 0 where it has none.
     pub fn half_thickness_mm(&self, radius_mm: f64) -> f64 {
-        self.flank.half_and_slope(radius_mm + self.flank.regrind_mm)[0]
+        match &self.flank {
+            HobFlank::Worm(flank) => flank.half_and_slope(radius_mm + flank.regrind_mm)[0],
+            HobFlank::Drawn { left_mm, .. } => {
+                let at = |pair: &[DVec2]| {
+                    let share = (radius_mm - pair[0].x) / (pair[1].x - pair[0].x);
+                    (0.0..=1.0).contains(&share).then(|| pair[0].y + share * (pair[1].y - pair[0].y))
+                };
+                left_mm.windows(2).filter_map(at).fold(0.0, f64::max)
+            }
+        }
     }
 
-    /// First and second derivative of that half thickness over the distance from the axis, 1 and 1/mm.
-    pub fn flank_slope_and_bend(&self, radius_mm: f64) -> [f64; 2] {
-        let new_mm = radius_mm + self.flank.regrind_mm;
-        [self.flank.half_and_slope(new_mm)[1], self.flank.bend_per_mm(new_mm)]
+    /// First and second derivative of that half thickness over the distance from the axis, 1 and 1/mm; none of a drawn
+    /// tooth.
+    pub fn flank_slope_and_bend(&self, radius_mm: f64) -> Option<[f64; 2]> {
+        let HobFlank::Worm(flank) = &self.flank else { return None };
+        let new_mm = radius_mm + flank.regrind_mm;
+        Some([flank.half_and_slope(new_mm)[1], flank.bend_per_mm(new_mm)])
+    }
+
+    /// The tooth, where it is drawn: the basic rack in the normal section.
+    pub fn drawn(&self) -> Option<&Arc<DrawnTooth>> {
+        match &self.flank {
+            HobFlank::Worm(_) => None,
+            HobFlank::Drawn { tooth, .. } => Some(tooth),
+        }
     }
 
     /// Distance between teeth that follow each other along a thread, along the axis, mm.
@@ -253,6 +330,16 @@ impl Hob {
             .find(|w| w[0].start == w[1].start)
             .map_or(self.lead_mm / f64::from(self.gashes), |w| w[0].axial_mm - w[1].axial_mm)
     }
+}
+
+/// The tooth of a hob whose contour the scene names.
+fn drawn_tooth(spec: &model::HobSpec, module_mm: f64) -> Result<Option<DrawnTooth>, Refusal> {
+    let Some(profile) = &spec.profile else { return Ok(None) };
+    let place = ContourPlace { section: PROFILE, pitch: TeethOn::Line { pitch_mm: PI * module_mm } };
+    let tooth = DrawnTooth::read(&profile.file, place, profile.tolerance_mm)?;
+    let of = ("tool.hob", profile.file.as_path());
+    tooth.refuse_other_addendum(of, tooth.reach_mm[1], 0.0, spec.addendum_coefficient, module_mm)?;
+    Ok(Some(tooth))
 }
 
 impl CuttingTool for Hob {

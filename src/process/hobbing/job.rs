@@ -9,6 +9,7 @@ use crate::material::CuttingForce;
 use crate::process::hobbing::Hob;
 use crate::process::hobbing::actual::ActualHobbing;
 use crate::process::hobbing::commanded::{HobbingCommand, HobbingProgram, program_of};
+use crate::process::hobbing::drawn_rack::DrawnRack;
 use crate::process::hobbing::kept::{self, Kept, KeptTargets};
 use crate::process::hobbing::linkage::{FeedPlan, HobbingGeometry, HobbingLaw, HobbingLinkage, feed_marks};
 use crate::process::hobbing::rack_generation::{Rack, RackGeneration};
@@ -83,6 +84,8 @@ pub struct HobbingJob {
     pub operations: Vec<PreparedHobbing>,
     /// What the finishing operation leaves in the limit of many gashes and a fine feed.
     pub target: RackGeneration,
+    /// The same where the hob's tooth is drawn, and the rack above has its heights and the nominal angle alone.
+    pub drawn: Option<DrawnRack>,
     kept: OnceLock<Result<Kept, Refusal>>,
     pub(super) targets: KeptTargets,
 }
@@ -115,13 +118,33 @@ impl HobbingJob {
         let shift_mm = gear.profile_shift_coefficient * gear.module_mm;
         let allowance_mm =
             shift_mm + gear.tooth_thickness_allowance_mm / (2.0 * gear.transverse_pressure_angle_rad().tan());
+        let finishing_mm = specs.last().map_or(0.0, |spec| spec.offset_mm) + allowance_mm;
+        let rack = rack(gear, &hob, tool.tip_radius_mm, tool.thinning_mm).pulled_back(finishing_mm);
+        // The roots of the hob's teeth lie on a line that rolls along over the pitch curve, as its tips' does under it.
+        let deepest_mm = specs.iter().map(|spec| spec.offset_mm).fold(f64::INFINITY, f64::min) + allowance_mm;
+        let mut blank = stock.clone();
+        if hob.drawn().is_none() {
+            blank.addendum_mm = stock.addendum_mm.min(tool.dedendum_coefficient * gear.module_mm + deepest_mm);
+        }
+        let target = RackGeneration { curve: curve.clone(), rack };
+        let drawn = hob
+            .drawn()
+            .map(|tooth| DrawnRack::new(tooth.clone(), target.clone(), finishing_mm, &blank, gear.teeth))
+            .transpose()?;
+        let contact_x_mm = match &drawn {
+            Some(rack) => rack.contact_reach_mm(gear.teeth),
+            None => {
+                let height_mm = (hob.tip_radius_mm - hob.pitch_radius_mm).max(gear.addendum_mm());
+                height_mm / gear.transverse_pressure_angle_rad().tan()
+            }
+        };
         let (mut operations, mut start_s) = (Vec::new(), 0.0);
         for spec in specs {
             let offset_mm = spec.offset_mm + allowance_mm;
             let mut geometry = HobbingGeometry::new(&hob, gear.helix_angle_rad, gear.hand.sign());
             geometry.head_angle_rad = spec.head_angle_rad.unwrap_or(geometry.head_angle_rad);
             let cycle_s = curve.perimeter_mm() / (geometry.arc_per_hob_rad_mm() * spec.hob_speed_rad_per_s);
-            let plan = FeedPlan::new(spec, offset_mm, &hob, &geometry, gear, &curve, cycle_s)?;
+            let plan = FeedPlan::new(spec, [offset_mm, contact_x_mm], &hob, &geometry, gear, &curve, cycle_s)?;
             let linkage =
                 HobbingLinkage::new(curve.clone(), geometry, law(spec), spec.hob_speed_rad_per_s, &plan.path)?;
             let program = spec.program.as_deref().map(|path| program_of(path, &spec.name, &linkage)).transpose()?;
@@ -130,13 +153,6 @@ impl HobbingJob {
             start_s += commanded.end_s();
             operations.push(PreparedHobbing { spec: spec.clone(), offset_mm, plan, linkage, program, actual });
         }
-        let finishing_mm = operations.last().map_or(0.0, |operation| operation.offset_mm);
-        let rack = rack(gear, &hob, tool.tip_radius_mm, tool.thinning_mm).pulled_back(finishing_mm);
-        // The roots of the hob's teeth lie on a line that rolls along over the pitch curve, as its tips' does under it.
-        let deepest_mm = operations.iter().map(|operation| operation.offset_mm).fold(f64::INFINITY, f64::min);
-        let mut blank = stock.clone();
-        blank.addendum_mm = stock.addendum_mm.min(tool.dedendum_coefficient * gear.module_mm + deepest_mm);
-        let target = RackGeneration { curve: curve.clone(), rack };
         Ok(Self {
             scene: scene.clone(),
             hob_spec: tool.clone(),
@@ -151,6 +167,7 @@ impl HobbingJob {
             blank,
             operations,
             target,
+            drawn,
             kept: OnceLock::new(),
             targets: KeptTargets::new(gear.teeth),
         })
@@ -163,7 +180,12 @@ impl HobbingJob {
     /// As for [`Self::new`].
     pub fn sharing_targets(&self, scene: &Scene) -> Result<Self> {
         let mut job = Self::new(scene)?;
-        if self.scene.gear == job.scene.gear && self.target.rack == job.target.rack {
+        let is_same_tooth = match (&self.drawn, &job.drawn) {
+            (None, None) => true,
+            (Some(own), Some(other)) => own.generates_as(other),
+            _ => false,
+        };
+        if self.scene.gear == job.scene.gear && self.target.rack == job.target.rack && is_same_tooth {
             job.targets = self.targets.clone();
         }
         Ok(job)
@@ -195,8 +217,8 @@ impl HobbingJob {
     }
 
     /// Height of the highest ridge that the slide's feed leaves in an operation, mm: at the pitch line or at the tip,
-    /// on either flank, where the pitch curve bends most or least ([`feed_marks`]).
-    pub fn feed_mark_mm(&self, operation: &PreparedHobbing) -> f64 {
+    /// on either flank, where the pitch curve bends most or least ([`feed_marks`]); none of a drawn tooth.
+    pub fn feed_mark_mm(&self, operation: &PreparedHobbing) -> Option<f64> {
         let facts = self.curve.facts();
         let feed_mm = operation.plan.slide_feeds_mm.into_iter().fold(0.0, f64::max);
         let mut highest_mm = 0.0_f64;
@@ -210,21 +232,24 @@ impl HobbingJob {
                         height_mm,
                     };
                     let geometry = operation.linkage.geometry();
-                    highest_mm = highest_mm.max(feed_marks::ridge_mm(&self.hob, geometry, &contact, feed_mm));
+                    highest_mm = highest_mm.max(feed_marks::ridge_mm(&self.hob, geometry, &contact, feed_mm)?);
                 }
             }
         }
-        highest_mm
+        Some(highest_mm)
     }
 
     /// Height of the generating marks at the pitch line where the curve bends by `curvature_per_mm`: consecutive gashes
     /// leave facets of the arc ds = K pi m_n / (gashes cos beta), ridges ds^2 sin(alpha_t) cos(beta_b) / (8 rho) normal
-    /// to the flank, mm.
-    pub fn generating_mark_mm(&self, curvature_per_mm: f64) -> f64 {
+    /// to the flank, mm; none of a drawn tooth, whose flank has its own pressure angle everywhere.
+    pub fn generating_mark_mm(&self, curvature_per_mm: f64) -> Option<f64> {
+        if self.drawn.is_some() {
+            return None;
+        }
         let gear = &self.scene.gear;
         let arc_mm = self.gash_arc_mm();
         let cos_base = (1.0 - (gear.helix_angle_rad.sin() * gear.pressure_angle_rad.cos()).powi(2)).sqrt();
-        arc_mm * arc_mm * gear.transverse_pressure_angle_rad().sin() * cos_base * curvature_per_mm / 8.0
+        Some(arc_mm * arc_mm * gear.transverse_pressure_angle_rad().sin() * cos_base * curvature_per_mm / 8.0)
     }
 
     /// Arc of the pitch curve from one gash to the next, mm; the same for every linkage, because hob and work are

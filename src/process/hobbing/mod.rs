@@ -6,6 +6,7 @@ pub mod blank;
 pub mod check;
 pub mod commanded;
 pub mod cutter;
+pub mod drawn_rack;
 pub mod flank_patch;
 pub mod foreseen;
 pub mod foreseen_chips;

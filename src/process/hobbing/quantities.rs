@@ -7,6 +7,8 @@ use crate::findings::{QuantityGroup, rows};
 pub const NOT_NAMED: &str = "not named: 5 % of the profile are left out";
 /// A number that could not be computed.
 pub const NOT_FINITE: &str = "no finite number was computed";
+/// A hob whose tooth is drawn.
+pub const DRAWN_TOOTH: &str = "the hob's tooth is drawn: its marks follow no law of straight racks";
 /// An operation without chips.
 pub const NOTHING: &str = "the operation or the tooth takes nothing";
 /// A point of a curve that was not cut.
@@ -39,10 +41,10 @@ rows! {
     FEED_MARK: "feed_mark_closed_form", "um",
         "highest ridge between two feeds of the last operation, f^2 / (8 cos^2 beta) (Q_TT - Q_Tc^2 / Q_cc), Q the gap \
          of one gash, T the tooth trace, c the row of gashes"
-        => titled("feed mark, closed form"), symbol("δ_x");
+        => titled("feed mark, closed form"), symbol("δ_x"), or(&[DRAWN_TOOTH]);
     GENERATING_MARK: "generating_mark_closed_form", "um",
         "arc per gash squared times sin(alpha_t) cos(beta_b) / (8 rho) where the pitch curve bends most"
-        => titled("generating mark, closed form"), symbol("δ_y");
+        => titled("generating mark, closed form"), symbol("δ_y"), or(&[DRAWN_TOOTH]);
 }
 
 rows! {

@@ -59,7 +59,7 @@ pub fn page(
 ) -> Result<Page> {
     let job = cutter.job;
     let mut deviations = deviations::section(charts.inspection);
-    deviations.blocks.push(Block::Note(probe_words(job)));
+    deviations.blocks.extend(probe_words(job).map(Block::Note));
     let mut sections = vec![deviations];
     sections.extend(load_section(found, charts.loads, charts.forces));
     sections.extend(wear_section(found, charts.wear));
@@ -106,15 +106,15 @@ pub fn inspection<'a>(cutter: &HobCutter, gear: &'a HobbedGear, verdict: &'a Gea
 }
 
 /// What feed marks alone make of the runout.
-fn probe_words(job: &HobbingJob) -> String {
-    let feed_um = UM_PER_MM * job.feed_mark_mm(job.finishing());
-    format!(
+fn probe_words(job: &HobbingJob) -> Option<String> {
+    let feed_um = UM_PER_MM * job.feed_mark_mm(job.finishing())?;
+    Some(format!(
         "Runout of a perfect machine is feed marks: the probe meets a flank on a crest or in a valley, up to {} µm \
         apart, and goes in by that over sin αn, up to {} µm. A ball of 2 mm on a measuring machine does the same: the \
         valleys of a feed are far wider than it. A finer feed lowers both with its square.",
         significant(feed_um, 3),
         significant(feed_um / job.scene.gear.pressure_angle_rad.sin(), 3)
-    )
+    ))
 }
 
 fn five_curves(chart: LineChart) -> PageSection {

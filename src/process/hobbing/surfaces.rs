@@ -59,6 +59,9 @@ impl GearJob for HobCutter<'_> {
     /// the work; where the shift crosses the profile, the feed still is the period along the tooth.
     fn mark_spacing_mm(&self) -> Option<[f64; 2]> {
         let job = self.job;
+        if job.drawn.is_some() {
+            return None;
+        }
         let operation = job.finishing();
         let side = Side::Left;
         let marks = Marks { linkage: &operation.linkage, target: &job.target, hob: &job.hob, side };
@@ -121,7 +124,8 @@ impl CylindricalGear for HobCutter<'_> {
     }
 
     fn round_gear(&self) -> Result<Option<RoundGear>> {
-        if !is_round(&self.job.curve) {
+        // Sizes of involute teeth: a drawn tooth cuts others.
+        if !is_round(&self.job.curve) || self.job.drawn.is_some() {
             return Ok(None);
         }
         let (gear, rack) = (&self.job.scene.gear, &self.job.target.rack);
@@ -283,7 +287,10 @@ impl HobCutter<'_> {
         let job = self.job;
         let after = space % job.scene.gear.teeth + 1;
         let starts = [self.target(space, Side::Left)?.form_roll_mm, self.target(after, Side::Right)?.form_roll_mm];
-        let root = |z_mm: f64, count| job.target.root(&job.blank, i64::from(space), starts, z_mm, count);
+        let root = |z_mm: f64, count| match &job.drawn {
+            Some(rack) => rack.root(i64::from(space), z_mm, count),
+            None => job.target.root(&job.blank, i64::from(space), starts, z_mm, count),
+        };
         let length_mm = root(0.0, 2)[1].arc_mm;
         let count = (length_mm / spacing_mm).ceil().max(8.0) as usize + 1;
         if job.target.is_straight() {

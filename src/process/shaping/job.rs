@@ -5,6 +5,7 @@
 //! does not grow with the number of teeth; of every tooth only the target is kept. The last operation is the finishing
 //! one: its continuous envelope is the target.
 
+use crate::drawn_tooth::envelope::DrawnSpaces;
 use crate::machine_errors::Deflection;
 use crate::material::EdgeForce;
 use crate::process::shaping::ShaperCutter;
@@ -18,7 +19,6 @@ use crate::process::shaping::motion::returns::motion::RamTimes;
 use crate::process::shaping::motion::returns::survey::Survey;
 use crate::process::shaping::scene::model::{self, GcodeDialect, Machine, Operation, Shaping};
 use crate::process::shaping::target::TargetFlank;
-use crate::process::shaping::target::envelope::DrawnSpaces;
 use crate::process::shaping::target::fillet::Fillet;
 use crate::process::shaping::target::generation::Generation;
 use crate::process::shaping::target::tooth_target::ToothTarget;

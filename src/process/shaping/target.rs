@@ -7,16 +7,15 @@
 //! Flanks of drawn teeth are curves through points ([`drawn`]).
 
 pub mod drawn;
-pub mod envelope;
 pub mod fillet;
 pub mod generation;
 pub mod tip_relief;
 pub mod tooth_target;
 pub mod undercut;
 
+use crate::drawn_tooth::envelope::SpaceProfile;
+use crate::drawn_tooth::flank::DrawnFlank;
 use crate::measure::crossing::Crossing;
-use crate::process::shaping::target::drawn::DrawnFlank;
-use crate::process::shaping::target::envelope::SpaceProfile;
 use crate::process::shaping::target::fillet::boundary;
 use crate::process::shaping::target::generation::{FlankContact, Generation};
 use gearcut_core::error::Refusal;
@@ -290,7 +289,7 @@ impl TargetFlank {
 
     /// Contact at the form point: what [`Self::at_arc`] gives at 0, without any arc.
     pub fn form_contact(&self) -> FlankContact {
-        self.drawn.as_ref().map_or_else(|| self.contact(self.phi_form), |drawn| drawn.at_arc(0.0))
+        self.drawn.as_ref().map_or_else(|| self.contact(self.phi_form), |drawn| FlankContact::drawn(drawn.at_arc(0.0)))
     }
 
     /// Contact at a polar angle between form point and tip.
@@ -312,7 +311,7 @@ impl TargetFlank {
     /// Contact at an arc length from the form point (clamped to the flank).
     pub fn at_arc(&self, arc_mm: f64) -> FlankContact {
         if let Some(drawn) = &self.drawn {
-            return drawn.at_arc(arc_mm);
+            return FlankContact::drawn(drawn.at_arc(arc_mm));
         }
         let FlankArcs { ends_mm, speeds } = self.arcs();
         let arc_mm = arc_mm.clamp(0.0, ends_mm[PANELS]);

@@ -3,6 +3,7 @@
 
 use crate::fixtures::oracle_cases::*;
 use crate::fixtures::parity::*;
+use crate::hobbing::drawn_teeth::cycloid_job;
 use gearcut::cut::cpu::Cpu;
 use gearcut::cut::{Backend, SweptBy, SweptField};
 use gearcut::dexel::SpatialField;
@@ -90,6 +91,24 @@ fn hobbed_flanks_are_cut_alike() {
         }
     }
     println!("all: {all}");
+}
+
+/// Hollow teeth cut as their tangents: a hob of cycloids, by candidates and by all passes.
+#[test]
+fn hobs_with_hollow_teeth_are_cut_alike() {
+    let gpu = software_gpu(strict());
+    let job = cycloid_job();
+    let cutter = HobCutter::new(&job).expect("passes");
+    let target = cutter.target(3, Side::Left).expect("a target");
+    let [arcs_mm, rows_mm] = cutter.places_mm(target).map(|places| places.into_iter().step_by(4).collect());
+    let field = cutter.rays_over(target, arcs_mm, rows_mm).field;
+    let passes = cutter.operations.last().expect("one");
+    let (parity, .., known) = cut_both_in_space(&gpu, "cycloids", &field, &SweepPlan::new(&field, passes));
+    println!("{parity}");
+    assert_eq!(parity.verdict_within(ADDED_NM), Ok(()));
+    let mut all = field.blank_layer();
+    gpu.cut_spatial(&field, &SweepPlan::brute_force(&field, passes), &mut all).expect("cuts");
+    assert!(known == all, "candidates leave something else than all passes");
 }
 
 #[test]

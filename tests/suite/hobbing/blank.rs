@@ -329,7 +329,8 @@ mod slow {
             // No end that a pass left lies under the target; near the pitch curve none lies higher over it than feed
             // and generating marks together. (A sharp hob corner leaves higher cusps in fillets.)
             let sharpest = job.curve.facts().curvature_extrema.iter().map(|e| e.curvature_per_mm).fold(0.0, f64::max);
-            let marks_um = 1e3 * (job.feed_mark_mm(job.finishing()) + job.generating_mark_mm(sharpest));
+            let marks_um =
+                1e3 * (job.feed_mark_mm(job.finishing()).unwrap() + job.generating_mark_mm(sharpest).unwrap());
             // The outline is transverse, marks are normal to the flank.
             let cos_base = {
                 let gear = &job.scene.gear;

@@ -72,7 +72,7 @@ fn ridges_between_feeds_are_as_high_as_the_second_order_of_a_gash_says() {
                     height_mm,
                 };
                 let geometry = job.finishing().linkage.geometry();
-                let ridge_um = 1e3 * ridge_mm(&job.hob, geometry, &contact, FEED_MM);
+                let ridge_um = 1e3 * ridge_mm(&job.hob, geometry, &contact, FEED_MM).expect("a worm");
                 let cut_um = 1e3 * highest_mm(&job, side, height_mm);
                 let radius_mm = job.hob.pitch_radius_mm - height_mm;
                 let of_one_um =

@@ -4,6 +4,7 @@ mod blank;
 mod body;
 mod corners;
 mod deviations;
+pub(crate) mod drawn_teeth;
 mod evaluated;
 mod feed_marks;
 mod force;

@@ -256,7 +256,8 @@ fn patches_have_the_lattice_and_the_closed_heights_of_the_independent_implementa
             curvature_per_mm: 1.0 / number(&file, "rho_pitch_curve"),
             height_mm: 0.0,
         };
-        let feed = ridge_mm(&case.hob, case.linkage.geometry(), &contact, number(&file, "feed_per_cycle"));
+        let feed =
+            ridge_mm(&case.hob, case.linkage.geometry(), &contact, number(&file, "feed_per_cycle")).expect("a worm");
         let of_one = feed / number(closed, "delta_x_pitch_radius");
         println!("{name}: ridge {of_one} of the paper's");
         let spur = case.helix_angle_rad == 0.0;
@@ -268,7 +269,7 @@ fn patches_have_the_lattice_and_the_closed_heights_of_the_independent_implementa
         let scene = load(Path::new(&format!("scenes/hobbing/{scene}.toml")), &[]).expect("the scene").scene;
         let job = HobbingJob::new(&scene).expect("the gear");
         let file = data(name);
-        let found = job.generating_mark_mm(1.0 / number(&file, "rho_pitch_curve"));
+        let found = job.generating_mark_mm(1.0 / number(&file, "rho_pitch_curve")).expect("a worm");
         let wanted = number(&file["closed"], "delta_y_local");
         assert!((found / wanted - 1.0).abs() < 1e-9, "{name}: {found}, not {wanted}");
     }

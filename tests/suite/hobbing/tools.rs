@@ -271,7 +271,7 @@ mod slow {
             let lowest = heights.iter().copied().fold(f64::INFINITY, f64::min);
             let highest = heights.iter().copied().fold(0.0, f64::max);
             println!("{direction}: {:.4} to {:.4} um", 1e3 * lowest, 1e3 * highest);
-            (lowest, highest, job.feed_mark_mm(job.finishing()))
+            (lowest, highest, job.feed_mark_mm(job.finishing()).expect("a worm"))
         };
         let [climb, conventional] = ["climb", "conventional"].map(highest);
         assert!(climb.0 > -1e-6 && conventional.0 > -1e-6);

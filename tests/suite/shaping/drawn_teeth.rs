@@ -3,6 +3,7 @@
 
 use super::flank_heights::compare_whole_field;
 use gearcut::cut::cpu::Cpu;
+use gearcut::drawn_tooth::drawn_words;
 use gearcut::process;
 use gearcut::process::shaping::ShapingJob;
 use gearcut::process::shaping::target::{FlankEnd, TargetFlank};
@@ -322,7 +323,7 @@ fn a_measured_contour_is_smoothed_within_its_tolerance() {
     let measured =
         scene_job(ROUND, Some(("tooth.csv", &table(&noisy))), &settings).unwrap_or_else(|why| panic!("{why}"));
     let own = measured.cutter.drawn().expect("drawn");
-    println!("{} parts, {}", own.parts.len(), process::shaping::tool::drawn::drawn_words(own));
+    println!("{} parts, {}", own.parts.len(), drawn_words(own));
     for side in [Side::Left, Side::Right] {
         let off_mm = apart_mm(&measured, measured.target_flank(2, side), analytic.target_flank(2, side));
         println!("{side:?}: {:.2} um", 1e3 * off_mm);

@@ -50,10 +50,15 @@ pub(super) fn print(axes: &HobbingAxesReport, sheet: &mut Sheet) {
     let cycles = linkage.end_s() / linkage.cycle_s();
     sheet.line("time", format!("{}{idle}; {cycles:.2} cycles along the pitch curve", duration_text(linkage.end_s())));
     sheet.line("passes", format!("{:.0} of hob teeth", job.passes(operation)));
-    sheet.line("feed marks", format!("up to {} um high", significant(UM_PER_MM * job.feed_mark_mm(operation), 3)));
+    if let Some(feed_mark_mm) = job.feed_mark_mm(operation) {
+        sheet.line("feed marks", format!("up to {} um high", significant(UM_PER_MM * feed_mark_mm, 3)));
+    } else {
+        sheet.line("marks", "of a drawn tooth are found by the cut alone".to_owned());
+    }
     let facts = job.curve.facts();
-    let [flat, sharp] = [facts.smallest_curvature, facts.largest_curvature]
-        .map(|extremum| significant(UM_PER_MM * job.generating_mark_mm(extremum.curvature_per_mm), 3));
+    let marks = [facts.smallest_curvature, facts.largest_curvature]
+        .map(|extremum| job.generating_mark_mm(extremum.curvature_per_mm).map(|mm| significant(UM_PER_MM * mm, 3)));
+    let [Some(flat), Some(sharp)] = marks else { return };
     sheet.line(
         "generating marks",
         format!(

@@ -17,6 +17,7 @@ fn spec() -> model::HobSpec {
         addendum_coefficient: 1.25,
         dedendum_coefficient: 1.25,
         worm: Worm::Involute,
+        profile: None,
         tip_radius_mm: 0.0,
         protuberance: None,
         tip_reliefs: Vec::new(),

@@ -39,8 +39,9 @@ pub struct RidgePlace {
     pub height_mm: f64,
 }
 
-/// Height of the ridge between two feeds of the slide, `feed_mm` apart, normal to the flank, mm.
-pub fn ridge_mm(hob: &Hob, geometry: &HobbingGeometry, contact: &RidgePlace, feed_mm: f64) -> f64 {
+/// Height of the ridge between two feeds of the slide, `feed_mm` apart, normal to the flank, mm; none of a drawn tooth,
+/// whose rack is no plane.
+pub fn ridge_mm(hob: &Hob, geometry: &HobbingGeometry, contact: &RidgePlace, feed_mm: f64) -> Option<f64> {
     let RidgePlace { side: e, pressure_angle_rad, curvature_per_mm, height_mm } = *contact;
     let (sin_b, cos_b) = geometry.helix_angle_rad.sin_cos();
     let (sin_n, cos_n) = pressure_angle_rad.sin_cos();
@@ -61,7 +62,7 @@ pub fn ridge_mm(hob: &Hob, geometry: &HobbingGeometry, contact: &RidgePlace, fee
     let arc_per_rad_mm = geometry.arc_per_hob_rad_mm();
     // The edge in its rake face, which winds about the axis on hobs with helical gashes.
     let flank = -normal.dot(axis).signum();
-    let [slope, bend] = hob.flank_slope_and_bend(radius_mm).map(|rate| flank * rate);
+    let [slope, bend] = hob.flank_slope_and_bend(radius_mm)?.map(|rate| flank * rate);
     let wound = -hob.rake_twist_rad_per_mm();
     let around = axis.cross(radial);
     let along = axis + wound * radius_mm * around;
@@ -87,5 +88,5 @@ pub fn ridge_mm(hob: &Hob, geometry: &HobbingGeometry, contact: &RidgePlace, fee
     };
     let edge_and_time = DMat2::from_cols(onto(edge), onto(speed) + arc_per_rad_mm * slide).inverse();
     let [trace, row] = [edge_and_time * trace, edge_and_time * row];
-    feed_mm * feed_mm / 8.0 * (gap(trace, trace) - gap(trace, row).powi(2) / gap(row, row))
+    Some(feed_mm * feed_mm / 8.0 * (gap(trace, trace) - gap(trace, row).powi(2) / gap(row, row)))
 }

@@ -48,13 +48,14 @@ pub struct FeedPlan {
 
 impl FeedPlan {
     /// Plan of an operation whose cycle along the pitch curve takes `cycle_s`; `offset_mm` is how far the hob stays
-    /// back from full depth, allowances included.
+    /// back from full depth, allowances included, `contact_x_mm` how far from the pitch point, along the pitch line in
+    /// the transverse section, hob and gear touch at most.
     ///
     /// # Errors
     /// A hob too short for its contact, a shift longer than the hob, a shift that outruns the feed.
     pub fn new(
         operation: &HobbingOperation,
-        offset_mm: f64,
+        [offset_mm, contact_x_mm]: [f64; 2],
         hob: &Hob,
         geometry: &HobbingGeometry,
         gear: &Gear,
@@ -64,8 +65,6 @@ impl FeedPlan {
         let tilt = geometry.head_angle_rad;
         let gear_addendum_mm = gear.addendum_mm();
         let depth_mm = hob.tip_radius_mm - hob.pitch_radius_mm + gear_addendum_mm - offset_mm;
-        let hob_addendum_mm = hob.tip_radius_mm - hob.pitch_radius_mm;
-        let contact_x_mm = hob_addendum_mm.max(gear_addendum_mm) / gear.transverse_pressure_angle_rad().tan();
         let contact_half_length_mm = contact_x_mm / tilt.cos();
         let room_mm = 0.5 * hob.length_mm - contact_half_length_mm;
         if room_mm < 0.0 {
@@ -80,7 +79,7 @@ impl FeedPlan {
             ));
         }
         let (approach_mm, overrun_mm) =
-            Self::approach_and_overrun_mm(operation, hob, curve, gear, [depth_mm, gear_addendum_mm], tilt);
+            Self::approach_and_overrun_mm(operation, hob, curve, gear, [depth_mm, contact_x_mm], tilt);
         // A left-hand hob's teeth go up through the work (+z of the machine), so that climb feeds down.
         let climb = geometry.hob_hand;
         let direction = match operation.feed_direction {
@@ -148,11 +147,12 @@ impl FeedPlan {
         hob: &Hob,
         curve: &PitchCurve,
         gear: &Gear,
-        [depth_mm, gear_addendum_mm]: [f64; 2],
+        [depth_mm, contact_x_mm]: [f64; 2],
         tilt: f64,
     ) -> (f64, f64) {
         // Half the chord that the tip line cuts from the blank, no longer than the hob or the blank; a flat curve has
         // no chord of its own.
+        let gear_addendum_mm = gear.addendum_mm();
         let facts = curve.facts();
         let flattest = facts.smallest_curvature.curvature_per_mm;
         let outline_mm = if flattest > 0.0 { 1.0 / flattest + gear_addendum_mm } else { f64::INFINITY };
@@ -161,11 +161,10 @@ impl FeedPlan {
         let reach_mm = if chord_mm.is_finite() { chord_mm.min(longest_mm) } else { longest_mm };
         let sink_mm = (hob.tip_radius_mm.powi(2) - (hob.tip_radius_mm - depth_mm).powi(2)).max(0.0).sqrt();
         let approach = sink_mm / tilt.cos() + reach_mm * tilt.tan().abs() + CLEARANCE_MM;
-        // Hob and flank touch on the normal through the pitch point, which leans along the gear's axis: h sin(beta) /
-        // tan(alpha_n) at the height h. Each tooth's last pass comes up to one feed before the end, and cuts half a
+        // Hob and flank touch on the normal through the pitch point, which leans along the gear's axis by tan(beta) of
+        // its way along the pitch line. Each tooth's last pass comes up to one feed before the end, and cuts half a
         // feed to either side.
-        let highest_mm = gear_addendum_mm.max(hob.tip_radius_mm - hob.pitch_radius_mm);
-        let lean_mm = highest_mm * gear.helix_angle_rad.sin() / gear.pressure_angle_rad.tan();
+        let lean_mm = contact_x_mm * gear.helix_angle_rad.tan();
         let overrun = lean_mm + 0.5 * operation.axial_feed_mm_per_revolution + CLEARANCE_MM;
         (operation.approach_mm.unwrap_or(approach), operation.overrun_mm.unwrap_or(overrun))
     }

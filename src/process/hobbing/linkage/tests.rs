@@ -20,6 +20,7 @@ fn hob(hand: Hand) -> Hob {
         addendum_coefficient: 1.25,
         dedendum_coefficient: 1.25,
         worm: Worm::Involute,
+        profile: None,
         tip_radius_mm: 0.0,
         protuberance: None,
         tip_reliefs: Vec::new(),

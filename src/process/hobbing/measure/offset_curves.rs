@@ -132,7 +132,10 @@ impl OpenPoints {
         let space = i64::from(tooth) - i64::from(side == Side::Right);
         let sound_roll_mm = job.target.sound_roll_mm(space, side, 0.0);
         let point = |offset_mm| {
-            let target = job.target.crossing_from(sound_roll_mm, &job.blank, space, side, offset_mm, 0.0)?;
+            let target = match &job.drawn {
+                Some(rack) => rack.crossing(space, side, offset_mm)?,
+                None => job.target.crossing_from(sound_roll_mm, &job.blank, space, side, offset_mm, 0.0)?,
+            };
             Some(CurvePoint { offset_mm, target, cut_mm: None, along_mm: None })
         };
         let points: Vec<CurvePoint> = offsets_mm(job).into_iter().filter_map(point).collect();

@@ -1,6 +1,7 @@
 //! What was hobbed, with what, on which machine.
 
-use crate::findings::Findings;
+use crate::drawn_tooth::drawn_words;
+use crate::findings::{Findings, unit};
 use crate::number_text::plain;
 use crate::output::report::{PageSection, Tone};
 use crate::process::hobbing::HobbingJob;
@@ -11,9 +12,24 @@ use crate::steps::report::facts::{gear_table, mm, round_gear_table, speed_limits
 /// Tables of gear, hob and machine.
 pub fn section(job: &HobbingJob, found: &Findings) -> PageSection {
     let (hob, tool, limits) = (&job.hob, &job.hob_spec, &job.limits);
-    let worm = match tool.worm {
-        Worm::Involute => "involute worm (ZI)",
-        Worm::StraightSided => "straight-sided in the axial section",
+    let worm = match (tool.worm, hob.drawn()) {
+        (Worm::Involute, None) => "involute worm (ZI)",
+        (Worm::StraightSided, None) => "straight-sided in the axial section",
+        (Worm::Involute, Some(_)) => "drawn, on a thread that generates with it",
+        (Worm::StraightSided, Some(_)) => "drawn, itself in the axial section",
+    };
+    let rack = match hob.drawn() {
+        None => vec![
+            (
+                "Addendum, dedendum",
+                format!("{} m, {} m", plain(tool.addendum_coefficient), plain(tool.dedendum_coefficient)),
+            ),
+            ("Tip round", mm(tool.tip_radius_mm)),
+        ],
+        Some(tooth) => vec![
+            ("Addendum, dedendum", format!("{}, {}", mm(tooth.reach_mm[1]), mm(-tooth.reach_mm[0]))),
+            ("Tooth", unit::sentence_with_signs(&drawn_words(tooth))),
+        ],
     };
     let gashes = match tool.gash_form {
         GashForm::Axial => "axial",
@@ -37,13 +53,11 @@ pub fn section(job: &HobbingJob, found: &Findings) -> PageSection {
                 ("Length", mm(hob.length_mm)),
                 ("Teeth", format!("{}, one every {:.4} mm along a thread", hob.teeth.len(), hob.tooth_spacing_mm())),
                 ("Basic rack", worm.to_owned()),
-                (
-                    "Addendum, dedendum",
-                    format!("{} m, {} m", plain(tool.addendum_coefficient), plain(tool.dedendum_coefficient)),
-                ),
-                ("Tip round", mm(tool.tip_radius_mm)),
-                ("Reground by", mm(tool.regrind_mm)),
-            ],
+            ]
+            .into_iter()
+            .chain(rack)
+            .chain([("Reground by", mm(tool.regrind_mm))])
+            .collect(),
         ),
         table("Machine", vec![("Speed limits", speeds)]),
     ]);

@@ -14,11 +14,15 @@ use crate::texture::SampledWindow;
 use gearcut_core::error::Result;
 use rayon::prelude::*;
 
-/// Lattices of every flank that has a texture window, in the windows' order.
+/// Lattices of every flank that has a texture window, in the windows' order; none of a drawn tooth's flanks, whose
+/// contact has no one pressure angle.
 ///
 /// # Errors
 /// The backend's. After Ctrl-C those that are finished are returned.
 pub fn measure(cutter: &HobCutter, windows: &[SampledWindow], tools: &Tools) -> Result<Vec<MarkLattice>> {
+    if cutter.job.drawn.is_some() {
+        return Ok(Vec::new());
+    }
     let mut flanks: Vec<_> = windows.iter().map(|of| (of.window.tooth, of.window.side)).collect();
     flanks.dedup();
     let step = tools.progress.step("marks", flanks.len() as u64, "flanks");

@@ -1,6 +1,6 @@
 //! Checked values of a hobbing scene to the model.
 
-use super::keys::{AXES, WEAR};
+use super::keys::{AXES, PROFILE, WEAR};
 use super::model::{
     Approach, EvenMotion, ExtraRotation, FeedDirection, FeedOf, GashForm, HobRelief, HobSize, HobSpec, Hobbing,
     HobbingAxisLimits, HobbingKind, HobbingOperation, LinkageForm, Protuberance, ShiftDirection, ShiftStrategy,
@@ -9,6 +9,7 @@ use super::model::{
 use super::standard_hob::{self, HobTip};
 use crate::scene::ScenePart;
 use crate::scene::build::{cutting_force, linear_programs, stock_or_offset_mm};
+use crate::scene::drawn_profile::ToolProfile;
 use crate::scene::machine_errors::{machine_errors, tool_mounting};
 use crate::scene::values::{Values, View};
 use gearcut_core::units::{TURN_RAD, UM_PER_MM};
@@ -23,7 +24,8 @@ pub(super) fn build(values: &Values, base_dir: &Path) -> Option<ScenePart> {
     let operations: Option<Vec<HobbingOperation>> = (0..values.count("operation"))
         .map(|index| operation(values, &format!("operation.{index}"), base_dir, pressure_angle_rad))
         .collect();
-    let tool = hob(values.view("tool.hob"), values.view("gear"))?;
+    let profile = ToolProfile::of(values, PROFILE, base_dir);
+    let tool = HobSpec { profile, ..hob(values.view("tool.hob"), values.view("gear"))? };
     let material = match values.view("material") {
         material if material.text("name").is_some() => Some(cutting_force(material)?),
         _ => None,
@@ -83,6 +85,7 @@ fn hob(hob: View<'_>, gear: View<'_>) -> Option<HobSpec> {
             "straight_sided" => Worm::StraightSided,
             _ => return None,
         },
+        profile: None,
         tip_radius_mm: hob.number("tip_radius_mm").unwrap_or_else(|| tip.round_mm()),
         protuberance,
         tip_reliefs: tip_reliefs(hob, gear)?,

@@ -7,6 +7,7 @@ mod tool;
 use crate::scene::keys::{Addition, HELIX, KeySection};
 
 pub(super) use machine::AXES;
+pub(in crate::process::hobbing) use tool::PROFILE;
 pub(super) use tool::WEAR;
 
 /// Sections of its own.

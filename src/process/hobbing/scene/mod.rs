@@ -6,13 +6,17 @@ pub mod model;
 mod standard_hob;
 
 use crate::machine_errors::{ErrorLayer, ToolMounting};
+use crate::scene::drawn_profile;
 use crate::scene::error_sources::{self, ErrorSource, KeyForm};
 use crate::scene::machine_errors;
 use crate::scene::problems::Found;
 use crate::scene::{FINISH_ALONE, ProcessPart, SceneProcess, Senseless};
+pub(in crate::process::hobbing) use keys::PROFILE;
 use model::Hobbing;
 use std::path::Path;
 
+/// Dedendum of a hob that does not say its own, modules.
+const USUAL_DEDENDUM: f64 = 1.25;
 /// Why coefficients of the force normal to the edge have no sense.
 const NO_NORMAL_FORCE: &str = "only the force against the edge's motion is computed";
 
@@ -72,6 +76,7 @@ fn check(found: &mut Found<'_, '_, '_>) {
     let _: Option<()> = standard_size(found);
     let _: Option<()> = tip_reliefs(found);
     let _: Option<()> = pitch_errors(found);
+    drawn_tooth(found);
     wear(found);
     machine_errors::check(found, &keys::AXES);
     machine_errors::check_noise_in_time(found, &keys::AXES, "a hob");
@@ -120,6 +125,20 @@ fn tip_reliefs(found: &mut Found) -> Option<()> {
     let flat = chamfer_mm.is_some() && angle_deg <= flank_deg;
     found.blame(flat, key, message, "use more than the pressure angle, 45 deg for example");
     Some(())
+}
+
+/// A contour says all of a tooth.
+fn drawn_tooth(found: &mut Found) {
+    let hob = "tool.hob";
+    let replaced = [
+        (hob, "dedendum_coefficient", Some(USUAL_DEDENDUM)),
+        (hob, "tip_radius_mm", None),
+        (hob, "protuberance_height_mm", None),
+        (hob, "tip_relief_height_mm", None),
+        (hob, "semi_topping_height_mm", None),
+        (hob, "thinning_mm", Some(0.0)),
+    ];
+    drawn_profile::refuse_beside(found, PROFILE, "hob", &replaced);
 }
 
 /// A pitch error for each gash, or for each gash of each thread.
@@ -173,8 +192,13 @@ impl ProcessPart for Hobbing {
         &SCENE
     }
 
+    fn other_teeth_key(&self) -> Option<&'static str> {
+        self.tool.profile.as_ref().map(|_| PROFILE)
+    }
+
     fn files_read(&self) -> Vec<&Path> {
-        self.operations.iter().filter_map(|operation| operation.program.as_deref()).collect()
+        let contour = self.tool.profile.iter().map(|profile| profile.file.as_path());
+        contour.chain(self.operations.iter().filter_map(|operation| operation.program.as_deref())).collect()
     }
 
     fn error_layers(&self) -> Vec<ErrorLayer> {

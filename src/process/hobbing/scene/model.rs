@@ -3,6 +3,7 @@
 use crate::machine_errors::{MachineErrors, ToolMounting};
 use crate::material::CuttingForce;
 use crate::scene::Scene;
+use crate::scene::drawn_profile::ToolProfile;
 use gearcut_core::terms::Hand;
 use std::path::PathBuf;
 
@@ -86,6 +87,8 @@ pub struct HobSpec {
     pub dedendum_coefficient: f64,
     /// Form of the thread's flanks.
     pub worm: Worm,
+    /// Contour of a tooth that is drawn or measured, in place of the straight-sided basic rack.
+    pub profile: Option<ToolProfile>,
     /// Radius of the tip round in the rake face, mm; 0: sharp.
     pub tip_radius_mm: f64,
     /// Protuberance, if the hob has one.

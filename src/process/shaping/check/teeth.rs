@@ -1,9 +1,9 @@
 //! Cutter and teeth: what the finishing operation generates in the limit of many strokes.
 
+use crate::drawn_tooth::drawn_words;
 use crate::output::text::Sheet;
 use crate::process::shaping::ShapingJob;
 use crate::process::shaping::tool::cutter::CutterTooth;
-use crate::process::shaping::tool::drawn::drawn_words;
 
 use crate::process::shaping::gear::tooth_facts::{FlankFacts, ToothFacts, flanks_with, list};
 

@@ -1,5 +1,6 @@
 //! What was shaped, with what, on which machine.
 
+use crate::drawn_tooth::drawn_words;
 use crate::findings::{Findings, unit};
 use crate::number_text::plain;
 use crate::output::report::{PageSection, Tone};
@@ -7,7 +8,6 @@ use crate::process::shaping::ShapingJob;
 use crate::process::shaping::linkage::dynamics::{self, AXES};
 use crate::process::shaping::scene::layers::{built_up_words, edge_words, rounding_words};
 use crate::process::shaping::scene::model::{Retraction, Tip};
-use crate::process::shaping::tool::drawn::drawn_words;
 use crate::steps::report::facts::{gear_table, mm, round_gear_table, speed_limits, table};
 use gearcut_core::units::UM_PER_MM;
 
@@ -43,10 +43,7 @@ pub fn section(job: &ShapingJob, found: &Findings) -> PageSection {
             ("Tip", tip),
         ],
         Some(tooth) => vec![
-            (
-                "Tip radius, root radius",
-                format!("{}, {}", mm(round(tooth.tip_radius_mm)), mm(round(tooth.root_radius_mm))),
-            ),
+            ("Tip radius, root radius", format!("{}, {}", mm(round(tooth.reach_mm[1])), mm(round(tooth.reach_mm[0])))),
             ("Tooth", unit::sentence_with_signs(&drawn_words(tooth))),
         ],
     };

@@ -3,14 +3,14 @@
 use super::keys::{AXES, BUILT_UP_EDGE, CMM, EDGE_ROUGHNESS, EDGE_ROUNDING, PROFILE};
 use super::model::{
     AxisLimits, BuiltUpEdge, CmmSpec, CutterSpec, EdgeRoughness, EdgeRounding, Feed, GcodeDialect, Infeed, Linkage,
-    Machine, NormalReading, Operation, Retraction, Shaping, StockScatter, StrokeSpacing, Tip, ToolProfile,
-    TraditionalDirection,
+    Machine, NormalReading, Operation, Retraction, Shaping, StockScatter, StrokeSpacing, Tip, TraditionalDirection,
 };
 use crate::machine_errors::{Compliance, SideCompliance};
 use crate::material::EdgeForce;
 use crate::random::Draws;
 use crate::scene::ScenePart;
 use crate::scene::build::stock_or_offset_mm;
+use crate::scene::drawn_profile::ToolProfile;
 use crate::scene::machine_errors::machine_errors;
 use crate::scene::values::{Values, View};
 use gearcut_core::units::UM_PER_MM;
@@ -92,13 +92,8 @@ fn shaper_cutter(values: &Values, base_dir: &Path) -> Option<CutterSpec> {
         edge_roughness: edge_roughness(values, base_dir),
         edge_rounding: edge_rounding(values),
         built_up_edge: built_up_edge(values),
-        profile: profile(values, base_dir),
+        profile: ToolProfile::of(values, PROFILE, base_dir),
     })
-}
-
-fn profile(values: &Values, base_dir: &Path) -> Option<ToolProfile> {
-    let profile = values.view(PROFILE);
-    Some(ToolProfile { file: base_dir.join(profile.text("file")?), tolerance_mm: profile.mm_from_um("tolerance_um")? })
 }
 
 fn edge_roughness(values: &Values, base_dir: &Path) -> Option<EdgeRoughness> {

@@ -3,6 +3,7 @@
 use super::defaults::reach_mm;
 use super::keys::{AXES, BUILT_UP_EDGE, BUILT_UP_EDGE_KEYS, CMM, EDGE_ROUGHNESS, EDGE_ROUNDING, PROFILE};
 use crate::scene::build::{sector_deg, stock_or_offset_mm};
+use crate::scene::drawn_profile;
 use crate::scene::keys::join;
 use crate::scene::machine_errors;
 use crate::scene::problems::Found;
@@ -90,25 +91,17 @@ fn together(found: &mut Found, section: &str, names: &[&'static str]) {
     found.blame(true, &key, message, &format!("write {missing} as well, or remove it"));
 }
 
-/// A contour says all of a tooth: what else would shape it, or would shift it by the law of involutes, is refused.
+/// A contour says all of a tooth.
 fn drawn_tooth(found: &mut Found) {
-    if found.view(PROFILE).text("file").is_none() {
-        return;
-    }
-    // A resolved scene has all keys: what has its default's value is as good as not written.
     let cutter = "tool.shaper_cutter";
-    let own = [
+    let replaced = [
         (cutter, "dedendum_coefficient", Some(USUAL_DEDENDUM)),
         (cutter, "profile_shift_coefficient", Some(0.0)),
         (cutter, "thinning_mm", Some(0.0)),
         (EDGE_ROUGHNESS, "rq_um", None),
-        ("measure", "ball_diameter_mm", None),
     ];
-    for (section, name, usual) in own {
-        let key = join(section, name);
-        let is_set = found.view(section).number(name).is_some_and(|value| Some(value) != usual);
-        let message = || format!("`{key}` says nothing of a tooth that {PROFILE}.file draws");
-        found.blame(is_set, &key, message, "remove it, or have the contour drawn that way");
+    if !drawn_profile::refuse_beside(found, PROFILE, "cutter", &replaced) {
+        return;
     }
     let rough = join(EDGE_ROUGHNESS, "profile");
     let is_rough = found.view(EDGE_ROUGHNESS).text("profile").is_some();
@@ -118,16 +111,6 @@ fn drawn_tooth(found: &mut Found) {
     let has_tip = found.view(cutter).variant("tip").is_some_and(|tip| tip != "sharp");
     let message = || format!("`{tip}` says nothing of a tooth that {PROFILE}.file draws");
     found.blame(has_tip, &tip, message, "remove the section: the contour has its own corners");
-    let class = "measure.iso_1328_class";
-    let has_class = found.view("measure").whole("iso_1328_class").is_some();
-    let message = || format!("`{class}` judges involute flanks, and {PROFILE}.file draws others");
-    found.blame(has_class, class, message, "remove it, and give the limits of the drawing under [measure]");
-    for name in ["profile_shift_coefficient", "tooth_thickness_allowance_mm"] {
-        let key = join("gear", name);
-        let is_set = found.view("gear").number(name).is_some_and(|value| value != 0.0);
-        let message = || format!("`{key}` follows the law of involute teeth, and {PROFILE}.file draws others");
-        found.blame(is_set, &key, message, "remove it, and move the cutter by offset_mm of the operations");
-    }
 }
 
 /// Marks are densest between speeds at which there are any.

@@ -13,7 +13,8 @@ use crate::scene::keys::{Addition, KeySection};
 pub(super) use chips::LARGEST_CHIP_SPACING_MM;
 pub(super) use cmm::CMM;
 pub(super) use machine::AXES;
-pub(super) use tool::{BUILT_UP_EDGE, BUILT_UP_EDGE_KEYS, EDGE_ROUGHNESS, EDGE_ROUNDING, PROFILE};
+pub(in crate::process::shaping) use tool::PROFILE;
+pub(super) use tool::{BUILT_UP_EDGE, BUILT_UP_EDGE_KEYS, EDGE_ROUGHNESS, EDGE_ROUNDING};
 
 /// Sections of its own.
 pub(super) static SECTIONS: &[&[KeySection]] =

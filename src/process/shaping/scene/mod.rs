@@ -10,6 +10,7 @@ pub mod model;
 use crate::machine_errors::ErrorLayer;
 use crate::scene::error_sources::{self, ErrorSource, KeyForm, Tried};
 use crate::scene::{ProcessPart, SceneProcess, Senseless, StandardOperation};
+pub(in crate::process::shaping) use keys::PROFILE;
 use model::{EdgeRoughness, Shaping};
 use std::path::Path;
 
@@ -103,7 +104,7 @@ impl ProcessPart for Shaping {
     }
 
     fn other_teeth_key(&self) -> Option<&'static str> {
-        self.tool.profile.as_ref().map(|_| keys::PROFILE)
+        self.tool.profile.as_ref().map(|_| PROFILE)
     }
 
     fn files_read(&self) -> Vec<&Path> {

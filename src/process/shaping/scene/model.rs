@@ -4,6 +4,7 @@ use crate::machine_errors::{Compliance, MachineErrors};
 use crate::material::EdgeForce;
 use crate::random::Draws;
 use crate::scene::Scene;
+use crate::scene::drawn_profile::ToolProfile;
 use gearcut_core::passes::planar::strokes::StrokeLaw;
 use std::path::PathBuf;
 
@@ -151,15 +152,6 @@ pub enum EdgeRoughness {
     },
     /// A measured one, the same on all flanks, from a table.
     Profile(PathBuf),
-}
-
-/// The contour of a cutter's tooth.
-#[derive(Debug, Clone, PartialEq)]
-pub struct ToolProfile {
-    /// Where it is.
-    pub file: PathBuf,
-    /// How far the edge that cuts may pass beside it.
-    pub tolerance_mm: f64,
 }
 
 /// Tip corners of the cutter.

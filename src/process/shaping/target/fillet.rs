@@ -10,7 +10,7 @@
 //! gear lies to the right, that of a ring to the left. Road not taken: the ends' polar angles. The path of a corner
 //! that undercuts swings back under the tooth, and its ends say nothing.
 
-use crate::process::shaping::target::drawn::DrawnFlank;
+use crate::drawn_tooth::flank::DrawnFlank;
 use crate::process::shaping::target::generation::{Generation, TipPart};
 use crate::steps::planar::ProfilePoint;
 use gearcut_core::gear::GearKind;

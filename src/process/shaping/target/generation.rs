@@ -23,9 +23,9 @@
 //! For the finishing linkages this equals `q = P + (S_e - S) cos(a) (cos(a) t + sigma sin(a) n)`, independent of the
 //! cutter (checked against the oracle).
 
+use crate::drawn_tooth::envelope::{DrawnSpaces, EnvelopePoint};
 use crate::process::shaping::ShaperCutter;
 use crate::process::shaping::linkage::ShapingLinkage;
-use crate::process::shaping::target::envelope::DrawnSpaces;
 use crate::process::shaping::tool::involute_tooth::CornerPart;
 use gearcut_core::gear::GearKind;
 use gearcut_core::math::jet::Jet;
@@ -65,6 +65,11 @@ pub struct FlankContact {
 }
 
 impl FlankContact {
+    /// Touch of a drawn tooth.
+    pub fn drawn(EnvelopePoint { phi_rad, point_mm, normal, .. }: EnvelopePoint) -> Self {
+        Self { phi_rad, point_mm, normal, roll: f64::NAN, roll_rate: f64::NAN, speed_mm_per_rad: f64::NAN }
+    }
+
     /// Whether the contact runs on along the flank: towards the root, where exp(i eta) points, as the roll grows.
     /// Behind the place where the envelope turns back it runs the other way.
     pub fn is_sound(&self) -> bool {

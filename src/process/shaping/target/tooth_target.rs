@@ -13,7 +13,6 @@ use crate::measure::crossing::Crossing;
 use crate::process::shaping::target::TargetFlank;
 use crate::process::shaping::target::generation::Generation;
 use crate::process::shaping::target::tip_relief::TipRelief;
-use crate::process::shaping::tool::drawn::contour::FILE;
 use gearcut_core::error::Refusal;
 use gearcut_core::gear::blank::Blank;
 use gearcut_core::math::roots::try_halve;
@@ -60,8 +59,10 @@ impl ToothTarget {
             let wider = |height_mm: f64| Ok::<bool, Refusal>(up_to(Some(height_mm))?.2 > POINTED_MM);
             let [pointed_mm, _] = try_halve(wider, 0.0, blank.addendum_mm, 40)?;
             if pointed_mm == 0.0 {
-                let (key, way_out) = if generation.drawn.is_some() {
-                    (FILE, "have the tooth drawn thinner, or without the notch that runs into its other flank")
+                let drawn = generation.cutter.drawn().map(|drawn| drawn.place.file_key());
+                let (key, way_out) = if let Some(file) = &drawn {
+                    let way_out = "have the tooth drawn thinner, or without the notch that runs into its other flank";
+                    (file.as_str(), way_out)
                 } else {
                     let way_out = "use a larger module, a cutter with less profile shift, or a smaller thickness \
                                    allowance";

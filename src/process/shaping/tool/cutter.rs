@@ -1,13 +1,13 @@
 //! The shaper cutter: a pinion whose teeth are the blades, an involute one or one with drawn teeth.
 //!
-//! Comes from the scene, goes to target flanks and passes. Where the scene names no contour ([`super::drawn`]) its
-//! teeth are those of [`super::involute_tooth`].
+//! Comes from the scene, goes to target flanks and passes. Where the scene names no contour ([`crate::drawn_tooth`])
+//! its teeth are those of [`super::involute_tooth`].
 
-use crate::process::shaping::scene::model;
-use crate::process::shaping::tool::drawn::DrawnTooth;
-use crate::process::shaping::tool::drawn::contour::CutterCircle;
+use crate::drawn_tooth::{ContourPlace, DrawnTooth, TeethOn};
+use crate::process::shaping::scene::{PROFILE, model};
 use crate::process::shaping::tool::edge_roughness;
 use crate::process::shaping::tool::involute_tooth::{InvoluteTooth, involute_tooth};
+use crate::scene::drawn_profile::ToolProfile;
 use crate::scene::model::Gear;
 use gearcut_core::error::Refusal;
 use gearcut_core::frame::Rigid2;
@@ -17,10 +17,6 @@ use gearcut_core::tool::{CuttingTool, PlanarTool};
 use glam::DVec2;
 use std::f64::consts::TAU;
 use std::sync::Arc;
-
-/// The tip of a drawn tooth may lie this far, in modules, beside where the scene's addendum has it: what a measured
-/// cutter is off, and less than any mistake of unit or module.
-const TIP_OFF_MODULES: f64 = 0.05;
 
 /// A shaper cutter ready to cut.
 #[derive(Debug, Clone)]
@@ -100,27 +96,18 @@ impl ShaperCutter {
     /// The tooth of a contour, its edge, and the radii of its tip and its root.
     fn drawn_tooth(
         spec: &model::CutterSpec,
-        profile: &model::ToolProfile,
+        profile: &ToolProfile,
         module_mm: f64,
     ) -> Result<(CutterTooth, Edge, [f64; 2]), Refusal> {
         let pitch_radius_mm = 0.5 * module_mm * f64::from(spec.teeth);
-        let place = CutterCircle { teeth: spec.teeth, pitch_radius_mm };
+        let pitch = TeethOn::Circle { teeth: spec.teeth, radius_mm: pitch_radius_mm };
+        let place = ContourPlace { section: PROFILE, pitch };
         let tooth = DrawnTooth::read(&profile.file, place, profile.tolerance_mm)?;
+        let [root_mm, tip_mm] = tooth.reach_mm;
+        let of = ("tool.shaper_cutter", profile.file.as_path());
         let shift = spec.profile_shift_coefficient;
-        let addendum = (tooth.tip_radius_mm - pitch_radius_mm) / module_mm - shift;
-        if (addendum - spec.addendum_coefficient).abs() > TIP_OFF_MODULES {
-            return Err(Refusal::new(
-                "tool.shaper_cutter.addendum_coefficient",
-                format!(
-                    "the tip that {} has lies {:.4} mm off the cutter's axis, {addendum:.4} modules over the pitch \
-                    circle of {pitch_radius_mm:.3} mm",
-                    profile.file.display(),
-                    tooth.tip_radius_mm
-                ),
-                format!("write addendum_coefficient = {addendum:.3}, or look at the unit of the file and the module"),
-            ));
-        }
-        let (edge, radii_mm) = (tooth.edge()?, [tooth.tip_radius_mm, tooth.root_radius_mm]);
+        tooth.refuse_other_addendum(of, tip_mm - pitch_radius_mm, shift, spec.addendum_coefficient, module_mm)?;
+        let (edge, radii_mm) = (tooth.edge()?, [tip_mm, root_mm]);
         Ok((CutterTooth::Drawn(Arc::new(tooth)), edge, radii_mm))
     }
 

@@ -8,7 +8,7 @@ use crate::findings::{Entry, Place};
 use crate::process::hobbing::measure::hob_load::OperationLoad;
 use crate::process::hobbing::measure::hoffmeister;
 use crate::process::hobbing::quantities::{
-    FEED_MARK, GENERATING_MARK, HOFFMEISTER, NOTHING, PEAK_TO_MEAN, SHIFT_RANGE, SHIFT_ROOM,
+    DRAWN_TOOTH, FEED_MARK, GENERATING_MARK, HOFFMEISTER, NOTHING, PEAK_TO_MEAN, SHIFT_RANGE, SHIFT_ROOM,
 };
 use crate::process::hobbing::run::load::labels;
 use crate::process::hobbing::{HobbedGear, HobbingJob};
@@ -54,8 +54,8 @@ pub(super) fn headline(job: &HobbingJob, gear: &HobbedGear, measured: &Measured)
     let mut entries = headline::headline(&gear.flanks, Some(&gear.inspection), cutting, &gear.work);
     entries.extend([
         UNDERCUT_FLANKS.of(undercut),
-        FEED_MARK.of(job.feed_mark_mm(job.finishing()) * UM_PER_MM),
-        GENERATING_MARK.of(job.generating_mark_mm(sharpest) * UM_PER_MM),
+        FEED_MARK.of_or(job.feed_mark_mm(job.finishing()).map(|mm| mm * UM_PER_MM), DRAWN_TOOTH),
+        GENERATING_MARK.of_or(job.generating_mark_mm(sharpest).map(|mm| mm * UM_PER_MM), DRAWN_TOOTH),
         match largest(&|load| Some((load.peak_to_mean()?, load.peak(|of| of.volume_mm3)?))) {
             Ok((ratio, place)) => PEAK_TO_MEAN.of(ratio).at(place),
             Err(STOPPED) => PEAK_TO_MEAN.none(STOPPED),

@@ -1,13 +1,38 @@
 //! Keys of the hob.
 
+use crate::scene::drawn_profile::TOLERANCE;
 use crate::scene::keys::machine_errors::{TOOL_RUNOUT, TOOL_RUNOUT_ANGLE, TOOL_WOBBLE, TOOL_WOBBLE_ANGLE};
 use crate::scene::keys::{Default, Group, Key, KeySection, Kind, Range, Role};
 
 /// Section of a hob's wear.
 pub const WEAR: &str = "tool.hob.wear";
 
+/// Section of a contour in place of a straight-sided basic rack.
+pub const PROFILE: &str = "tool.hob.profile";
+
 /// `[tool.hob]` and what it holds.
-pub(super) static SECTIONS: &[KeySection] = &[HOB, HOB_WEAR];
+pub(super) static SECTIONS: &[KeySection] = &[HOB, HOB_PROFILE, HOB_WEAR];
+
+const HOB_PROFILE: KeySection = KeySection::new(
+    PROFILE,
+    Role::Plain,
+    &[
+        Key {
+            name: "file",
+            kind: Kind::Path,
+            unit: "",
+            default: Default::LeftOut("the straight-sided basic rack"),
+            example: "\"tooth.csv\"",
+            teach: "Contour of one tooth of the basic rack in the normal section, open, from root over tip to root: a \
+                table headed x_mm,y_mm (or _um, _in), or a drawing (.dxf; layer TOOTH, if there is one). x runs across \
+                the tooth, y from the hob's pitch line outwards along its centre line.",
+        },
+        TOLERANCE,
+    ],
+    "Hob tooth that is drawn or measured: any profile, as hob makers draw it, in the normal section. worm = \
+        \"involute\" gives the hob the thread that generates with this rack, \"straight_sided\" the contour itself in \
+        its axial section. Corners stay corners, by the same rules as on a shaper cutter.",
+);
 
 const HOB_WEAR: KeySection = KeySection {
     path: WEAR,

@@ -1,5 +1,6 @@
 //! Keys of the shaper cutter.
 
+use crate::scene::drawn_profile::TOLERANCE;
 use crate::scene::keys::{Default, Group, Key, KeySection, Kind, Range, Role};
 
 /// Section of the edges' roughness.
@@ -125,16 +126,7 @@ pub(super) static SECTIONS: &[KeySection] = &[
                     _um, _in), or a drawing (.dxf; layer TOOTH, if there is one). x runs across the tooth, y from the \
                     cutter's axis outwards along its centre line.",
             },
-            Key {
-                name: "tolerance_um",
-                kind: Kind::Number(Range::closed(0.05, 50.0)),
-                unit: "um",
-                default: Default::Number(1.0),
-                example: "1.0",
-                teach: "How far the edge that cuts may pass beside the contour: half for arcs through its points, half \
-                    for tangents along its hollows. Three times the scatter of measured points or more: they are \
-                    smoothed within it.",
-            },
+            TOLERANCE,
         ],
         "Cutter tooth that is drawn or measured: any profile. The gear is judged against what that edge generates. A \
             point where the contour turns by more than 11.5 deg, or lies 20 um beside the chord of its neighbours, is \

@@ -1,7 +1,8 @@
-//! A cutter's tooth as it is drawn or measured: arcs, lines and corners from root to root.
+//! A tool's tooth as it is drawn or measured: arcs, lines and corners from root to root.
 //!
-//! In: points of the contour ([`contour`]) and a tolerance. Out: [`DrawnTooth`], the parts of the edge in the order of
-//! the chain, from which the envelope is made ([`crate::process::shaping::target::drawn`]), and the segments that cut.
+//! In: points of the contour ([`contour`]) and a tolerance. Out: [`DrawnTooth`], the parts of the contour in the order
+//! of the chain, from which the envelope is made ([`envelope`]), and the segments that cut. Where a tooth lies on its
+//! tool, [`ContourPlace`] says: on a shaper cutter's pitch circle, or on the pitch line of a hob's basic rack.
 //!
 //! The contour is divided at its corners ([`runs`]), and every smooth run is fitted with arcs that meet without a kink
 //! ([`biarcs`]) within half the tolerance. Where arcs are hollow, tangents replace them that cross within the other
@@ -18,11 +19,12 @@
 
 pub mod biarcs;
 pub mod contour;
+pub mod envelope;
+pub mod flank;
 mod runs;
 pub mod scattered;
 
 use biarcs::ArcPiece;
-use contour::{CutterCircle, FILE};
 use gearcut_core::error::Refusal;
 use gearcut_core::tool::edge::{Edge, Segment, SegmentName};
 use glam::DVec2;
@@ -30,12 +32,13 @@ use scattered::turn_rad;
 use std::f64::consts::FRAC_PI_4;
 use std::path::Path;
 
-/// Key of the tolerance.
-const TOLERANCE: &str = "tool.shaper_cutter.profile.tolerance_um";
 /// Normals further than this from the tooth's centre line are those of flanks, rad: half-way between tip and flank.
 const FLANK_RAD: f64 = FRAC_PI_4;
 /// Ends of parts whose normals differ by more than this have a corner between them, rad.
-const KINK_RAD: f64 = 1e-9;
+pub const KINK_RAD: f64 = 1e-9;
+/// The tip may lie this far, in modules, beside where the scene's addendum has it: what a measured tool is off, and
+/// less than any mistake of unit or module.
+const TIP_OFF_MODULES: f64 = 0.05;
 /// A place this near to the centre line is on it, mm: rounding.
 const SAME_MM: f64 = 1e-9;
 /// Segments of an edge: a blade's set of them has 128 bits.
@@ -96,6 +99,17 @@ impl PartLaw {
         }
     }
 
+    /// Derivatives of point and normal over the share.
+    pub fn rates(&self, share: f64) -> [DVec2; 2] {
+        match *self {
+            Self::Turn { radius_mm, normals_rad: [from, to], .. } => {
+                let turned = (to - from) * DVec2::from_angle(from + share * (to - from)).perp();
+                [radius_mm * turned, turned]
+            }
+            Self::Line { start_mm, end_mm } => [end_mm - start_mm, DVec2::ZERO],
+        }
+    }
+
     /// The arc or line of a piece of the contour.
     fn of_piece(piece: &ArcPiece) -> Self {
         let (start_mm, end_mm, sweep) = (piece.start_mm, piece.end_mm, piece.sweep_rad());
@@ -120,15 +134,56 @@ impl PartLaw {
     }
 }
 
+/// Where a tooth lies on its tool.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ContourPlace {
+    /// Section of its keys.
+    pub section: &'static str,
+    /// What carries its pitch.
+    pub pitch: TeethOn,
+}
+
+/// What carries the pitch of a tooth.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum TeethOn {
+    /// The pitch circle of a cutter about the origin.
+    Circle {
+        /// Teeth on it.
+        teeth: u32,
+        /// Its radius, mm.
+        radius_mm: f64,
+    },
+    /// The pitch line of a basic rack, through the origin.
+    Line {
+        /// From tooth to tooth, mm.
+        pitch_mm: f64,
+    },
+}
+
+impl ContourPlace {
+    /// Key of the contour's file.
+    pub fn file_key(&self) -> String {
+        format!("{}.file", self.section)
+    }
+
+    /// Distance from the cutter's axis, or out from the pitch line, mm.
+    pub fn out_mm(&self, at: DVec2) -> f64 {
+        match self.pitch {
+            TeethOn::Circle { .. } => at.length(),
+            TeethOn::Line { .. } => at.x,
+        }
+    }
+}
+
 /// A drawn tooth.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DrawnTooth {
+    /// Where it lies.
+    pub place: ContourPlace,
     /// Its parts, from the right root over the tip to the left root.
     pub parts: Vec<DrawnPart>,
-    /// Largest distance from the cutter's axis, mm.
-    pub tip_radius_mm: f64,
-    /// Smallest distance from the cutter's axis, mm.
-    pub root_radius_mm: f64,
+    /// Smallest and largest distance from the cutter's axis, or out from the pitch line, mm.
+    pub reach_mm: [f64; 2],
     /// How far the edge that cuts passes from the contour at most, mm.
     pub tolerance_mm: f64,
 }
@@ -138,22 +193,52 @@ impl DrawnTooth {
     ///
     /// # Errors
     /// See [`contour::read`]; a tooth without a tip.
-    pub fn read(path: &Path, place: CutterCircle, tolerance_mm: f64) -> Result<Self, Refusal> {
-        Self::through(&contour::read(path, place)?, tolerance_mm).ok_or_else(|| {
+    pub fn read(path: &Path, place: ContourPlace, tolerance_mm: f64) -> Result<Self, Refusal> {
+        Self::through(&contour::read(path, place)?, place, tolerance_mm).ok_or_else(|| {
             let problem = format!("{}: the tooth has no tip that crosses x = 0", path.display());
-            Refusal::new(FILE, problem, "draw the tip with a land or a round")
+            Refusal::new(&place.file_key(), problem, "draw the tip with a land or a round")
         })
     }
 
-    /// Through points in the blade's frame; none where no part crosses the centre line as a tip.
-    pub fn through(points_mm: &[DVec2], tolerance_mm: f64) -> Option<Self> {
+    /// Through points, the tooth along x; none where no part crosses the centre line as a tip.
+    pub fn through(points_mm: &[DVec2], place: ContourPlace, tolerance_mm: f64) -> Option<Self> {
         let runs = runs::smooth(points_mm, 0.5 * tolerance_mm);
         let pieces = runs.iter().flat_map(|run| biarcs::fit(run, 0.5 * tolerance_mm));
         let laws: Vec<PartLaw> = pieces.flat_map(|piece| PartLaw::of_piece(&piece).divided()).collect();
         let parts = with_corners(&named(&laws)?);
-        let radii = points_mm.iter().map(|at| at.length());
-        let (low, high) = radii.fold((f64::INFINITY, 0.0_f64), |(low, high), r| (low.min(r), high.max(r)));
-        Some(Self { parts, tip_radius_mm: high, root_radius_mm: low, tolerance_mm })
+        let out = points_mm.iter().map(|&at| place.out_mm(at));
+        let (low, high) = out.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), r| (low.min(r), high.max(r)));
+        Some(Self { place, parts, reach_mm: [low, high], tolerance_mm })
+    }
+
+    /// Refuses a tip that does not lie where the scene's addendum has it, `addendum_mm` over the pitch circle or line.
+    ///
+    /// # Errors
+    /// The tip is lower or higher by more than [`TIP_OFF_MODULES`].
+    pub fn refuse_other_addendum(
+        &self,
+        (tool, file): (&str, &Path),
+        tip_mm: f64,
+        shift: f64,
+        scene_coefficient: f64,
+        module_mm: f64,
+    ) -> Result<(), Refusal> {
+        let addendum = tip_mm / module_mm - shift;
+        if (addendum - scene_coefficient).abs() <= TIP_OFF_MODULES {
+            return Ok(());
+        }
+        let pitch = match self.place.pitch {
+            TeethOn::Circle { radius_mm, .. } => format!("circle of {radius_mm:.3} mm"),
+            TeethOn::Line { .. } => "line".to_owned(),
+        };
+        Err(Refusal::new(
+            &format!("{tool}.addendum_coefficient"),
+            format!(
+                "the tip that {} has lies {tip_mm:.4} mm, {addendum:.4} modules over the pitch {pitch}",
+                file.display()
+            ),
+            format!("write addendum_coefficient = {addendum:.3}, or look at the unit of the file and the module"),
+        ))
     }
 
     /// Whether it turns outwards alone between its roots.
@@ -176,6 +261,14 @@ impl DrawnTooth {
         let sharp = |part: &&DrawnPart| !matches!(part.law, PartLaw::Turn { radius_mm: 0.0, .. });
         let segments: Vec<Segment> =
             self.parts.iter().filter(sharp).flat_map(|part| segments(part, 0.5 * self.tolerance_mm)).collect();
+        self.edge_of(segments)
+    }
+
+    /// The edge of these segments.
+    ///
+    /// # Errors
+    /// More segments than a blade may have.
+    pub fn edge_of(&self, segments: Vec<Segment>) -> Result<Edge, Refusal> {
         if segments.len() <= MOST_SEGMENTS {
             let edge = Edge::new(segments);
             return Ok(if self.is_convex() { edge } else { edge.hollow() });
@@ -185,7 +278,11 @@ impl DrawnTooth {
             1e3 * self.tolerance_mm,
             segments.len()
         );
-        Err(Refusal::new(TOLERANCE, problem, "allow more, or smooth what was measured"))
+        Err(Refusal::new(
+            &format!("{}.tolerance_um", self.place.section),
+            problem,
+            "allow more, or smooth what was measured",
+        ))
     }
 }
 
@@ -278,8 +375,13 @@ fn segments(part: &DrawnPart, tolerance_mm: f64) -> Vec<Segment> {
                 center_mm + radius_mm / (0.5 * step).cos() * normal
             };
             let [start, end] = [0.0, 1.0].map(|share| part.law.at(share).point_mm);
-            let ends: Vec<DVec2> = [start].into_iter().chain((0..count as u32).map(vertex)).chain([end]).collect();
-            ends.windows(2).map(|pair| Segment::straight(part.name, pair[0], pair[1])).collect()
+            lines(part.name, [start].into_iter().chain((0..count as u32).map(vertex)).chain([end]))
         }
     }
+}
+
+/// The lines through points.
+pub fn lines(name: SegmentName, points_mm: impl Iterator<Item = DVec2>) -> Vec<Segment> {
+    let points_mm: Vec<DVec2> = points_mm.collect();
+    points_mm.windows(2).map(|pair| Segment::straight(name, pair[0], pair[1])).collect()
 }

@@ -76,7 +76,7 @@ fn with_lines(run: &[DVec2]) -> Vec<DVec2> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{DrawnTooth, PartLaw};
+    use super::super::{ContourPlace, DrawnTooth, PartLaw, TeethOn};
     use super::*;
 
     /// Teeth about x in the blade's frame by their left halves (across, out), from tip to root.
@@ -99,6 +99,8 @@ mod tests {
     #[test]
     fn lines_of_a_drawing_are_kept() {
         const TOLERANCE_MM: f64 = 1e-3;
+        const PLACE: ContourPlace =
+            ContourPlace { section: "tool", pitch: TeethOn::Circle { teeth: 20, radius_mm: 20.0 } };
         // Straight flanks with a semi-topping under 9 deg.
         let kinked = tooth(&[[1.2, 21.0], [1.7, 19.4], [2.096_324, 18.6]]);
         // Three bumps of 20 um with lines between.
@@ -112,7 +114,7 @@ mod tests {
         let last = rounded[rounded.len() - 1];
         rounded.push([last[0] + 1.9 * cos, last[1] - 1.9 * sin]);
         for points in [kinked, bumpy, tooth(&rounded)] {
-            let drawn = DrawnTooth::through(&points, TOLERANCE_MM).expect("a tooth");
+            let drawn = DrawnTooth::through(&points, PLACE, TOLERANCE_MM).expect("a tooth");
             // An arc of the round is off the chords of its own points by 0.3 um.
             let places =
                 drawn.parts.iter().flat_map(|part| (0..=40).map(|i| part.law.at(f64::from(i) / 40.0).point_mm));

@@ -1,9 +1,10 @@
-//! The contour of one cutter tooth from a file: a table (CSV), or the open curve of a drawing (DXF).
+//! The contour of one tooth from a file: a table (CSV), or the open curve of a drawing (DXF).
 //!
-//! In: a file. Out: its points in the blade's frame, from the right root over the tip to the left root, mm. In the file
-//! the tooth is upright: x across it, y from the cutter's axis out along its centre line. What is no tooth of this
-//! cutter is refused with its place.
+//! In: a file. Out: its points with the tooth along x, from the right root over the tip to the left root, mm. In the
+//! file the tooth is upright: x across it, y out along its centre line, from the cutter's axis or from the hob's pitch
+//! line. What is no tooth of this tool is refused with its place.
 
+use super::{ContourPlace, TeethOn};
 use crate::regular_file;
 use crate::scene::drawn_contour;
 use gearcut_core::error::Refusal;
@@ -11,8 +12,6 @@ use glam::DVec2;
 use std::f64::consts::PI;
 use std::path::Path;
 
-/// Key of the contour's file.
-pub const FILE: &str = "tool.shaper_cutter.profile.file";
 /// Largest file read: a hundred thousand lines.
 const MOST_BYTES: u64 = 16 << 20;
 /// Layer of the tooth in a drawing.
@@ -26,23 +25,23 @@ const SAME_MM: f64 = 1e-6;
 /// the file.
 const BEYOND: f64 = 1e-4;
 
-/// The pitch circle of the cutter, and its teeth.
-#[derive(Debug, Clone, Copy)]
-pub struct CutterCircle {
-    /// z0.
-    pub teeth: u32,
-    /// r_c, mm.
-    pub pitch_radius_mm: f64,
-}
-
 /// A file with a contour.
 pub struct ContourFile<'a> {
     path: &'a Path,
+    place: ContourPlace,
+}
+
+/// Where y is counted from.
+fn y_words(place: ContourPlace) -> &'static str {
+    match place.pitch {
+        TeethOn::Circle { .. } => "y from the cutter's axis outwards",
+        TeethOn::Line { .. } => "y from the hob's pitch line outwards",
+    }
 }
 
 impl ContourFile<'_> {
     fn refuse<T>(&self, problem: &str, way_out: &str) -> Result<T, Refusal> {
-        Err(Refusal::new(FILE, format!("{}: {problem}", self.path.display()), way_out))
+        Err(Refusal::new(&self.place.file_key(), format!("{}: {problem}", self.path.display()), way_out))
     }
 
     /// The points as the file has them.
@@ -61,7 +60,7 @@ impl ContourFile<'_> {
             return Ok(contour
                 .map_err(|problem| {
                     let place = format!("{}: {}", problem.place, problem.message);
-                    Refusal::new(FILE, place, problem.way_out.clone())
+                    Refusal::new(&self.place.file_key(), place, problem.way_out.clone())
                 })?
                 .points_mm);
         }
@@ -69,13 +68,16 @@ impl ContourFile<'_> {
     }
 
     fn table(&self, text: &str) -> Result<Vec<DVec2>, Refusal> {
-        let way_out = "write a table with the header x_mm,y_mm and one point in each line, such as 1.25,31.7; x runs \
-            across the tooth, y from the cutter's axis outwards; # begins a comment";
+        let way_out = format!(
+            "write a table with the header x_mm,y_mm and one point in each line, such as 1.25,31.7; x runs across the \
+            tooth, {}; # begins a comment",
+            y_words(self.place)
+        );
         let mut unit_mm = None;
         let mut points = Vec::new();
         for (index, line) in text.lines().enumerate() {
             let line = line.split('#').next().unwrap_or_default().trim();
-            let at = |problem: &str| self.refuse(&format!("line {}: {problem}", index + 1), way_out);
+            let at = |problem: &str| self.refuse(&format!("line {}: {problem}", index + 1), &way_out);
             if line.is_empty() {
                 continue;
             }
@@ -98,56 +100,78 @@ impl ContourFile<'_> {
     }
 }
 
-/// Points of one tooth in the blade's frame.
+/// Points of one tooth, along x.
 ///
 /// # Errors
-/// A file that cannot be read, a contour that crosses itself, that is no tooth of this cutter or of another size.
-pub fn read(path: &Path, place: CutterCircle) -> Result<Vec<DVec2>, Refusal> {
-    let file = ContourFile { path };
+/// A file that cannot be read, a contour that crosses itself, that is no tooth of this tool or of another size.
+pub fn read(path: &Path, place: ContourPlace) -> Result<Vec<DVec2>, Refusal> {
+    let file = ContourFile { path, place };
     let mut points = file.points()?;
     points.dedup_by(|later, kept| later.distance(*kept) < SAME_MM);
     if !(FEWEST_POINTS..=MOST_POINTS).contains(&points.len()) {
         let problem = format!("it has {} points, and {FEWEST_POINTS} to {MOST_POINTS} are taken", points.len());
         return file.refuse(&problem, "give the whole tooth, a point every 0.02 to 0.1 mm");
     }
-    // Upright on paper, along x in the blade.
+    // Upright on paper, along x here.
     let mut points: Vec<DVec2> = points.into_iter().map(|at| DVec2::new(at.y, -at.x)).collect();
     if points[0].y > points[points.len() - 1].y {
         points.reverse();
     }
     let said = |at: DVec2| format!("x {:.4}, y {:.4} mm", -at.y, at.x);
-    let frame = "x runs across the tooth and y from the cutter's axis outwards: the contour leads from the root on one \
-        side of x = 0 over the tip to the root on the other side";
-    let half_pitch_rad = PI / f64::from(place.teeth);
-    if let Some(&at) = points.iter().find(|at| at.x <= 0.0 || at.to_angle().abs() > half_pitch_rad * (1.0 + BEYOND)) {
-        let problem = format!(
-            "the point {} does not lie on a tooth of a cutter with {} teeth, {:.3} deg to either side of x = 0",
-            said(at),
-            place.teeth,
-            half_pitch_rad.to_degrees()
-        );
-        return file.refuse(&problem, frame);
+    let frame = format!(
+        "x runs across the tooth and {}: the contour leads from the root on one side of x = 0 over the tip to the root \
+        on the other side",
+        y_words(place)
+    );
+    if let Some(&at) = points.iter().find(|&&at| is_beyond(place, at)) {
+        let tool = match place.pitch {
+            TeethOn::Circle { teeth, .. } => {
+                format!("a cutter with {teeth} teeth, {:.3} deg", (PI / f64::from(teeth)).to_degrees())
+            }
+            TeethOn::Line { pitch_mm } => format!("a hob of pitch {pitch_mm:.4} mm, {:.4} mm", 0.5 * pitch_mm),
+        };
+        let problem = format!("the point {} does not lie on a tooth of {tool} to either side of x = 0", said(at));
+        return file.refuse(&problem, &frame);
     }
     let [first, last] = [points[0], points[points.len() - 1]];
     if first.y >= 0.0 || last.y <= 0.0 {
         let problem =
             format!("it leads from {} to {}, not from one side of x = 0 to the other", said(first), said(last));
-        return file.refuse(&problem, frame);
+        return file.refuse(&problem, &frame);
     }
-    let ends_mm = first.length().max(last.length());
-    let top_mm = points.iter().map(|at| at.length()).fold(0.0, f64::max);
-    if ends_mm >= place.pitch_radius_mm || top_mm <= place.pitch_radius_mm {
-        let problem = format!(
-            "it leads from {ends_mm:.3} mm to {top_mm:.3} mm off the axis, but a tooth reaches over the cutter's pitch \
-            circle of {:.3} mm and its roots lie within",
-            place.pitch_radius_mm
-        );
-        return file.refuse(&problem, "check the unit of the file, gear.module_mm and tool.shaper_cutter.teeth");
+    let ends_mm = place.out_mm(first).max(place.out_mm(last));
+    let top_mm = points.iter().map(|&at| place.out_mm(at)).fold(f64::NEG_INFINITY, f64::max);
+    let (pitch_mm, from, pitch, look_at) = match place.pitch {
+        TeethOn::Circle { radius_mm, .. } => (
+            radius_mm,
+            "off the axis",
+            format!("the cutter's pitch circle of {radius_mm:.3} mm and its roots lie within"),
+            "check the unit of the file, gear.module_mm and tool.shaper_cutter.teeth",
+        ),
+        TeethOn::Line { .. } => (
+            0.0,
+            "over y = 0",
+            "the hob's pitch line, y = 0, and its roots lie under it".to_owned(),
+            "count y from the pitch line, not from the hob's axis, and check the unit of the file and gear.module_mm",
+        ),
+    };
+    if ends_mm >= pitch_mm || top_mm <= pitch_mm {
+        let problem =
+            format!("it leads from {ends_mm:.3} mm to {top_mm:.3} mm {from}, but a tooth reaches over {pitch}");
+        return file.refuse(&problem, look_at);
     }
     if let Some(at) = crossing(&points) {
         return file.refuse(&format!("the contour crosses itself at {}", said(at)), "take the loop out of the contour");
     }
     Ok(points)
+}
+
+/// Whether a point lies beyond the middles of the spaces beside the tooth.
+fn is_beyond(place: ContourPlace, at: DVec2) -> bool {
+    match place.pitch {
+        TeethOn::Circle { teeth, .. } => at.x <= 0.0 || at.to_angle().abs() > PI / f64::from(teeth) * (1.0 + BEYOND),
+        TeethOn::Line { pitch_mm } => at.y.abs() > 0.5 * pitch_mm * (1.0 + BEYOND),
+    }
 }
 
 /// The first place at which a chain of points crosses itself.
