@@ -6,7 +6,7 @@
 //! **Law.** In the transverse section the rack is the contour with its width stretched by 1 / cos(beta). A place (X,
 //! Y), X along the pitch line from the space's middle and Y out of the gear, touches when its normal meets the pitch
 //! line, at X - Y n_X / n_Y: there the pitch point lies when the curve has rolled on so far
-//! ([`super::rack_generation`]). What of the touches is left, the envelope says ([`crate::drawn_tooth::envelope`]).
+//! ([`super::rack_generation`]). The envelope says what is left of the touches ([`crate::drawn_tooth::envelope`]).
 //!
 //! **Sections.** Those of a helical gear are one section, turned with the helix; so its pitch curve is a circle.
 

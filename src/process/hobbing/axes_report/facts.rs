@@ -53,7 +53,7 @@ pub(super) fn print(axes: &HobbingAxesReport, sheet: &mut Sheet) {
     if let Some(feed_mark_mm) = job.feed_mark_mm(operation) {
         sheet.line("feed marks", format!("up to {} um high", significant(UM_PER_MM * feed_mark_mm, 3)));
     } else {
-        sheet.line("marks", "of a drawn tooth are found by the cut alone".to_owned());
+        sheet.line("marks", "of a drawn tooth are found by the cut alone");
     }
     let facts = job.curve.facts();
     let marks = [facts.smallest_curvature, facts.largest_curvature]

@@ -8,10 +8,10 @@
 //! **Thread that generates with the rack.** In the thread's transverse plane the rack is the contour with w stretched
 //! by 1 / sin(lambda), and rolls on the pitch circle R. A place with the normal (n_h, n_w) touches the thread when its
 //! normal meets the pitch line, d = h sin(lambda) n_w / n_h beside it: contact normals pass through the pitch point.
-//! The thread has that point at the radius sqrt((R + h)^2 + d^2) and the angle (w / sin(lambda) - d) / R + atan(d / (R
-//! + h)); in the axial section the angle becomes the place p times the angle. A straight contour gives so the involute
-//! worm (ZI). Where the contour has a corner outwards, both its parts reach beyond it on the thread and are cut off
-//! where they cross; a corner inwards leaves its own path, like a corner of a rack in the root of a gear.
+//! The thread has that point at the radius rho = sqrt((R + h)^2 + d^2) and the angle (w / sin(lambda) - d) / R +
+//! asin(d / rho); in the axial section the angle becomes the place p times the angle. A straight contour gives so the
+//! involute worm (ZI). Where the contour has a corner outwards, both its parts reach beyond it on the thread and are
+//! cut off where they cross; a corner inwards leaves its own path, like a corner of a rack in the root of a gear.
 //!
 //! **Segments.** Images of parts that turn outwards alone are tables of the curve, hollow ones tangents within the
 //! contour's tolerance ([`crate::drawn_tooth`] says why), what has no bend is a line.
