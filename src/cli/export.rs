@@ -81,7 +81,8 @@ impl Exporter<'_> {
         let cylinder = gear.cylindrical();
         let wants_cylinder = [&arguments.dxf, &arguments.tool_dxf, &arguments.wire].into_iter().any(Option::is_some);
         if wants_cylinder && cylinder.is_none() {
-            let way_out = "export a shaped or hobbed gear; of a bevel gear there are --step, --points, and mesh/ of `gearcut cut`";
+            let way_out = "export a shaped or hobbed gear; of a bevel gear there are --step, --points, and mesh/ of \
+                           `gearcut cut`";
             return Err(Refusal::new("gear", "a bevel gear has no transverse section", way_out).into());
         }
         if let Some(path) = &arguments.points {

@@ -179,8 +179,8 @@ fn an_open_contour_gives_the_sector_that_was_drawn() {
     for tooth in [1, 6, 12] {
         let [target_mm, _] = apart_mm(&drawn, &read, tooth, Side::Right);
         println!("tooth {tooth}: {target_mm:e} mm");
-        // The right flank of tooth 1 is generated beyond the end, by the curvature of the last arc: in a drawing of arcs it
-        // is 1.5 % off there, as the radius changes by 1 mm of 35 mm over that arc.
+        // The right flank of tooth 1 is generated beyond the end, by the curvature of the last arc: in a drawing of
+        // arcs it is 1.5 % off there, as the radius changes by 1 mm of 35 mm over that arc.
         assert!(target_mm < if tooth == 1 { 0.03 } else { 5e-4 }, "tooth {tooth}: {target_mm:e} mm");
     }
     let closed = prepared(&scene("")).expect_err("a closed curve has no ends");
