@@ -21,6 +21,7 @@ mod loaded;
 pub(crate) mod machine_errors;
 mod mate;
 pub mod model;
+mod motion_table;
 mod overrides;
 mod parameters;
 mod points;

@@ -1,4 +1,5 @@
-//! Points of a pitch curve from a file: a table (CSV), or the curve of a drawing (DXF), closed or of a sector.
+//! Points of a pitch curve from a file: a table (CSV) of radii or of a motion ([`motion_table`]), or the curve of a
+//! drawing (DXF), closed or of a sector.
 //!
 //! Tables are read by hand: the two numbers of a line need no quoting rules, and every problem keeps its line and
 //! column. The curve of a drawing runs round the origin, the axis of the gear. Vertices of a polyline of lines are
@@ -9,18 +10,23 @@ use std::path::Path;
 use super::build::sector_deg;
 use super::drawn_contour;
 use super::errors::Problem;
-use super::keys::{self, Kind};
+use super::keys::{self, Kind, Range};
+use super::motion_table::{self, MovedGear};
 use super::problems::Problems;
 use super::sources::line_place;
 use super::table::KeyTable;
 use super::values::{Checked, Held, Values};
 use crate::regular_file;
+use gearcut_core::gear::GearKind;
 use glam::DVec2;
+use std::f64::consts::PI;
 
 /// Sections that may name a file.
 const SECTIONS: [&str; 2] = ["gear.pitch_curve.table", "gear.pitch_curve.mate.driver.table"];
-/// First line of the table that is no comment.
-const HEADER: &str = "phi_deg,radius_mm";
+/// First line of a table that is no comment: of radii, of a motion.
+const HEADERS: [&str; 2] = ["phi_deg,radius_mm", "phi_deg,mate_deg"];
+/// Angles of a motion, deg: its last row is a turn behind the first.
+const MOTION_DEG: [Range; 2] = [Range::below(0.0, 720.0), Range::closed(-1e6, 1e6)];
 /// Largest text read, for scenes and tables: a hundred thousand points take 4 MB.
 const MOST_BYTES: u64 = 16 << 20;
 
@@ -57,14 +63,14 @@ pub(super) fn read_points(values: &mut Values, table: &KeyTable, base_dir: &Path
             Err(why) => problems.add(
                 &at,
                 format!("cannot read the points file {name}: {why}"),
-                "the path is relative to the scene file; the file is a table with the header phi_deg,radius_mm, or a \
-                 drawing (.dxf)"
+                "the path is relative to the scene file; the file is a table with the header phi_deg,radius_mm or \
+                 phi_deg,mate_deg, or a drawing (.dxf)"
                     .to_owned(),
             ),
             Ok(text) => match if is_drawing {
                 drawn(&shown(base_dir, &name), &text, key.kind, is_closed)
             } else {
-                parse(&shown(base_dir, &name), &text, key.kind)
+                parse(&shown(base_dir, &name), &text, key.kind, moved_gear(values, section, is_closed))
             } {
                 Ok(points) => {
                     let held = Held { value: Checked::Points(points), at: Some(at) };
@@ -76,6 +82,22 @@ pub(super) fn read_points(values: &mut Values, table: &KeyTable, base_dir: &Path
     }
 }
 
+/// The gear whose curve the file of a section gives; values that are missing are missed elsewhere.
+fn moved_gear(values: &Values, section: &str, is_closed: bool) -> MovedGear {
+    let gear = values.view("gear");
+    let is_driver = section == SECTIONS[1];
+    let teeth =
+        if is_driver { values.view("gear.pitch_curve.mate").whole("driver_teeth") } else { gear.whole("teeth") };
+    let is_ring = !is_driver && gear.text("kind") == Some("internal");
+    let module_mm = gear.number("module_mm").unwrap_or(1.0);
+    let helix_rad = gear.rad("helix_angle_deg").unwrap_or_default();
+    MovedGear {
+        kind: if is_ring { GearKind::Internal } else { GearKind::External },
+        perimeter_mm: PI * module_mm / helix_rad.cos() * f64::from(teeth.unwrap_or(1)),
+        is_closed,
+    }
+}
+
 /// The file's path as messages print it: as the scene's own path is written, with a slash on every system.
 fn shown(base_dir: &Path, name: &str) -> String {
     let base = base_dir.display().to_string();
@@ -83,19 +105,20 @@ fn shown(base_dir: &Path, name: &str) -> String {
 }
 
 /// The points of `text`; the first problem ends the reading, since a wrong separator spoils every line.
-fn parse(name: &str, text: &str, kind: Kind) -> Result<Vec<[f64; 2]>, Box<Problem>> {
+fn parse(name: &str, text: &str, kind: Kind, gear: MovedGear) -> Result<Vec<[f64; 2]>, Box<Problem>> {
     let Kind::Points { angle, radius, fewest, most } = kind else { return Ok(Vec::new()) };
     let refuse = |start: usize, part: &str, message: String| {
         Box::new(Problem {
             place: line_place(name, text, start..start + part.len()),
             message,
             way_out: format!(
-                "a points file has the header {HEADER} and one point per line, such as 12.5,61.2; # begins a comment"
+                "a points file has the header {} and one point per line, such as 12.5,61.2; # begins a comment",
+                HEADERS.join(" or ")
             ),
         })
     };
     let mut points: Vec<[f64; 2]> = Vec::new();
-    let mut header_seen = false;
+    let mut is_motion = None;
     let mut start = 0;
     for whole in text.split_inclusive('\n') {
         let line = whole.split('#').next().unwrap_or_default().trim_end();
@@ -103,19 +126,24 @@ fn parse(name: &str, text: &str, kind: Kind) -> Result<Vec<[f64; 2]>, Box<Proble
             start += whole.len();
             continue;
         }
-        if !header_seen {
-            if line.replace(' ', "") != HEADER {
-                return Err(refuse(start, line, format!("the header is not {HEADER}")));
-            }
-            header_seen = true;
+        let Some(is_motion) = is_motion else {
+            let Some(found) = HEADERS.iter().position(|header| line.replace(' ', "") == *header) else {
+                return Err(refuse(start, line, format!("the header is not {}", HEADERS.join(" or "))));
+            };
+            is_motion = Some(found == 1);
             start += whole.len();
             continue;
-        }
+        };
         let Some((first, second)) = line.split_once(',') else {
             return Err(refuse(start, line, "a point is two numbers with a comma between them".to_owned()));
         };
         let mut point = [0.0; 2];
-        let fields = [(first, start, "angle", angle, "deg"), (second, start + first.len() + 1, "radius", radius, "mm")];
+        let second_start = start + first.len() + 1;
+        let fields = if is_motion {
+            [(first, start, "angle", MOTION_DEG[0], "deg"), (second, second_start, "angle", MOTION_DEG[1], "deg")]
+        } else {
+            [(first, start, "angle", angle, "deg"), (second, second_start, "radius", radius, "mm")]
+        };
         for (slot, (field, field_start, what, range, unit)) in point.iter_mut().zip(fields) {
             let number = field.trim().parse::<f64>().ok().filter(|&number| range.contains(number));
             *slot = number.ok_or_else(|| {
@@ -135,10 +163,15 @@ fn parse(name: &str, text: &str, kind: Kind) -> Result<Vec<[f64; 2]>, Box<Proble
         }
         start += whole.len();
     }
+    let whole = |message: String, way_out: String| {
+        Box::new(Problem { place: line_place(name, text, 0..0).without_excerpt(), message, way_out })
+    };
+    if is_motion == Some(true) {
+        return motion_table::points(&points, gear).map_err(|(message, way_out)| whole(message, way_out.to_owned()));
+    }
     if points.len() < fewest {
-        let place = line_place(name, text, 0..0).without_excerpt();
-        let way_out = format!("give at least {fewest} points over the whole turn, under the header {HEADER}");
-        return Err(Box::new(Problem { place, message: format!("{} points are too few", points.len()), way_out }));
+        let way_out = format!("give at least {fewest} points over the whole turn, under the header {}", HEADERS[0]);
+        return Err(whole(format!("{} points are too few", points.len()), way_out));
     }
     Ok(points)
 }

@@ -208,8 +208,10 @@ const fn table(path: &'static str) -> KeySection {
             unit: "",
             default: Default::OneOfGroup,
             example: "\"points.csv\"",
-            teach: "The same points from a CSV file with the header phi_deg,radius_mm (# begins a comment), or the \
-                closed curve round the origin of a drawing (.dxf); the path is relative to the scene.",
+            teach: "The same points from a CSV file with the header phi_deg,radius_mm (# begins a comment); a wish for \
+                a motion with the header phi_deg,mate_deg, angles of the mate at angles of this gear over a whole \
+                turn, both ends included; or the curve round the origin of a drawing (.dxf). The path is relative to \
+                the scene.",
         },
         Key {
             name: "scale_to_close",

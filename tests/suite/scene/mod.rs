@@ -7,4 +7,5 @@ mod hostile;
 mod keys;
 mod load;
 mod mate;
+mod motion_table;
 mod settings;
