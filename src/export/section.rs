@@ -170,7 +170,9 @@ fn target_profile_mm(
 ) -> Result<Vec<DVec2>> {
     let section = |tooth: u32| {
         let section = gear.target_section(counted(gear, tooth), wish.z_mm, spacing_mm(gear, wish))?;
-        stage.count()?;
+        if tooth >= first {
+            stage.count()?;
+        }
         Ok(section)
     };
     // The root before the first tooth belongs to the tooth before it.

@@ -270,7 +270,16 @@ fn contours_that_are_no_tooth_are_refused() {
     let whole = scene_job(ROUND, Some(("tooth.dxf", &dxf(mm, &lines))), &[]).expect("a drawing in mm");
     let points = scene_job(ROUND, Some(("tooth.csv", &table(&good))), &[]).expect("a table");
     assert_eq!(whole.cutter.drawn().map(|own| own.parts.len()), points.cutter.drawn().map(|own| own.parts.len()));
+    // A symmetric contour has symmetric arcs, to the digits of the table.
+    let parts = &points.cutter.drawn().expect("a contour").parts;
+    for (left, right) in parts.iter().zip(parts.iter().rev()) {
+        let [from, to] = [left.law.at(0.0).point_mm, right.law.at(1.0).point_mm];
+        assert!(from.distance(DVec2::new(to.x, -to.y)) < 1e-8, "{from} {to}");
+    }
     refused("tooth.dxf", &dxf("", &lines), &["does not say what its unit is", "$INSUNITS"]);
+    let circle = "0\nCIRCLE\n8\n0\n10\n0.0\n20\n0.0\n40\n30.0\n0\nENDSEC\n0\nEOF\n";
+    let beside = dxf(mm, &lines).replace("0\nENDSEC\n0\nEOF\n", circle);
+    refused("tooth.dxf", &beside, &["a closed curve, such as a circle, lies beside the open contour", "TOOTH"]);
     lines[60][0] += DVec2::new(0.0, 1e-3);
     refused("tooth.dxf", &dxf(mm, &lines), &["the contour is open at x ", "a gap of 0.0010 mm", "join its ends"]);
 }
