@@ -138,19 +138,6 @@ fn cycloid_job(settings: &[&str]) -> ShapingJob {
     ShapingJob::new(scene).expect("it can be cut")
 }
 
-#[test]
-fn a_cut_by_a_hollow_edge_equals_brute_force() {
-    let job = cycloid_job(&["gear.face_width_mm=2.0", "operation.finish.strokes_per_revolution=600"]);
-    assert!(!job.cutter.edge().is_convex, "cycloids are hollow below the pitch circle");
-    for (tooth, side) in [(1, Side::Left), (7, Side::Right)] {
-        let field = job.flank_field(job.target_flank(tooth, side));
-        for operation in &job.operations {
-            compare_whole_field(&job, &field, operation);
-        }
-    }
-    compare_whole_field(&job, &job.root_field(2), job.finishing());
-}
-
 /// A pair of cycloids with one rolling circle has a constant ratio: the face of one is rolled out by the circle that
 /// rolls out the flank of the other. So the gear has to be the epicycloid of that circle over its pitch circle and the
 /// hypocycloid below, each with the closed form of its distance from the point where it crosses the pitch circle.
@@ -351,4 +338,22 @@ fn a_flank_that_runs_back_is_refused() {
     let job = scene_job(ROUND, Some(("tooth.csv", &table(&points))), &["tool.shaper_cutter.profile.tolerance_um=5"]);
     let Err(why) = job else { panic!("no flank goes on over such a bump") };
     assert!(why.contains("runs back on itself") && why.contains("profile.file"), "{why}");
+}
+
+/// Tests of more than some ten seconds.
+mod slow {
+    use super::*;
+
+    #[test]
+    fn a_cut_by_a_hollow_edge_equals_brute_force() {
+        let job = cycloid_job(&["gear.face_width_mm=2.0", "operation.finish.strokes_per_revolution=600"]);
+        assert!(!job.cutter.edge().is_convex, "cycloids are hollow below the pitch circle");
+        for (tooth, side) in [(1, Side::Left), (7, Side::Right)] {
+            let field = job.flank_field(job.target_flank(tooth, side));
+            for operation in &job.operations {
+                compare_whole_field(&job, &field, operation);
+            }
+        }
+        compare_whole_field(&job, &job.root_field(2), job.finishing());
+    }
 }
