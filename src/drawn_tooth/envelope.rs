@@ -1,4 +1,4 @@
-//! What a drawn tooth leaves of a space when its tool runs on continuously.
+//! The space that a drawn tooth generates when its tool runs on continuously.
 //!
 //! In: a [`DrawnTooth`], the blank, and the tool's law of contact: where a place of the contour touches what it
 //! generates. Out: [`SpaceProfile`], points with normals from the tip of one tooth through the space to the tip of the

@@ -1,4 +1,4 @@
-//! What a drawn basic rack leaves when the pitch curve rolls on it.
+//! The gear that a drawn basic rack generates when the pitch curve rolls on it.
 //!
 //! In: the contour of the hob's tooth in the normal section, pitch curve, helix, how far the hob stays back. Out:
 //! flanks and roots in any transverse section.

@@ -68,7 +68,7 @@ const LEAST_DRAWN_ROOT: f64 = 0.25;
 /// Near the pitch line, where cycloids run square to it, the gap that is left has a length of a fiftieth of the
 /// contour's radius of curvature, and closes within 0.3 um at 5 mm.
 pub(super) const LEAST_SLOPE: f64 = 0.01;
-/// Chords by which the thickness of a drawn tooth is told, mm.
+/// Chords by which the thickness of a drawn tooth is measured, mm.
 const OUTLINE_CHORD_MM: f64 = 1e-3;
 /// A hob ready to cut.
 #[derive(Debug, Clone)]
