@@ -9,6 +9,7 @@
 //! - [`tool`]: the cutter and its edges
 //! - [`target`]: flanks, roots and tips as continuous motion leaves them
 //! - [`motion`]: return strokes, programs, axes with their errors
+//! - `swing`: where the strokes of a sector begin and end
 //! - [`job`]: the scene made ready
 //! - [`cut`]: what all operations leave, with chips, marks and the whole blank
 //! - [`gear`]: the gear cut and measured
@@ -35,6 +36,7 @@ mod report;
 mod run;
 pub mod scene;
 mod stage_costs;
+mod swing;
 pub mod target;
 pub mod tool;
 

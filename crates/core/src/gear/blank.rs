@@ -66,7 +66,7 @@ impl Blank {
         Self { back: Back::bore(radius_mm), ..self }
     }
 
-    /// The same with the dwell of a sector; as it is where teeth stand all round.
+    /// The same with the dwell of a sector; as it is where teeth go all round.
     ///
     /// # Errors
     /// A radius that the ends of the sector do not reach, or that lies in the bore.

@@ -226,12 +226,12 @@ impl PitchCurve {
         }
     }
 
-    /// The polar angles over which teeth stand: a sector's own, or a turn.
+    /// The polar angles that have teeth: a sector's own, or a turn.
     pub fn toothed_rad(&self) -> [f64; 2] {
         self.sector_rad().unwrap_or([0.0, TURN_RAD])
     }
 
-    /// Whether teeth stand at a polar angle (any real).
+    /// Whether a polar angle (any real) has teeth.
     pub fn carries(&self, phi_rad: f64) -> bool {
         self.sector_rad().is_none_or(|[from, to]| (phi_rad - from).rem_euclid(TURN_RAD) <= to - from)
     }
