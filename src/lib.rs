@@ -101,6 +101,7 @@
 //! - [`run`]: the order of a whole run
 //! - `influence`: what errors of the machine do to a gear, and which errors a measured gear shows
 //! - `export`: sections, solids, points and programs for other people's programs
+//! - `deviations`: measured points laid on the target
 //! - `scatter`: how gears of one scene scatter, layer by layer of errors
 //! - [`study`]: many scenes that differ in a few keys, one row of quantities each
 //! - `library`: the few items that other programs need
@@ -133,6 +134,7 @@ cfg_if::cfg_if! {
     if #[cfg(feature = "testing")] {
         pub mod bench;
         pub mod compare;
+        pub mod deviations;
         pub mod drawn_tooth;
         pub mod export;
         pub mod gcode;
@@ -157,6 +159,7 @@ cfg_if::cfg_if! {
     } else {
         mod bench;
         mod compare;
+        mod deviations;
         mod drawn_tooth;
         mod export;
         mod gcode;

@@ -34,6 +34,7 @@ pub fn rows() -> impl Iterator<Item = &'static NoticeRow> {
     let following = [
         crate::pair_job::notices::NOTICES,
         crate::influence::notices::NOTICES,
+        crate::deviations::notices::NOTICES,
         crate::scatter::notices::NOTICES,
         crate::study::notices::NOTICES,
         crate::compare::notices::NOTICES,

@@ -8,7 +8,7 @@ use crate::findings::{QuantityGroup, QuantityRow, unit};
 use crate::measure::topography::{Parameter, parameters};
 use crate::process::PROCESSES;
 use crate::wrap::wrapped;
-use crate::{compare, influence, pair_job, scatter, study, texture};
+use crate::{compare, deviations, influence, pair_job, scatter, study, texture};
 use std::fmt::Write as _;
 
 /// Widest line of the page but for tables, characters.
@@ -21,6 +21,7 @@ pub fn groups() -> Vec<&'static QuantityGroup> {
         texture::quantities::QUANTITIES,
         pair_job::quantities::QUANTITIES,
         influence::quantities::QUANTITIES,
+        deviations::quantities::QUANTITIES,
         scatter::quantities::QUANTITIES,
         study::quantities::QUANTITIES,
         compare::quantities::QUANTITIES,

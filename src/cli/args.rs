@@ -16,7 +16,9 @@ use crate::steps::parts::Parts;
 use clap::builder::PossibleValuesParser;
 use clap::{Args, Parser, Subcommand};
 
-pub use errors::{BudgetArguments, CalibrateArguments, DiagnoseArguments, FlankSide, ScatterArguments};
+pub use errors::{
+    BudgetArguments, CalibrateArguments, DeviationsArguments, DiagnoseArguments, FitChoice, FlankSide, ScatterArguments,
+};
 pub use export::{ExportArguments, LengthUnitChoice};
 pub use pairs::{ContactArguments, FlankChoice, PairArguments};
 pub use reading::{AxisChoice, ReadingArguments};
@@ -215,6 +217,19 @@ pub enum Command {
         figure per unit of each error, tables/influence_maps.csv with the derivative of every height. \
         See docs/budget.md.")]
     Budget(BudgetArguments),
+    /// Lay measured points of a gear on its target: the normal deviation of each.
+    #[command(after_help = "Example:\n  \
+        gearcut deviations scenes/shaping/circular_m3_z24.toml --measured points.csv\n  \
+        gearcut deviations my.toml --measured section.dxf --fit centre --layer SCAN\n\n\
+        A CSV has a row for each point: x_mm, y_mm, z_mm (or x_in and so on, x_um, x_cm, x_m), and where they are \
+        known tooth (from 1, counter-clockwise) and flank (left or right). The axis is z, and z = 0 the middle of the \
+        face. A drawing (DXF) is that of a section: vertices of its polylines, and places on its arcs and splines.\n\n\
+        The points are moved as a rigid body until the squares of the deviations on the evaluated flanks have the \
+        least sum. What is moved is no deviation any more: with --fit centre an eccentricity is gone.\n\n\
+        Writes a folder (out/<scene>_deviations unless --out is given): report.html, results.json, \
+        tables/deviations.csv, which `gearcut diagnose` and `gearcut calibrate` read, tables/flanks.csv. \
+        See docs/exchange.md.")]
+    Deviations(DeviationsArguments),
     /// Find the machine errors that explain a measured gear, and the unexplained rest.
     #[command(after_help = "Example:\n  \
         gearcut diagnose scenes/shaping/circular_m3_z24.toml --measured gear.csv --noise-um 0.5\n  \

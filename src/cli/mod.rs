@@ -13,6 +13,7 @@ mod check;
 mod compare;
 mod contact;
 mod cut;
+mod deviations;
 mod devices;
 mod diagnose;
 mod drivers;
@@ -62,6 +63,7 @@ pub fn run(arguments: CommandLine) -> ExitCode {
         Command::Study(arguments) => study::study(&arguments),
         Command::Sweep(arguments) => study::sweep(&arguments),
         Command::Budget(arguments) => budget::run(&arguments),
+        Command::Deviations(arguments) => deviations::run(&arguments),
         Command::Diagnose(arguments) => diagnose::run(&arguments),
         Command::Calibrate(arguments) => calibrate::run(&arguments),
     };

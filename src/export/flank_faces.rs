@@ -11,13 +11,13 @@
 //! As cut, marks lower than the tolerance are averaged; the grid is fine enough to see them.
 
 use super::b_spline::CubicKnots;
+use super::cut_heights::cut_heights_mm;
 use super::section::{ProfileSource, SectionWish};
 use super::solid::too_coarse;
 use crate::influence::gear_grid::evenly;
 use crate::job::GearJob;
 use crate::pair_job::watch::Watch;
 use gearcut_core::cut::Backend;
-use gearcut_core::dexel::NO_PASS;
 use gearcut_core::error::{Error, Refusal, Result};
 use gearcut_core::terms::Side;
 use glam::DVec3;
@@ -100,24 +100,12 @@ impl FlankPlaces {
         let mut points_mm: Vec<Vec<DVec3>> =
             target.iter().map(|row| row.iter().map(|ray| ray.origin_mm).collect()).collect();
         if wish.source == ProfileSource::Cut {
-            let layers = gear.cut_flank(backend, tooth, side, &arcs_mm, &rows_mm)?;
-            let layer = layers.into_iter().last().ok_or(Error::Interrupted)?;
+            // On the face cone the blank ends on the flank itself.
+            let heights_mm =
+                cut_heights_mm(gear, backend, (tooth, side), [&arcs_mm, &rows_mm], Some(wish.tolerance_mm))?;
             for (row, row_mm) in points_mm.iter_mut().enumerate() {
                 for (column, point_mm) in row_mm.iter_mut().enumerate() {
-                    let place = column * rows_mm.len() + row;
-                    let height_mm = f64::from(layer.heights_mm[place]);
-                    // On the face cone the blank ends on the flank itself.
-                    if layer.passes[place] == NO_PASS && height_mm > wish.tolerance_mm {
-                        let problem = format!(
-                            "no stroke reaches the {} flank of tooth {tooth} {:.3} mm from the form point, {:.3} mm \
-                             from the middle of the face",
-                            side.name(),
-                            arcs_mm[column],
-                            rows_mm[row]
-                        );
-                        return Err(Refusal::new("operation", problem, "leave --as-cut out").into());
-                    }
-                    *point_mm = target[row][column].at(height_mm);
+                    *point_mm = target[row][column].at(heights_mm[column * rows_mm.len() + row]);
                 }
             }
         }

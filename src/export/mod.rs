@@ -12,12 +12,14 @@
 //! | [`solid`] | the gear as a solid of such faces |
 //! | [`flank_faces`] | flanks as such faces, where a gear is no swept section |
 //! | [`step`] | solid or flanks as a STEP file |
+//! | [`cut_heights`] | heights of a cut flank, where strokes reach |
 //! | [`points`] | points of flanks with their normals as CSV |
 //! | [`wire`] | programs of wire erosion |
 //! | [`mod@unit`] | units of length, and how numbers are written |
 
 pub mod arcs;
 pub mod b_spline;
+pub mod cut_heights;
 pub mod drawing;
 pub mod dxf;
 pub mod flank_faces;

@@ -8,14 +8,14 @@
 //! As cut, the point is the target's moved along its normal by the deviation, which is a column of its own: the table
 //! is one that `gearcut diagnose` reads.
 
+use super::cut_heights::cut_heights_mm;
 use super::section::ProfileSource;
 use super::unit::{FileUnit, fixed};
 use crate::influence::gear_grid::evenly;
 use crate::job::GearJob;
 use crate::pair_job::watch::WatchedUnits;
 use gearcut_core::cut::Backend;
-use gearcut_core::dexel::NO_PASS;
-use gearcut_core::error::{Error, Refusal, Result};
+use gearcut_core::error::Result;
 use gearcut_core::terms::Side;
 use gearcut_core::units::UM_PER_MM;
 use rayon::prelude::*;
@@ -80,11 +80,11 @@ fn flank_rows(
     let arcs_mm = evenly(gear.evaluated_profile_mm(tooth, side)?, wish.grid[0]);
     let rows_mm = evenly([-half_mm, half_mm], wish.grid[1]);
     let target = gear.target_points(tooth, side, &arcs_mm, &rows_mm)?;
-    let layer = match wish.source {
+    let heights_mm = match wish.source {
         ProfileSource::Target => None,
         ProfileSource::Cut => {
-            let layers = gear.cut_flank(backend, tooth, side, &arcs_mm, &rows_mm)?;
-            Some(layers.into_iter().last().ok_or(Error::Interrupted)?)
+            let flank = (tooth, side);
+            Some(cut_heights_mm(gear, backend, flank, [&arcs_mm, &rows_mm], None)?)
         }
     };
     let mut text = String::new();
@@ -92,20 +92,12 @@ fn flank_rows(
         for (row, v_mm) in rows_mm.iter().enumerate() {
             let ray = &target[row][column];
             let place = column * rows_mm.len() + row;
-            let height_mm = layer.as_ref().map_or(0.0, |layer| f64::from(layer.heights_mm[place]));
-            if layer.as_ref().is_some_and(|layer| layer.passes[place] == NO_PASS) {
-                let problem = format!(
-                    "no stroke reaches the {} flank of tooth {tooth} {u_mm:.3} mm from the form point, {v_mm:.3} mm \
-                     from the middle of the face",
-                    side.name()
-                );
-                return Err(Refusal::new("operation", problem, "name teeth that are cut with --teeth").into());
-            }
+            let height_mm = heights_mm.as_ref().map_or(0.0, |heights_mm| heights_mm[place]);
             let point = ray.at(height_mm);
             let lengths = [*u_mm, *v_mm, point.x, point.y, point.z].map(|mm| unit.shown(mm)).join(",");
             let normal = ray.normal.to_array().map(|part| fixed(part, NORMAL_DIGITS)).join(",");
             let _ = write!(text, "{tooth},{},{lengths},{normal}", side.name());
-            if layer.is_some() {
+            if heights_mm.is_some() {
                 let _ = write!(text, ",{}", fixed(height_mm * UM_PER_MM, 4));
             }
             text.push('\n');

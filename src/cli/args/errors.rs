@@ -1,6 +1,6 @@
 //! What can be typed behind the commands that ask what errors of machine and tool do.
 
-use super::{RunArguments, SceneArguments};
+use super::{RunArguments, SceneArguments, VerdictArguments};
 use crate::scatter::tolerance::Tolerance;
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
@@ -68,6 +68,53 @@ pub struct CalibrateArguments {
     /// Backend, progress and verdict.
     #[command(flatten)]
     pub run: RunArguments,
+}
+
+/// Arguments of `deviations`.
+#[derive(Debug, Args)]
+pub struct DeviationsArguments {
+    /// The scene.
+    #[command(flatten)]
+    pub scene: SceneArguments,
+    /// Measured points (CSV), or a measured section (DXF).
+    #[arg(long, value_name = "FILE")]
+    pub measured: PathBuf,
+    /// What may be moved to bring the points onto the target.
+    #[arg(long, value_enum, default_value = "turn")]
+    pub fit: FitChoice,
+    /// Radius of the probe's ball, where the points are its centres.
+    #[arg(long, value_name = "MM", default_value_t = 0.0, allow_negative_numbers = true)]
+    pub probe_radius_mm: f64,
+    /// Section of a drawing, from the middle of the face.
+    #[arg(long, value_name = "MM", default_value_t = 0.0, allow_negative_numbers = true)]
+    pub section_mm: f64,
+    /// Layer of a drawing that has the points.
+    #[arg(long, value_name = "NAME")]
+    pub layer: Option<String>,
+    /// Folder to write [default: out/<scene>_deviations].
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Show no progress.
+    #[arg(long)]
+    pub quiet: bool,
+    /// What makes the verdict bad.
+    #[command(flatten)]
+    pub verdict: VerdictArguments,
+}
+
+/// What may be moved.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum FitChoice {
+    /// Nothing: the points are in the gear's frame, x through the middle of a space, tooth 1 counter-clockwise of it.
+    None,
+    /// The gear about its axis.
+    Turn,
+    /// The same, and the axis across itself.
+    Centre,
+    /// The same, and the tilt of the axis.
+    Axis,
+    /// All of a body: the place along the axis as well.
+    Body,
 }
 
 /// Arguments of `diagnose`.

@@ -3,6 +3,7 @@
 //! Paths of the files are compared with the target sampled a hundred times finer than the fit had it, both ways, and
 //! with the involute in closed form.
 
+mod measured_points;
 mod points;
 mod sections;
 mod solids;

@@ -6,7 +6,7 @@ use glam::DVec2;
 use std::path::Path;
 
 /// Columns of a table of points, by name.
-fn table(path: &Path) -> Vec<std::collections::HashMap<String, String>> {
+pub(super) fn table(path: &Path) -> Vec<std::collections::HashMap<String, String>> {
     let mut reader = csv::Reader::from_path(path).expect("CSV");
     let heads = reader.headers().expect("heads").clone();
     let row =

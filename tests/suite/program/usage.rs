@@ -2,7 +2,7 @@
 
 use crate::fixtures::command::{gearcut, gearcut_in};
 
-const COMMANDS: [&str; 14] = [
+const COMMANDS: [&str; 15] = [
     "cut",
     "check",
     "axes",
@@ -15,6 +15,7 @@ const COMMANDS: [&str; 14] = [
     "export",
     "pair",
     "budget",
+    "deviations",
     "diagnose",
     "calibrate",
 ];

@@ -21,7 +21,11 @@ pub fn solve<const N: usize>(equations: impl IntoIterator<Item = ([f64; N], f64)
     Ok(std::array::from_fn(|i| found[i]))
 }
 
-fn solve_any(unknowns: usize, equations: impl Iterator<Item = (Vec<f64>, f64)>) -> Result<Vec<f64>, NotConverged> {
+/// [`solve`] for a number of unknowns that is not known before.
+///
+/// # Errors
+/// The equations do not determine all unknowns.
+pub fn solve_any(unknowns: usize, equations: impl Iterator<Item = (Vec<f64>, f64)>) -> Result<Vec<f64>, NotConverged> {
     let mut triangle = vec![vec![0.0_f64; unknowns + 1]; unknowns];
     for (mut row, value) in equations {
         row.push(value);
