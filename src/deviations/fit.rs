@@ -144,7 +144,7 @@ pub fn lay(
         _ => fit.places(watch)?,
     };
     let stage = watch.stage("feet", begun.len() + 1, "places of the turn")?;
-    let some: Vec<usize> = (0..points.len()).step_by(points.len().div_ceil(COMPARED_POINTS)).collect();
+    let some = compared(points.len());
     let mut best: Option<(f64, RigidMove)> = None;
     for place in begun {
         if let Some((sum, moved)) = fit.settled(place, &some)?
@@ -166,6 +166,15 @@ pub fn lay(
     let fitted = feet.iter().flatten().filter(|foot| fit.is_evaluated(foot)).count();
     let places_mm = points.iter().map(|point| moved.place_mm(point)).collect();
     Ok(LaidPoints { feet, places_mm, moved, fitted })
+}
+
+/// Numbers of the points by which places of the turn are compared, of so many: one in each of equal runs, in each at
+/// another place of the run, since flanks may have as many points as a run.
+fn compared(points: usize) -> Vec<usize> {
+    const GOLDEN: f64 = 0.618_033_988_749_895;
+    let runs = points.min(COMPARED_POINTS);
+    let run = points as f64 / runs.max(1) as f64;
+    (0..runs).map(|i| ((i as f64 + (i as f64 * GOLDEN).fract()) * run) as usize).collect()
 }
 
 struct RigidFit<'a> {
@@ -196,11 +205,11 @@ impl RigidFit<'_> {
     fn places(&self, watch: &Watch<'_>) -> Result<Vec<RigidMove>> {
         let steps = STEPS_OF_PITCH * self.gear.scene().gear.teeth;
         let stage = watch.stage("turn", steps as usize, "places of the turn")?;
-        let every = self.points.len().div_ceil(COMPARED_POINTS);
+        let some = compared(self.points.len());
         let sum = |step: u32| {
             let moved = RigidMove::about_axis(TAU * f64::from(step) / f64::from(steps));
-            let points = self.points.iter().step_by(every);
-            let squares = points.map(|point| {
+            let squares = some.iter().map(|&index| {
+                let point = &self.points[index];
                 let distance_mm = self.flanks.distance_mm(moved.place_mm(point), point.flank);
                 (distance_mm - self.probe_radius_mm).powi(2)
             });

@@ -9,7 +9,7 @@ use gearcut_core::dexel::NO_PASS;
 use gearcut_core::error::{Error, Refusal, Result};
 use gearcut_core::terms::Side;
 
-/// The heights; where the stock's own edge lies within `edge_mm` of the target, as on a face cone, it is as good as cut.
+/// The heights. Where the stock ends within `edge_mm` of the target, as it does on a face cone, it is as good as cut.
 ///
 /// # Errors
 /// The tool generates no flank there; a place that no stroke reaches; the backend's.

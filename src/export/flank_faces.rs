@@ -18,7 +18,7 @@ use crate::influence::gear_grid::evenly;
 use crate::job::GearJob;
 use crate::pair_job::watch::Watch;
 use gearcut_core::cut::Backend;
-use gearcut_core::error::{Error, Refusal, Result};
+use gearcut_core::error::Result;
 use gearcut_core::terms::Side;
 use glam::DVec3;
 use rayon::prelude::*;

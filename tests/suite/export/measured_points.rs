@@ -107,13 +107,15 @@ fn exported_points_come_back() {
         gearcut(&[&["export", scene, "--quiet", "--force", "--points", file], more].concat()).done();
         table(&room.path("points.csv"))
     };
-    for (scene, more) in [
-        (ROUND, &["--teeth", "2..3", "--grid", "20x1", "--as-cut"][..]),
-        ("scenes/hobbing/circular_helical.toml", &["--teeth", "1..2", "--grid", "5x3"]),
-        ("scenes/bevel/crown_gear.toml", &["--teeth", "1", "--grid", "4x3", "--units", "inch"]),
+    for (scene, more, fit) in [
+        (ROUND, &["--teeth", "2..3", "--grid", "20x1", "--as-cut"][..], "none"),
+        ("scenes/hobbing/circular_helical.toml", &["--teeth", "1..2", "--grid", "5x3"], "none"),
+        ("scenes/bevel/crown_gear.toml", &["--teeth", "1", "--grid", "4x3", "--units", "inch"], "none"),
+        // Fifteen points on each flank, and every fifteenth is compared.
+        ("scenes/shaping/internal_circle.toml", &["--grid", "5x3"], "axis"),
     ] {
         let written = write(scene, more);
-        room.run(scene, &file, &["--fit", "none"]).done();
+        room.run(scene, &file, &["--fit", fit]).done();
         let back = room.rows();
         assert_eq!(back.len(), written.len(), "{scene}");
         for (row, own) in back.iter().zip(&written) {
