@@ -91,7 +91,7 @@ fn main() {
             1e-6 * stats.removing as f64
         );
         let started = Instant::now();
-        let target = job.target_outline(0.02).expect("ordinary teeth");
+        let target = job.target_outline(0.0, 0.02).expect("ordinary teeth");
         println!("target outline: {:.2} s, {} points", started.elapsed().as_secs_f64(), target.points_mm().len());
         let started = Instant::now();
         let report = blank_report::measure(&job.planar(), &cut, Some(&target));

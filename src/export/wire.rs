@@ -73,8 +73,12 @@ impl WireProgram {
     /// Program round the closed profile of a gear.
     ///
     /// # Errors
-    /// A profile that the wire cannot follow, with the place.
+    /// A helical gear; a profile that the wire cannot follow, with the place.
     pub fn new(gear: &dyn CylindricalGear, chain_mm: &[DVec2], wish: &WireWish) -> Result<Self, Refusal> {
+        if gear.scene().gear.helix_angle_rad != 0.0 {
+            let problem = "a wire along the gear's axis erodes no helical gear";
+            return Err(Refusal::new("--wire", problem, "draw its section with --dxf, or write helix_angle_deg = 0"));
+        }
         let blank = gear.blank();
         // Flanks end where fillets begin, but for some hundredths of a micrometre, which have any direction.
         let mut chain = distinct(chain_mm, true, NEAREST_SHARE * wish.tolerance_mm);

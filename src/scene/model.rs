@@ -47,6 +47,28 @@ impl Gear {
         (self.pressure_angle_rad.tan() / self.helix_angle_rad.cos()).atan()
     }
 
+    /// The transverse section as a spur gear: module and pressure angle are its own, heights stay as they are.
+    #[must_use]
+    pub fn transverse(&self) -> Self {
+        if self.helix_angle_rad == 0.0 {
+            return self.clone();
+        }
+        let cos = self.helix_angle_rad.cos();
+        Self {
+            module_mm: self.transverse_module_mm(),
+            pressure_angle_rad: self.transverse_pressure_angle_rad(),
+            helix_angle_rad: 0.0,
+            addendum_coefficient: self.addendum_coefficient * cos,
+            profile_shift_coefficient: self.profile_shift_coefficient * cos,
+            ..self.clone()
+        }
+    }
+
+    /// How far its teeth stand along the pitch curve at a height, against those in the middle of the face, mm.
+    pub fn turned_mm(&self, z_mm: f64) -> f64 {
+        self.hand.sign() * self.helix_angle_rad.tan() * z_mm
+    }
+
     /// How far the blank stands over the pitch curve, towards the tips: (h_a + x) m, mm.
     pub fn addendum_mm(&self) -> f64 {
         (self.addendum_coefficient + self.profile_shift_coefficient) * self.module_mm

@@ -51,7 +51,7 @@ impl KeyTable {
     /// The table of these processes; where a choice has different defaults, that of the first one is the table's.
     ///
     /// # Panics
-    /// A process adds keys to a section that is in no list, or a key that the section has already.
+    /// A process adds keys to a section that is in no list, or a key of another kind that the section has already.
     pub fn new(processes: &[&'static SceneProcess]) -> Self {
         let mut sections: Vec<TableSection> = keys::shared().map(TableSection::new).collect();
         for process in processes {
@@ -155,6 +155,8 @@ impl TableSection {
     fn add(&mut self, addition: &'static Addition) {
         for key in addition.keys {
             match self.keys.iter_mut().find(|known| known.name == key.name) {
+                // One addition of several processes.
+                Some(known) if std::ptr::eq(*known, key) => {}
                 Some(known) => {
                     assert!(key.widens(known), "the key {} of {} is listed twice", key.name, self.path);
                     *known = key;

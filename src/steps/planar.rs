@@ -222,23 +222,30 @@ impl PlanarGear<'_> {
         if count < 2.0 {
             return None;
         }
-        let columns = (0..count as u32)
-            .map(|i| {
-                let arc_mm = (to_mm - from_mm) * (f64::from(i) + 0.5) / count;
-                let phi_rad = curve.phi_at_arc(from_mm + arc_mm);
-                let frame = curve.frame(phi_rad);
-                let normal = self.blank.towards_tip(&frame);
-                let point = ProfilePoint { arc_mm, point_mm: frame.point_mm, normal, phi_rad };
-                self.column(&point, self.blank.addendum_mm)
-            })
-            .collect();
+        let columns = self.tip_columns(feet_rad, count as usize);
         Some(Field { columns, rows_z_mm: self.rows_z_mm(TIP_SPACING_MM[1]) })
     }
 
+    /// So many rays over a tip land.
+    pub fn tip_columns(&self, feet_rad: [f64; 2], count: usize) -> Vec<Column> {
+        let curve = self.blank.curve();
+        let [from_mm, to_mm] = feet_rad.map(|phi| curve.arc_mm(phi));
+        let column = |i: usize| {
+            let arc_mm = (to_mm - from_mm) * (i as f64 + 0.5) / count as f64;
+            let phi_rad = curve.phi_at_arc(from_mm + arc_mm);
+            let frame = curve.frame(phi_rad);
+            let normal = self.blank.towards_tip(&frame);
+            let point = ProfilePoint { arc_mm, point_mm: frame.point_mm, normal, phi_rad };
+            self.column(&point, self.blank.addendum_mm)
+        };
+        (0..count).map(column).collect()
+    }
+
     /// Whether every row of a field is cut alike: the tool stands still while it is in the work, so its pose is the
-    /// same at all places along the tooth.
+    /// same at all places along the tooth, and no helical guide turns it.
     pub fn rows_are_alike(&self) -> bool {
-        self.operations.iter().all(|operation| operation.strokes.law == StrokeLaw::Frozen)
+        self.scene.gear.helix_angle_rad == 0.0
+            && self.operations.iter().all(|operation| operation.strokes.law == StrokeLaw::Frozen)
     }
 
     /// Whether the axes rest while the tool is in the work.

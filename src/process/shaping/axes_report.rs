@@ -110,7 +110,7 @@ impl<'a> OperationAxes<'a> {
     /// Where the return stroke has the least clearance.
     pub fn relief(&self) -> &SmallestRelief {
         let PreparedOperation { spec, linkage, .. } = self.operation();
-        let alpha_rad = self.job.scene.gear.pressure_angle_rad;
+        let alpha_rad = self.job.transverse.pressure_angle_rad;
         self.relief.get_or_init(|| relief::smallest_relief(linkage, spec.offset_mm, alpha_rad))
     }
 

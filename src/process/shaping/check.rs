@@ -15,6 +15,7 @@ use crate::process::shaping::cut::chips::{ChipLedger, last_chips_on_map};
 use crate::process::shaping::findings;
 use crate::process::shaping::findings::foreseen;
 use crate::process::shaping::gear::tooth_facts::ToothFacts;
+use crate::process::shaping::sections::GearPart;
 use crate::process::shaping::stage_costs::STAGE_COSTS;
 use crate::steps::axes;
 use crate::steps::check_curve::{self, gear_words};
@@ -67,9 +68,11 @@ fn print_cost(sheet: &mut Sheet, job: &ShapingJob) -> Result<()> {
     let rays_apart_mm = plain(job.scene.fields.blank_spacing_mm);
     let cut_band = |tooth, side, arcs_mm: Vec<f64>, rows_mm| {
         let field = job.field_over(job.target_flank(tooth, side), arcs_mm.into_iter(), rows_mm);
-        let CutField { field, layers, stats, .. } = job.cut_on_flank(&Cpu::default(), (tooth, side), field)?;
+        let CutField { field, layers, stats, .. } = job.cut_on(&Cpu::default(), GearPart::Flank(tooth, side), field)?;
         let maps = FlankMaps::sample(tooth, side, [&field.arcs_mm(), field.rows_mm()], &layers, spacing_mm);
-        last_chips_on_map(job, &field, &maps.chip_places(&layers, field.rows()));
+        if job.helix.is_none() {
+            last_chips_on_map(job, &field, &maps.chip_places(&layers, field.rows()));
+        }
         Ok(stats)
     };
     let blank_s = || {

@@ -5,6 +5,7 @@
 //! matter, and the backend's kernels find the lowest one. Rounded edges ask for the order: they are followed here in
 //! f64, whatever the backend. The whole blank is cut by the kernels alone.
 
+mod along_helix;
 pub mod blank;
 pub mod chips;
 pub mod section;
@@ -12,13 +13,13 @@ pub(super) mod stroke_noise;
 mod tearing;
 
 use super::ShapingJob;
+use super::sections::GearPart;
 use crate::process::shaping::cut::chips::ploughed_layers;
 use crate::steps::planar::{CutField, PreparedField};
 use gearcut_core::cut::Backend;
 use gearcut_core::dexel::Field;
 use gearcut_core::dexel::figures::LinesAt;
 use gearcut_core::error::Result;
-use gearcut_core::terms::Side;
 
 impl ShapingJob {
     /// Runs all operations over a field.
@@ -28,6 +29,37 @@ impl ShapingJob {
     pub fn cut(&self, backend: &dyn Backend, field: Field) -> Result<CutField> {
         let rows_z_mm = field.rows_z_mm.clone();
         Ok(self.prepare(backend, field, None)?.cut(backend)?.over_rows(rows_z_mm))
+    }
+
+    /// Runs all operations over a field on a part of the gear, the marks of a built-up edge on flanks included.
+    ///
+    /// # Errors
+    /// The backend's; a section in which the cutter generates no flank.
+    pub fn cut_on(&self, backend: &dyn Backend, part: GearPart, field: Field) -> Result<CutField> {
+        let rows_z_mm = field.rows_z_mm.clone();
+        Ok(self.prepare_on(backend, part, field, None)?.cut(backend)?.over_rows(rows_z_mm))
+    }
+
+    /// Makes a field on a part of the gear ready as [`Self::prepare`] does.
+    ///
+    /// # Errors
+    /// As for [`Self::cut_on`].
+    pub(super) fn prepare_on(
+        &self,
+        backend: &dyn Backend,
+        part: GearPart,
+        field: Field,
+        lines: Option<LinesAt>,
+    ) -> Result<PreparedField> {
+        if let Some(helix) = &self.helix {
+            return self.cut_along_helix(backend, helix, part, field).map(PreparedField::Cut);
+        }
+        let (Some(edge), GearPart::Flank(tooth, side)) = (&self.cutter_spec.built_up_edge, part) else {
+            return self.prepare(backend, field, lines);
+        };
+        let mut cut = self.cut(backend, field)?;
+        self.tear(edge, (tooth, side), &mut cut);
+        Ok(PreparedField::Cut(cut))
     }
 
     /// Makes those rows of a field ready that differ, or all of them; where `lines` are given, figures of the columns
@@ -43,31 +75,5 @@ impl ShapingJob {
                 Ok(PreparedField::Cut(CutField { field, layers, figures: None, stats }))
             }
         }
-    }
-
-    /// Runs all operations over a field on a flank of a tooth (1 to z), the marks of a built-up edge included.
-    ///
-    /// # Errors
-    /// The backend's.
-    pub fn cut_on_flank(&self, backend: &dyn Backend, flank: (u32, Side), field: Field) -> Result<CutField> {
-        let rows_z_mm = field.rows_z_mm.clone();
-        Ok(self.prepare_on_flank(backend, flank, field, None)?.cut(backend)?.over_rows(rows_z_mm))
-    }
-
-    /// Makes a field on a flank ready as [`Self::prepare`] does.
-    ///
-    /// # Errors
-    /// The backend's.
-    pub(super) fn prepare_on_flank(
-        &self,
-        backend: &dyn Backend,
-        flank: (u32, Side),
-        field: Field,
-        lines: Option<LinesAt>,
-    ) -> Result<PreparedField> {
-        let Some(edge) = &self.cutter_spec.built_up_edge else { return self.prepare(backend, field, lines) };
-        let mut cut = self.cut(backend, field)?;
-        self.tear(edge, flank, &mut cut);
-        Ok(PreparedField::Cut(cut))
     }
 }

@@ -11,6 +11,7 @@ use crate::process::shaping::cut::chips::{ChipLedger, last_chips_on_map};
 use crate::process::shaping::gear::measure::flank_report::FlankReport;
 use crate::process::shaping::gear::measure::gear_report::{RootReport, root_stock};
 use crate::process::shaping::gear::measure::{GearReport, flank_report, gear_report};
+use crate::process::shaping::sections::{GearPart, ShapedRays};
 use crate::progress::Progress;
 use crate::steps::cut_flanks::{CutFlank, FlankQueue, cut_flanks};
 use crate::steps::gear_maps::GearMaps;
@@ -20,7 +21,6 @@ use crate::steps::planar::{CutField, cut_fields};
 use crate::steps::{FlankFiles, Work, needs_maps, needs_surfaces};
 use crate::surface::SurfaceGrid;
 use gearcut_core::cut::Backend;
-use gearcut_core::dexel::Field;
 use gearcut_core::dexel::figures::LinesAt;
 use gearcut_core::error::{Error, Result};
 use std::sync::{Mutex, PoisonError};
@@ -61,13 +61,13 @@ pub fn cut_gear(
     let chips = follow_chips(job, wanted.has(Stage::Chips), progress, interrupt)?;
     let parts = folder.map_or(Parts::all(), |(.., parts)| parts);
     let are_shown = needs_maps(parts) || needs_surfaces(job, parts);
-    let cut_all = |flanks: &FlankQueue<Field, FlankReport>| {
+    let cut_all = |flanks: &FlankQueue<ShapedRays, FlankReport>| {
         let make = |index: usize| {
             let Some((tooth, side)) = flanks.next(index) else { return Ok(None) };
             let target = job.target_flank(tooth, side);
             let field = job.flank_field(target);
             let lines = (!are_shown).then(|| flank_report::lines(job, target, &field));
-            job.prepare_on_flank(backend, (tooth, side), field, lines).map(Some)
+            job.prepare_on(backend, GearPart::Flank(tooth, side), field, lines).map(Some)
         };
         let rows_z_mm = job.planar().rows_z_mm(job.scene.fields.lead_spacing_mm);
         let take = |index: usize, cut: CutField| {
@@ -76,13 +76,15 @@ pub fn cut_gear(
             let evaluated_mm = report.own.active_mm.iter().copied().chain([report.evaluated_mm]).collect();
             let dexels = (cut.field.len() * job.operations.len() * cut.copies(&rows_z_mm)) as u64;
             let cut = if are_shown { cut.over_rows(rows_z_mm.clone()) } else { cut };
-            let CutField { field: rays, layers, stats, .. } = cut;
+            let CutField { field, layers, stats, .. } = cut;
+            let rays = job.in_space(GearPart::Flank(tooth, side), field)?;
             flanks.take(index, CutFlank { rays, layers, dexels, stats, evaluated_mm, report })
         };
         cut_fields(backend, flanks.list.len(), make, take)
     };
-    let cut = cut_flanks(job, progress, interrupt, folder, cut_all, |field: &Field, layers, maps| {
-        last_chips_on_map(job, field, &maps.chip_places(layers, field.rows()))
+    let cut = cut_flanks(job, progress, interrupt, folder, cut_all, |rays: &ShapedRays, layers, maps| match rays {
+        ShapedRays::Straight(field) => last_chips_on_map(job, field, &maps.chip_places(layers, field.rows())),
+        ShapedRays::Helical(_) => Vec::new(),
     })?;
     let root_surfaces = needs_surfaces(job, parts) && !cut.work.interrupted;
     let (root_reports, roots) = if root_surfaces || wanted.has(Stage::Roots) {
@@ -103,13 +105,18 @@ fn cut_roots(job: &ShapingJob, backend: &dyn Backend, surfaces: bool) -> Result<
     }
     let space = |index: usize| index as u32 + 1;
     let lines = (!surfaces).then(LinesAt::default);
-    let make = |index| job.prepare(backend, job.root_field(space(index)), lines).map(Some);
+    let part = |index| GearPart::Root(space(index), job.planar().root_spacing_mm());
+    let make = |index| job.prepare_on(backend, part(index), job.root_field(space(index)), lines).map(Some);
     let rows_z_mm = job.planar().root_rows_z_mm();
     let done = Mutex::new(Vec::new());
     let take = |index, cut: CutField| {
         let cut = cut.over_rows(rows_z_mm.clone());
-        let surface = || SurfaceGrid::new(&cut.field, &cut.layers, job.scene.output.mesh_spacing_mm);
-        let root = (root_stock(space(index), &cut), surfaces.then(surface));
+        let stock = root_stock(space(index), &cut);
+        let surface = || -> Result<SurfaceGrid> {
+            let rays = job.in_space(part(index), cut.field)?;
+            Ok(SurfaceGrid::new(&rays, &cut.layers, job.scene.output.mesh_spacing_mm))
+        };
+        let root = (stock, surfaces.then(surface).transpose()?);
         done.lock().unwrap_or_else(PoisonError::into_inner).push(root);
         Ok(())
     };

@@ -9,6 +9,7 @@ use crate::drawn_tooth::envelope::DrawnSpaces;
 use crate::machine_errors::Deflection;
 use crate::material::EdgeForce;
 use crate::process::shaping::ShaperCutter;
+use crate::process::shaping::helix::Helix;
 use crate::process::shaping::linkage::{CutterPose, ShapingLinkage, StrokeSchedule, dynamics};
 use crate::process::shaping::motion::actual::{ActualStrokes, Commanded, scattered};
 use crate::process::shaping::motion::gcode;
@@ -134,6 +135,10 @@ pub struct ShapingJob {
     pub gcode: GcodeDialect,
     /// The cutter as the scene describes it.
     pub cutter_spec: model::CutterSpec,
+    /// Its transverse section as a spur gear: the scene's own gear where that is one.
+    pub transverse: Gear,
+    /// What the guide does along the face; none for spur gears.
+    pub helix: Option<Helix>,
     /// The pitch curve.
     pub curve: Arc<PitchCurve>,
     /// The cutter.
@@ -181,7 +186,6 @@ impl ShapingJob {
 
     /// The machine and its strokes, and no tooth. What is the same in the scene of a job `like` this one is taken over.
     fn laid_out(scene: Scene, like: Option<&Self>, has_poses: bool) -> Result<Self> {
-        let gear = &scene.gear;
         let Some(shaping) = Shaping::of(&scene) else {
             let way_out = "write [tool.shaper_cutter] for shaping";
             return Err(Refusal::new("tool", "this tool does not shape gears", way_out).into());
@@ -189,24 +193,19 @@ impl ShapingJob {
         let machine = shaping.machine.clone();
         let (material, chip_spacing_mm) = (shaping.material, shaping.chip_spacing_mm);
         let gcode = shaping.gcode;
-        if gear.helix_angle_rad != 0.0 {
-            return Err(Refusal::new(
-                "gear.helix_angle_deg",
-                "shaping cuts spur gears: a helical gear needs a helical guide on the ram, which is not modelled yet",
-                "set helix_angle_deg = 0; a hob cuts helical gears, but no rings",
-            )
-            .into());
-        }
-        let like = like.filter(|of| of.scene.gear == *gear);
+        let transverse = scene.gear.transverse();
+        let gear = &transverse;
+        let like = like.filter(|of| of.scene.gear == scene.gear);
         let curve = match like {
             Some(of) => of.curve.clone(),
             None => Arc::new(PitchCurve::new(&gear.pitch_curve, gear.module_mm, gear.teeth)?),
         };
         let cutter = match like.filter(|of| of.cutter_spec == shaping.tool) {
             Some(of) => of.cutter.clone(),
-            None => ShaperCutter::new(&shaping.tool, gear)?,
+            None => ShaperCutter::new(&shaping.tool.transverse(scene.gear.helix_angle_rad), gear)?,
         };
         let mut alike = like.filter(|of| of.cutter.generates_as(&cutter));
+        let helix = Helix::of(&scene.gear, &machine, &curve, &cutter)?;
         let blank = gear.blank(curve.clone())?;
         // Flanks refer to the cutter for as long as they are kept.
         let shared_cutter = Arc::new(cutter.clone());
@@ -308,6 +307,8 @@ impl ShapingJob {
             blank,
             operations,
             targets: Vec::new(),
+            helix,
+            transverse,
             scene,
         })
     }
@@ -439,12 +440,19 @@ impl ShapingJob {
         points
     }
 
+    /// Cutter of a stroke in a section: as it stands when the ram passes it, turned by the guide.
+    pub fn pose_in_section(&self, operation: &PreparedOperation, stroke: usize, z_mm: f64) -> Rigid2 {
+        let set = &operation.strokes;
+        let pose = set.pose_at(stroke, set.law.tau(z_mm));
+        self.helix.as_ref().map_or(pose, |helix| helix.guided(&pose, z_mm))
+    }
+
     /// Fillets behind a tooth with the places on them between which they are the target: one, from the tooth's left
     /// flank to the next one's right flank, or both halves behind the last tooth of a sector.
     pub fn target_fillets(&self, space: u32) -> Vec<(Fillet<'_>, [f64; 2])> {
         let teeth = self.scene.gear.teeth;
         let before = if space == 0 { teeth } else { space };
-        let of = |space: i64| Fillet::new(self.target_generation(), space);
+        let of = |space: i64| Fillet::new(self.target_generation(), space as f64);
         let [left, right] = [(before, Side::Left), (space % teeth + 1, Side::Right)]
             .map(|(tooth, side)| self.target_flank(tooth, side).undercut.map(|undercut| undercut.fillet_at));
         let left = left.unwrap_or(0.0);

@@ -10,7 +10,9 @@
 //! - [`target`]: flanks, roots and tips as continuous motion leaves them
 //! - [`motion`]: return strokes, programs, axes with their errors
 //! - `swing`: where the strokes of a sector begin and end
+//! - [`helix`]: the guide of helical gears
 //! - [`job`]: the scene made ready
+//! - [`sections`]: the target at any height
 //! - [`cut`]: what all operations leave, with chips, marks and the whole blank
 //! - [`gear`]: the gear cut and measured
 //! - [`axes_report`]: tables, charts and programs of the axes
@@ -26,6 +28,7 @@ pub mod check;
 pub mod cut;
 pub mod findings;
 pub mod gear;
+pub mod helix;
 pub mod job;
 pub mod linkage;
 pub mod motion;
@@ -35,6 +38,7 @@ pub mod quantities;
 mod report;
 mod run;
 pub mod scene;
+pub mod sections;
 mod stage_costs;
 mod swing;
 pub mod target;

@@ -150,6 +150,17 @@ notices! {
          {scene_per_minute}: times, speeds, drifts and lags are those of the program";
         "Let both say the same."
 
+    /// Every flank leans along the tooth: mates touch at one end of the face.
+    GuideLead: Warning "helix.lead", "shaping.md", (lead_mm, needed_mm, slope_um, angle_deg),
+        "the guide's lead of {lead_mm} mm is not the {needed_mm} mm that the gear's helix needs: helices of all flanks \
+         slope by {slope_um} um over the face; "
+        + "leave machine.guide_lead_mm out, or write gear.helix_angle_deg = {angle_deg}, which that lead cuts"
+    /// The force of a whole stroke is more even than that of one section.
+    HelixChips: Note "helix.chips", "chips.md", (),
+        "chips and forces of a stroke are those of the section in the middle of the face: at other heights the guide \
+         has turned the cutter, and the stroke takes the chips of others there";
+        "Read them as those of one section; volumes and areas of whole operations are those of the gear."
+
     /// Helices of the cut gear are smoother than those of the real one.
     FastNoise: Warning "axis.fast_noise", "errors.md", (operation, axis, bandwidth_hz, apart, most_hz, most_apart),
         "operation {operation}: noise of the {axis} up to {bandwidth_hz} Hz is faster than strokes follow along the \

@@ -95,7 +95,7 @@ pub fn inspection<'a>(job: &ShapingJob, report: &'a GearReport, verdict: &'a Gea
         lead_name: "Lead",
         target: "the surface that the last operation would leave with infinitely many strokes and no error",
     };
-    let gear = &job.scene.gear;
+    let gear = &job.transverse;
     let standard_mm = 0.5 * PI * gear.module_mm + gear.extra_thickness_mm();
     Inspection::new(&report.flanks, &report.inspection, standard_mm, words, verdict)
 }

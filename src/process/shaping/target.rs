@@ -80,7 +80,7 @@ pub struct TargetFlank {
     /// What the tip corner has cut away of it, if it has.
     pub undercut: Option<Undercut>,
     generation: Arc<Generation>,
-    space: i64,
+    space: f64,
     /// Polar angle of the form point.
     phi_form: f64,
     /// Polar angle of the tip.
@@ -145,7 +145,7 @@ fn space_of(tooth: u32, side: Side) -> i64 {
 
 impl TargetFlank {
     /// Flank of a tooth as the cutter's flank alone generates it: an undercut one from where the envelope turns back.
-    /// `tip_height_mm` may lower the tip (pointed teeth).
+    /// Teeth stand `shift` pitches further along the curve. `tip_height_mm` may lower the tip (pointed teeth).
     ///
     /// # Errors
     /// No involute is generated below the tip.
@@ -154,18 +154,19 @@ impl TargetFlank {
         blank: &Blank,
         tooth: u32,
         side: Side,
+        shift: f64,
         tip_height_mm: Option<f64>,
     ) -> Result<Self, Refusal> {
-        let space = space_of(tooth, side);
-        if let Some(profile) = generation.space_profile(space) {
+        if let Some(profile) = generation.space_profile(space_of(tooth, side)) {
             return Self::as_drawn(generation, &*profile?, blank, (tooth, side), tip_height_mm);
         }
+        let space = space_of(tooth, side) as f64 + shift;
         let contact = |phi: f64| generation.flank_contact(phi, space, side);
         let [roll_start, roll_end] = generation.cutter.involute().map_or([f64::NAN; 2], |own| own.roll_range);
         let curve = generation.linkage.curve();
         let module_mm = curve.perimeter_mm() / (PI * f64::from(curve_teeth(generation)));
         let pitch_arc_mm = PI * module_mm;
-        let phi_space = curve.phi_at_arc(space as f64 * pitch_arc_mm);
+        let phi_space = curve.phi_at_arc(space * pitch_arc_mm);
         let nothing = |what: &str| no_flank(tooth, side, what);
         let top_mm = tip_height_mm.unwrap_or(blank.addendum_mm).min(blank.addendum_mm);
         let height = |c: &FlankContact| blank.height(c.point_mm, c.phi_rad).0;
@@ -244,7 +245,7 @@ impl TargetFlank {
             tip_end: if tip_height_mm.is_some() { FlankEnd::PointedTip } else { FlankEnd::BlankOutline },
             undercut: depth_mm.map(|depth_mm| Undercut { fillet_at, depth_mm }),
             generation: generation.clone(),
-            space: space_of(tooth, side),
+            space: space_of(tooth, side) as f64,
             phi_form,
             phi_tip,
             arcs: OnceLock::new(),
@@ -274,8 +275,9 @@ impl TargetFlank {
         &self.generation
     }
 
-    /// Space that it belongs to, counted along the arc without wrapping.
-    pub fn space(&self) -> i64 {
+    /// Space that it belongs to, counted along the arc without wrapping; between whole numbers in a section of a
+    /// helical gear.
+    pub fn space(&self) -> f64 {
         self.space
     }
 

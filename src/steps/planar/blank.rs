@@ -31,7 +31,8 @@ impl PlanarGear<'_> {
 
     fn one_slice(&self) -> bool {
         let reaches_both_ends = self.scene.fields.blank_slice_spacing_mm >= 2.0 * self.scene.gear.face_width_mm;
-        self.rows_are_alike() || self.rests() && reaches_both_ends
+        let is_straight = self.scene.gear.helix_angle_rad == 0.0;
+        self.rows_are_alike() || self.rests() && reaches_both_ends && is_straight
     }
 
     /// The tool's teeth, one for each of its edges, closed through its body down to where no stroke of an operation

@@ -55,10 +55,15 @@ pub struct BlankReport {
 
 /// Report on a cut blank; `target` is the target's transverse section, where it is known in closed form.
 pub fn measure(gear: &PlanarGear, cut: &CutBlank, target: Option<&TargetOutline>) -> BlankReport {
+    measure_sections(gear, cut, target.map_or(&[], std::slice::from_ref))
+}
+
+/// The same with the target's sections in all slices, or one that stands for all.
+pub fn measure_sections(gear: &PlanarGear, cut: &CutBlank, targets: &[TargetOutline]) -> BlankReport {
     let operations = damage::volumes(cut);
     let left_mm3 = cut.left_mm3.last().copied().unwrap_or(cut.blank_mm3);
     let last = gear.operations.len() - 1;
-    let damage = target.map(|target| damage_to(gear, cut, target)).unwrap_or_default();
+    let damage = if targets.is_empty() { Vec::new() } else { damage_to(gear, cut, targets) };
     let (gouges, interference): (Vec<Damage>, Vec<Damage>) = damage.into_iter().partition(|d| d.operation == last);
     let mut stats = BlankStats::default();
     for done in &cut.cuts {
@@ -68,7 +73,7 @@ pub fn measure(gear: &PlanarGear, cut: &CutBlank, target: Option<&TargetOutline>
         blank_mm3: cut.blank_mm3,
         left_mm3,
         operations,
-        end_face: target.map(|target| end_face(gear, cut, left_mm3, target)),
+        end_face: targets.first().map(|_| end_face(gear, cut, left_mm3, targets)),
         gouges,
         interference,
         rubbing: rubbing(gear, cut),
@@ -76,25 +81,32 @@ pub fn measure(gear: &PlanarGear, cut: &CutBlank, target: Option<&TargetOutline>
     }
 }
 
-fn end_face(gear: &PlanarGear, cut: &CutBlank, left_mm3: [f64; 2], target: &TargetOutline) -> EndFace {
+fn end_face(gear: &PlanarGear, cut: &CutBlank, left_mm3: [f64; 2], targets: &[TargetOutline]) -> EndFace {
+    let widths_mm = cut.field.grid.slice_widths_mm();
+    let all_mm: f64 = widths_mm.iter().sum();
+    let mean = |of: &dyn Fn(&TargetOutline) -> f64| match targets {
+        [one] => of(one),
+        each => each.iter().zip(&widths_mm).map(|(target, width_mm)| of(target) * width_mm).sum::<f64>() / all_mm,
+    };
     let spacing_mm = cut.field.grid.spacing_mm();
     EndFace {
         cut_mm2: left_mm3.map(|v| v / gear.scene.gear.face_width_mm),
-        target_mm2: target.section_mm2(),
-        bound_mm2: FAMILIES.map(|f| target.section_bound_mm2(f, spacing_mm)),
+        target_mm2: mean(&TargetOutline::section_mm2),
+        bound_mm2: FAMILIES.map(|f| mean(&|target| target.section_bound_mm2(f, spacing_mm))),
     }
 }
 
 /// Findings side by side of the teeth, deepest place and volume each; only those at least
 /// [`crate::measure::damage::LEAST_DEPTH_MM`] deep.
 fn collect(gear: &PlanarGear, findings: impl Iterator<Item = Finding>) -> Vec<(Damage, bool)> {
-    let place = |finding: &Finding| place_of(gear, finding.point_mm);
+    let place = |finding: &Finding| place_of(gear, finding.point_mm, finding.z_mm);
     damage::collect(findings, place, |operation, pass| gear.operations[operation].strokes.stroke_and_blade(pass))
 }
 
-fn damage_to(gear: &PlanarGear, cut: &CutBlank, target: &TargetOutline) -> Vec<Damage> {
+fn damage_to(gear: &PlanarGear, cut: &CutBlank, targets: &[TargetOutline]) -> Vec<Damage> {
     let slices = 0..cut.field.slices.len();
     let findings = slices.flat_map(|slice| {
+        let target = &targets[slice.min(targets.len() - 1)];
         damage::missing_in_slice(&cut.field, slice, target, &gear.scene.gear, |pass| operation_of(gear, pass))
     });
     collect(gear, findings).into_iter().map(|(damage, _)| damage).collect()
@@ -125,7 +137,7 @@ fn rubbing(gear: &PlanarGear, cut: &CutBlank) -> Vec<Rubbing> {
     collect(gear, findings).into_iter().map(|(damage, stays)| Rubbing { damage, stays }).collect()
 }
 
-/// Place of a point of the gear frame; the teeth stand alike in all sections.
-fn place_of(gear: &PlanarGear, point_mm: DVec2) -> GearPlace {
-    GearPlace::in_section(gear.blank, &gear.scene.gear, point_mm, 0.0)
+/// Place of a point of the gear frame at a height.
+fn place_of(gear: &PlanarGear, point_mm: DVec2, z_mm: f64) -> GearPlace {
+    GearPlace::in_section(gear.blank, &gear.scene.gear, point_mm, gear.scene.gear.turned_mm(z_mm))
 }

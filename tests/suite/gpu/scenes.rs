@@ -8,6 +8,7 @@ use gearcut::process::hobbing::{HobCutter, HobbingJob};
 use gearcut::process::load;
 use gearcut::process::shaping::ShapingJob;
 use gearcut::process::shaping::scene::model::Shaping;
+use gearcut::process::shaping::sections::GearPart;
 use gearcut::scene::model::Scene;
 use gearcut::terms::Side;
 use std::path::PathBuf;
@@ -86,6 +87,34 @@ fn compare_hobbed(gpu: &dyn Backend, mut scene: Scene) -> Parity {
     }
     println!("{name}: {all}");
     all
+}
+
+/// Bands of a helical gear: short fields whose cutter moves by strokes.
+#[test]
+fn bands_along_a_helix_are_cut_alike() {
+    let gpu = software_gpu(strict());
+    let mut all = Parity::default();
+    let scene = load(&PathBuf::from("scenes/shaping/helical.toml"), &[]).unwrap_or_else(|errors| panic!("{errors}"));
+    let job = ShapingJob::new(scene.scene).expect("the shipped gear");
+    let helix = job.helix.expect("a helix");
+    for (tooth, side) in [(1, Side::Left), (9, Side::Right)] {
+        let part = GearPart::Flank(tooth, side);
+        let field = job.flank_field(job.target_flank(tooth, side));
+        for band in job.bands(&helix, part, &field) {
+            let band = band.expect("a section");
+            let blank = band.field.blank_layer();
+            let mut layers = [blank.clone(), blank.clone(), blank.clone(), blank];
+            for (operation, strokes) in job.operations.iter().zip(&band.strokes) {
+                let plan = CutPlan::new(&band.field, strokes, &job.cutter);
+                let place = format!("tooth {tooth} {side:?}, {}", operation.spec.name);
+                let (parity, after) = cut_both(&gpu, &place, &band.field, &plan, layers.each_ref());
+                all.merge(parity);
+                layers = after;
+            }
+        }
+    }
+    println!("bands: {all}");
+    assert_eq!(all.verdict_within(SHAPED_NM), Ok(()));
 }
 
 mod slow {

@@ -336,6 +336,12 @@ fn everything_in_the_template_can_be_switched_on() {
                         // A sector is cut in one swing at depth.
                         whole = whole.replacen("\n[operation.infeed.spiral]", "\n[operation.infeed.none]", 1);
                     }
+                    if ["guide_lead_mm", "guide_hand"].contains(&name(key)) {
+                        // Spur gears have a straight guide; allowances of helical ones are not probed.
+                        let probed = |block: &&str| !block.contains("[measure.cmm]");
+                        whole = whole.split("\n\n").filter(probed).collect::<Vec<_>>().join("\n\n");
+                        whole = whole.replacen("\nhelix_angle_deg = 0.0", "\nhelix_angle_deg = 15.0", 1);
+                    }
                     for needed in needed(name(key)) {
                         one = one.replacen(&format!("#{needed} = "), &format!("{needed} = "), 1);
                     }

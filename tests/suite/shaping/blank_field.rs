@@ -41,7 +41,7 @@ fn cut(job: &ShapingJob) -> CutBlank {
 }
 
 fn target(job: &ShapingJob) -> TargetOutline {
-    job.target_outline(TARGET_SPACING_MM).expect("ordinary teeth")
+    job.target_outline(0.0, TARGET_SPACING_MM).expect("ordinary teeth")
 }
 
 fn report(job: &ShapingJob, cut: &CutBlank) -> BlankReport {
@@ -181,7 +181,7 @@ fn surfaces_lie_on_the_target() {
         gearcut::process::shaping::scene::model::Tip::Round { radius_mm: 0.6 };
     scene.fields.blank_spacing_mm = 0.2;
     let job = job(scene);
-    let target = job.target_outline(0.02).expect("ordinary teeth");
+    let target = job.target_outline(0.0, 0.02).expect("ordinary teeth");
     let cut = cut(&job);
     let heights: Vec<f64> = cut_ends(&cut.field).map(|p| target.distance_mm(p, 3.0).expect("near")).collect();
     let low = heights.iter().copied().fold(0.0, f64::min);
@@ -309,7 +309,7 @@ mod slow {
             let volume_mm3 = mesh.volume_mm3();
             let [x, y] = cut.field.volumes_mm3();
             // The cutter's base shapes the tips of one scene: there is no target in closed form, and nothing to damage.
-            let target = job.target_outline(TARGET_SPACING_MM).ok();
+            let target = job.target_outline(0.0, TARGET_SPACING_MM).ok();
             let base_shapes_tips = name == "fourier_concave";
             assert_eq!(target.is_none(), base_shapes_tips, "{name}");
             let report = blank_report::measure(&job.planar(), &cut, target.as_ref());

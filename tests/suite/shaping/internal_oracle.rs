@@ -203,7 +203,7 @@ fn target_flanks_are_the_oracles() {
         // The side of a space at the larger arc is the right flank of the tooth behind it.
         let side = if number(&row["side"]) > 0.0 { Side::Right } else { Side::Left };
         let space = row["space"].as_i64().expect("space");
-        let contact = generation.flank_contact(number(&row["phi_contact"]), space, side).expect("contact");
+        let contact = generation.flank_contact(number(&row["phi_contact"]), space as f64, side).expect("contact");
         let point = DVec2::new(number(&row["point"][0]), number(&row["point"][1]));
         worst_mm = worst_mm.max(contact.point_mm.distance(point));
         worst_roll = worst_roll.max((contact.roll - number(&row["u"])).abs());
@@ -464,7 +464,7 @@ fn tips_beside_the_space_are_told_before_cutting() {
         let tightest = RingFacts::new(&job).tightest_corner.expect("known").path;
         let field = job.planar().blank_field().expect("fits");
         let cut = job.cut_blank(&Cpu::default(), field, &|| true).expect("native").expect("not stopped");
-        let target = job.target_outline(0.02).expect("known");
+        let target = job.target_outline(0.0, 0.02).expect("known");
         let report = blank_report::measure(&job.planar(), &cut, Some(&target));
         let deepest_mm = report.gouges.iter().map(|gouge| gouge.depth_mm).fold(0.0, f64::max);
         println!("{teeth} teeth: {tightest:?} told, {deepest_mm:.4} mm found");

@@ -213,7 +213,7 @@ fn the_blank_of_a_ring_is_cut_to_its_target_and_no_further() {
     scene.fields.blank_spacing_mm = 0.1;
     let job = job(scene);
     let cut = cut(&job);
-    let target = job.target_outline(0.02).expect("ordinary teeth");
+    let target = job.target_outline(0.0, 0.02).expect("ordinary teeth");
     let report = blank_report::measure(&job.planar(), &cut, Some(&target));
     assert!(report.gouges.is_empty() && report.interference.is_empty(), "{:?}", report.gouges);
     let lone = crate::fixtures::stroke_faults::lone_strokes(&job.planar(), &cut, &report);
@@ -263,7 +263,7 @@ fn relieved_tips_are_no_gouges() {
     scene.fields.blank_spacing_mm = 0.2;
     let job = job(scene);
     let cut = cut(&job);
-    let target = job.target_outline(0.02).expect("the base is followed");
+    let target = job.target_outline(0.0, 0.02).expect("the base is followed");
     let report = blank_report::measure(&job.planar(), &cut, Some(&target));
     assert!(report.gouges.is_empty(), "{:?}", report.gouges);
     let face = report.end_face.expect("known");

@@ -60,7 +60,7 @@ fn target_flanks_are_the_oracles() {
         for row in flanks["points"].as_array().expect("points") {
             let tooth = row["tooth"].as_i64().expect("tooth");
             let (space, side) = if row["flank"] == "left" { (tooth, Side::Left) } else { (tooth - 1, Side::Right) };
-            let contact = generation.flank_contact(number(&row["phi_contact"]), space, side).expect("contact");
+            let contact = generation.flank_contact(number(&row["phi_contact"]), space as f64, side).expect("contact");
             worst = worst.max(contact.point_mm.distance(point(&row["point"])));
             assert!((contact.roll - number(&row["u"])).abs() < 1e-10, "{row}");
         }

@@ -80,7 +80,7 @@ fn a_part_of_an_elliptical_gear_has_its_teeth() {
 /// The section of a part of a round gear is that part of the whole gear's section, and the dwell's sector of a circle.
 #[test]
 fn the_section_is_that_of_teeth_and_dwell() {
-    let area_mm2 = |job: &ShapingJob| job.target_outline(0.02).expect("it is known").area_mm2();
+    let area_mm2 = |job: &ShapingJob| job.target_outline(0.0, 0.02).expect("it is known").area_mm2();
     let whole = area_mm2(&shipped("circular_m3_z24", &[]));
     for dwell_mm in [27.0, 31.0] {
         let dwell = format!("gear.dwell_radius_mm={dwell_mm}");
@@ -98,7 +98,7 @@ fn chips_are_those_of_the_sector_alone() {
     let chips = ChipLedger::new(&job, &|| true).expect("not stopped");
     let taken: f64 = (0..2).map(|operation| chips.area_mm2(operation)).sum();
     let stock = (10.0 * 39.0_f64.powi(2) + 14.0 * job.blank.dwell().expect("a dwell").radius_mm.powi(2)) * PI / 24.0;
-    let left = job.target_outline(0.02).expect("it is known").area_mm2();
+    let left = job.target_outline(0.0, 0.02).expect("it is known").area_mm2();
     // Scallops of 600 strokes stay: less than a micrometre on some 120 mm of flanks.
     assert!((taken - (stock - left)).abs() < 2e-3 * taken, "{taken} for {} mm2", stock - left);
     // The swing begins and ends in the air, and no stroke enters at depth.

@@ -6,6 +6,7 @@ use gearcut::cut::cpu::Cpu;
 use gearcut::dexel::Layer;
 use gearcut::process::shaping::ShapingJob;
 use gearcut::process::shaping::cut::chips::last_chips;
+use gearcut::process::shaping::sections::GearPart;
 use gearcut::terms::Side;
 use std::f64::consts::PI;
 use std::path::Path;
@@ -36,7 +37,7 @@ fn torn(keys: &[&str], settings: &[&str]) -> ShapingJob {
 /// What all operations leave on a part of a flank.
 fn layers(job: &ShapingJob, (tooth, side): (u32, Side), arcs_mm: &[f64], rows_mm: &[f64]) -> Vec<Layer> {
     let field = job.field_over(job.target_flank(tooth, side), arcs_mm.iter().copied(), rows_mm.to_vec());
-    job.cut_on_flank(&Cpu::default(), (tooth, side), field).expect("native").layers
+    job.cut_on(&Cpu::default(), GearPart::Flank(tooth, side), field).expect("native").layers
 }
 
 /// Places `step` apart.

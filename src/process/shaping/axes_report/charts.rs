@@ -87,8 +87,8 @@ fn positions(job: &ShapingJob, rows: &[StrokeRow]) -> Vec<Panel> {
 }
 
 fn relief(job: &ShapingJob, rows: &[StrokeRow]) -> Vec<Panel> {
-    let circular_um = UM_PER_MM * job.machine.back_off_mm * job.scene.gear.pressure_angle_rad.sin();
-    let pressure_deg = job.scene.gear.pressure_angle_rad.to_degrees();
+    let circular_um = UM_PER_MM * job.machine.back_off_mm * job.transverse.pressure_angle_rad.sin();
+    let pressure_deg = job.transverse.pressure_angle_rad.to_degrees();
     let curve = |value: &dyn Fn(&StrokeRow) -> f64| rows.iter().map(|row| (work_angle_deg(row), value(row))).collect();
     let flanks = |scale: f64| {
         vec![

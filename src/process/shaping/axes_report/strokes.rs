@@ -46,7 +46,7 @@ pub(super) fn rows(job: &ShapingJob, operation: &PreparedOperation) -> Vec<Strok
             motion: program.as_ref().map_or_else(|| schedule.at(coordinate), |program| program.motion(coordinate)),
             phi_rad,
             offset_mm,
-            relief: relief::relief_ratio(linkage, phi_rad, offset_mm, job.scene.gear.pressure_angle_rad),
+            relief: relief::relief_ratio(linkage, phi_rad, offset_mm, job.transverse.pressure_angle_rad),
             scene: program
                 .as_ref()
                 .filter(|_| stroke < schedule.count())

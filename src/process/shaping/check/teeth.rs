@@ -26,6 +26,9 @@ pub fn print(sheet: &mut Sheet, job: &ShapingJob, facts: &[ToothFacts], other_ge
             }
         };
         sheet.line("radii", radii);
+        if let Some(helix) = &job.helix {
+            sheet.line("helical guide", format!("lead {:.3} mm, {}-hand", helix.lead_mm, helix.hand.name()));
+        }
         if let CutterTooth::Drawn(tooth) = &cutter.tooth {
             sheet.line("tooth", drawn_words(tooth));
         }

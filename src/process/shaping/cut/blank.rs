@@ -6,10 +6,11 @@ use crate::process::shaping::ShapingJob;
 use crate::process::shaping::linkage::CutterPose;
 use crate::process::shaping::target::tip_relief::TipRelief;
 use crate::process::shaping::target::{FlankEnd, TargetFlank};
-use gearcut_core::cut::{Backend, CutBlank};
-use gearcut_core::dexel::BlankField;
+use gearcut_core::cut::{Backend, BlankCut, CutBlank, Rub};
+use gearcut_core::dexel::{BlankField, BlankGrid};
 use gearcut_core::error::{Refusal, Result};
 use gearcut_core::passes::StrokeSet;
+use gearcut_core::passes::planar::strokes::StrokeLaw;
 use gearcut_core::terms::Side;
 use gearcut_core::units::TURN_RAD;
 use glam::DVec2;
@@ -21,6 +22,11 @@ impl ShapingJob {
     ///
     /// An axis program moves the axes for the retraction itself, unless the machine's own relief does.
     pub fn return_strokes(&self, operation: usize) -> Option<StrokeSet> {
+        self.return_strokes_at(operation, None)
+    }
+
+    /// The same in one section of a helical gear.
+    fn return_strokes_at(&self, operation: usize, z_mm: Option<f64>) -> Option<StrokeSet> {
         let operation = &self.operations[operation];
         let back_off_mm = self.machine.back_off_mm;
         let out = self.blank.kind().tip_sign();
@@ -44,7 +50,15 @@ impl ShapingJob {
             };
             operation.actual.placed(&pose, z_mm)
         };
-        (back_off_mm > 0.0).then(|| StrokeSet::returning(set.first_pass, &self.cutter, set.law, set.count(), pose))
+        (back_off_mm > 0.0).then(|| match (&self.helix, z_mm) {
+            (Some(helix), Some(z_mm)) => {
+                let share = if resting { 0.0 } else { crank.return_share(crank.tau(z_mm)) };
+                StrokeSet::new(set.first_pass, &self.cutter, StrokeLaw::Frozen, set.count(), |stroke| {
+                    helix.guided(&pose(stroke + share, z_mm), z_mm)
+                })
+            }
+            _ => StrokeSet::returning(set.first_pass, &self.cutter, set.law, set.count(), pose),
+        })
     }
 
     /// Runs all operations over the uncut blank, their return strokes checked; `advance` is called after every tile and
@@ -58,18 +72,61 @@ impl ShapingJob {
         field: BlankField,
         advance: &(dyn Fn() -> bool + Sync),
     ) -> Result<Option<CutBlank>> {
+        if self.helix.is_some() {
+            return self.cut_blank_along_helix(backend, field, advance);
+        }
         self.planar().cut_blank(backend, field, |operation| self.return_strokes(operation), advance)
     }
 
-    /// The target's transverse section as a polygon with points `spacing_mm` apart; its error is the arrow height of so
-    /// long a chord.
+    /// Slice by slice, each with the poses that the guide gives the cutter there.
+    fn cut_blank_along_helix(
+        &self,
+        backend: &dyn Backend,
+        field: BlankField,
+        advance: &(dyn Fn() -> bool + Sync),
+    ) -> Result<Option<CutBlank>> {
+        let blank_mm3 = field.volumes_mm3();
+        let BlankField { grid, slices } = field;
+        let operations = self.operations.len();
+        let mut left_mm3 = vec![[0.0; 2]; operations];
+        let mut cuts = vec![BlankCut::default(); operations];
+        let mut done = Vec::with_capacity(slices.len());
+        for (index, (slice, face_width_mm)) in slices.into_iter().zip(grid.slice_widths_mm()).enumerate() {
+            let z_mm = grid.slices_z_mm[index];
+            // A slice alone stands for its share of the face.
+            let grid = BlankGrid { slices_z_mm: vec![0.0], face_width_mm, ..grid.clone() };
+            let alone = BlankField { grid, slices: vec![slice] };
+            let strokes: Vec<StrokeSet> =
+                self.operations.iter().map(|operation| self.strokes_in_section(operation, z_mm)).collect();
+            let returns = |operation| self.return_strokes_at(operation, Some(z_mm));
+            let Some(cut) = self.planar_of(&strokes).cut_blank(backend, alone, returns, advance)? else {
+                return Ok(None);
+            };
+            done.extend(cut.field.slices);
+            for (all_mm3, own_mm3) in left_mm3.iter_mut().zip(cut.left_mm3) {
+                *all_mm3 = [0, 1].map(|family| all_mm3[family] + own_mm3[family]);
+            }
+            for (all, own) in cuts.iter_mut().zip(cut.cuts) {
+                all.stats += own.stats;
+                all.rubs.extend(own.rubs.into_iter().map(|rub| Rub { slice: index as u32, ..rub }));
+                all.removed_mm3.resize(own.removed_mm3.len(), [0.0; 2]);
+                for (all_mm3, own_mm3) in all.removed_mm3.iter_mut().zip(own.removed_mm3) {
+                    *all_mm3 = [0, 1].map(|family| all_mm3[family] + own_mm3[family]);
+                }
+            }
+        }
+        Ok(Some(CutBlank { field: BlankField { grid, slices: done }, blank_mm3, left_mm3, cuts }))
+    }
+
+    /// The target's transverse section at a height as a polygon with points `spacing_mm` apart; its error is the arrow
+    /// height of so long a chord.
     ///
     /// # Errors
     /// A tooth without a flank, or one whose tip the cutter's base shapes: its outline is not known in closed form.
-    pub fn target_outline(&self, spacing_mm: f64) -> Result<TargetOutline, Refusal> {
+    pub fn target_outline(&self, z_mm: f64, spacing_mm: f64) -> Result<TargetOutline, Refusal> {
         let teeth: Vec<ToothSection> = (1..=self.scene.gear.teeth)
             .into_par_iter()
-            .map(|tooth| self.tooth_section(tooth, spacing_mm))
+            .map(|tooth| self.tooth_in_section(tooth, z_mm, spacing_mm))
             .collect::<Result<_, _>>()?;
         let points_mm = teeth.iter().flat_map(ToothSection::outline_mm).collect();
         Ok(TargetOutline::new(points_mm, self.blank.back))
@@ -80,7 +137,20 @@ impl ShapingJob {
     /// # Errors
     /// A tip that the cutter's base shapes: its outline is not known in closed form.
     pub fn tooth_section(&self, tooth: u32, spacing_mm: f64) -> Result<ToothSection, Refusal> {
-        let [right, left] = [Side::Right, Side::Left].map(|side| self.target_flank(tooth, side));
+        let flanks = [Side::Right, Side::Left].map(|side| self.target_flank(tooth, side));
+        let fillets = self.target_fillets(tooth).into_iter();
+        let chains: Vec<_> = fillets.map(|(fillet, ends)| fillet.chain_mm(ends, spacing_mm)).collect();
+        self.section_of(flanks, &chains, tooth, spacing_mm)
+    }
+
+    /// The target round a tooth from its flanks, right and left, and the chains of the root behind it.
+    pub(in crate::process::shaping) fn section_of(
+        &self,
+        [right, left]: [&TargetFlank; 2],
+        root_mm: &[Vec<DVec2>],
+        tooth: u32,
+        spacing_mm: f64,
+    ) -> Result<ToothSection, Refusal> {
         let reliefs = [right, left].map(|flank| TipRelief::new(flank, &self.blank));
         for (flank, relief) in [right, left].into_iter().zip(&reliefs) {
             let known = match flank.tip_end {
@@ -120,9 +190,7 @@ impl ShapingJob {
         }
         points.extend(left_tip.into_iter().rev());
         points.extend(along(left).into_iter().rev());
-        let fillets = self.target_fillets(tooth).into_iter();
-        let halves: Vec<Vec<DVec2>> = fillets.map(|(fillet, ends)| fillet.chain_mm(ends, spacing_mm)).collect();
         let dwell_mm: Vec<DVec2> = self.dwell_mm(tooth, spacing_mm).iter().map(|[point, _]| *point).collect();
-        Ok(ToothSection { tooth_mm: points, root_mm: halves.join(&dwell_mm[..]) })
+        Ok(ToothSection { tooth_mm: points, root_mm: root_mm.join(&dwell_mm[..]) })
     }
 }

@@ -47,7 +47,7 @@ fn at(room: &PlacedRoom) -> Place {
 
 /// Between the line of centres and the normal.
 fn angle(job: &ShapingJob, facts: &ReturnFacts, asked: Retraction) -> Entry {
-    let (most_rad, pressure_angle_rad) = (facts.steepest.from_normal_rad.abs(), job.scene.gear.pressure_angle_rad);
+    let (most_rad, pressure_angle_rad) = (facts.steepest.from_normal_rad.abs(), job.transverse.pressure_angle_rad);
     let limit = format!("the {:.1} deg of the pressure angle", pressure_angle_rad.to_degrees());
     let angle = RETRACTION_ANGLE.of(most_rad.to_degrees()).at(at(&facts.steepest));
     if job.cutter.drawn().is_some() {

@@ -40,7 +40,7 @@ pub fn of_job(job: &ShapingJob, other: Option<&str>) -> Option<Section> {
 }
 
 fn section(job: &ShapingJob, facts: &RingFacts) -> Section {
-    let (z0, module_mm) = (job.cutter.teeth, job.scene.gear.module_mm);
+    let (z0, module_mm) = (job.cutter.teeth, job.transverse.module_mm);
     let (radius_mm, sharpest_rad) = facts.sharpest;
     // On a circle no place is sharper than others.
     let sharpest = |entry: Entry| {

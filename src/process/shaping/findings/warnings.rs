@@ -16,8 +16,8 @@ use crate::process::shaping::gear::measure::below_finished::below_finished;
 use crate::process::shaping::gear::measure::{FlankReport, GearReport, closing};
 use crate::process::shaping::gear::tooth_facts::{self, ToothFacts};
 use crate::process::shaping::notices::{
-    BeyondRecord, DeeperByEnvelope, DeeperByOffset, FlankBelowTarget, FlankGouge, Force, NoBackOff, ReturnRubs, Uncut,
-    Unsettled,
+    BeyondRecord, DeeperByEnvelope, DeeperByOffset, FlankBelowTarget, FlankGouge, Force, GuideLead, HelixChips,
+    NoBackOff, ReturnRubs, Uncut, Unsettled,
 };
 use crate::process::shaping::scene::model::Retraction;
 use crate::process::shaping::{ShapingJob, axes_report::OperationAxes};
@@ -26,10 +26,13 @@ use crate::steps::planar::blank_report::BlankReport;
 use crate::steps::{Work, axes, check_curve};
 use gearcut_core::error::Result;
 use gearcut_core::units::UM_PER_MM;
+use std::f64::consts::PI;
 
 /// Cuts below the target deeper than this are worth a warning: far above the resolution, below every tolerance on a
 /// gear drawing.
 const BELOW_TARGET_MM: f64 = 1e-4;
+/// A helix slope that is worth a warning: a tenth of what the finest class of ISO 1328-1 allows.
+const LEAST_SLOPE_UM: f64 = 0.1;
 /// Cutting force beyond which a ram is taken to stall where the scene gives no `machine.limits.cutting_force_n`, N. A
 /// shaper for module 20, among the strongest that are built, is laid out for 36.42 kN ("Design and analysis of
 /// hydraulic main drive system for large-scale CNC gear shaping machines", zhygear.com).
@@ -48,6 +51,22 @@ fn of_teeth(job: &ShapingJob, motion: &[OperationAxes]) -> Vec<Notice> {
         warnings.extend(tooth_facts::warnings(job, &ToothFacts::of_job(job)));
     }
     warnings
+}
+
+/// What a helical guide leaves, and what is not followed along it.
+fn of_helix(job: &ShapingJob) -> Vec<Notice> {
+    let Some(helix) = &job.helix else { return Vec::new() };
+    let slope_um = helix.slope(job.blank.kind(), job.cutter.pitch_radius_mm) * job.scene.gear.face_width_mm * UM_PER_MM;
+    // The lead of a cutter's helix is pi m z0 / sin(beta).
+    let sine = PI * job.scene.gear.module_mm * f64::from(job.cutter.teeth) / helix.lead_mm;
+    let lead = GuideLead {
+        lead_mm: significant(helix.lead_mm, 9),
+        needed_mm: significant(helix.needed_lead_mm, 9),
+        slope_um: significant(slope_um.abs(), 3),
+        angle_deg: significant(sine.min(1.0).asin().to_degrees(), 9),
+    };
+    let lead = (slope_um.abs() > LEAST_SLOPE_UM).then(|| lead.notice());
+    lead.into_iter().chain([HelixChips {}.notice()]).collect()
 }
 
 fn of_ring(job: &ShapingJob, ring: Option<&Section>) -> Vec<Notice> {
@@ -75,6 +94,7 @@ pub fn before(job: &ShapingJob, motion: &[OperationAxes], ring: Option<&Section>
     warnings.extend(axes::warnings(motion));
     warnings.extend(program::warnings(job, motion));
     warnings.extend(stroke_noise::warnings(job));
+    warnings.extend(of_helix(job));
     if job.is_as_cut() {
         warnings.extend(entry_forces(job));
     }

@@ -73,7 +73,7 @@ pub struct RingTooth {
 
 impl RingTooth {
     fn new(job: &ShapingJob, tooth: u32, corners: Option<[CornerPath; 2]>) -> Self {
-        let phi_rad = job.curve.phi_at_arc(PI * job.scene.gear.module_mm * (f64::from(tooth) - 0.5));
+        let phi_rad = job.curve.phi_at_arc(PI * job.transverse.module_mm * (f64::from(tooth) - 0.5));
         let flanks = SIDES.map(|side| job.target_flank(tooth, side));
         let addendum_mm = job.blank.addendum_mm;
         let height_mm = |flank: &TargetFlank, arc_mm: f64| {
@@ -206,10 +206,11 @@ pub struct PrintedUndercut {
 impl PrintedUndercut {
     fn of(job: &ShapingJob) -> Self {
         Self {
-            module_mm: job.scene.gear.module_mm,
+            module_mm: job.transverse.module_mm,
             cutter_teeth: f64::from(job.cutter.teeth),
-            addendum_coefficient: job.cutter_spec.addendum_coefficient,
-            sine: job.scene.gear.pressure_angle_rad.sin(),
+            addendum_coefficient: job.cutter_spec.addendum_coefficient
+                * (job.scene.gear.module_mm / job.transverse.module_mm),
+            sine: job.transverse.pressure_angle_rad.sin(),
         }
     }
 
@@ -273,7 +274,7 @@ pub struct RingFacts {
 impl RingFacts {
     /// Of a job of an internal gear.
     pub fn new(job: &ShapingJob) -> Self {
-        let gear = &job.scene.gear;
+        let gear = &job.transverse;
         let sharpest = job.curve.facts().largest_curvature;
         let rho_mm = 1.0 / sharpest.curvature_per_mm;
         let period = job.curve.period_teeth(gear.teeth);

@@ -4,13 +4,14 @@
 //! normals of the pitch curve.
 
 use crate::findings::Notice;
-use crate::job::{CylindricalGear, GearJob, ToolSection, ToothFrame, ToothSection, teeth_of_extreme_radius};
+use crate::job::{CylindricalGear, GearJob, ToolSection, ToothFrame, ToothSection, rows_z_mm, teeth_of_extreme_radius};
 use crate::measure::round_gear::{RoundGear, ToothEnds, is_round};
 use crate::measure::thickness::Thickness;
 use crate::process::shaping::cut::section::{CutSection, cutter_outline};
 use crate::process::shaping::cut::stroke_noise;
 use crate::process::shaping::gear::measure::flank_report;
 use crate::process::shaping::job::ShapingJob;
+use crate::process::shaping::sections::GearPart;
 use crate::scene::Scene;
 use crate::surface::SurfaceGrid;
 use crate::surface::flanks::points_of_sections;
@@ -23,6 +24,10 @@ use gearcut_core::gear::PitchCurve;
 use gearcut_core::gear::blank::Blank;
 use gearcut_core::terms::Side;
 use glam::DVec2;
+
+/// Distance of the sections that show a helical gear's shape, mm: chords a micrometre off a helix of 20 deg on a radius
+/// of 60 mm.
+const VIEW_SECTION_MM: f64 = 5.0;
 
 impl GearJob for ShapingJob {
     fn scene(&self) -> &Scene {
@@ -42,7 +47,7 @@ impl GearJob for ShapingJob {
     }
 
     fn marks_follow(&self, operation: usize) -> [bool; 2] {
-        [self.operations[operation].spec.feed_during_stroke, true]
+        [self.operations[operation].spec.feed_during_stroke || self.helix.is_some(), true]
     }
 
     fn profile_length_mm(&self, tooth: u32, side: Side) -> Result<f64> {
@@ -78,7 +83,7 @@ impl GearJob for ShapingJob {
         rows_z_mm: &[f64],
     ) -> Result<Vec<Layer>> {
         let field = self.field_over(self.target_flank(tooth, side), arcs_mm.iter().copied(), rows_z_mm.to_vec());
-        Ok(self.cut_on_flank(backend, (tooth, side), field)?.layers)
+        Ok(self.cut_on(backend, GearPart::Flank(tooth, side), field)?.layers)
     }
 
     fn cylindrical(&self) -> Option<&dyn CylindricalGear> {
@@ -113,8 +118,8 @@ impl CylindricalGear for ShapingJob {
     }
 
     fn view_rows_z_mm(&self) -> Vec<f64> {
-        let half_mm = 0.5 * self.scene.gear.face_width_mm;
-        vec![-half_mm, half_mm]
+        let spacing_mm = if self.helix.is_some() { VIEW_SECTION_MM } else { f64::INFINITY };
+        rows_z_mm(self.scene.gear.face_width_mm, spacing_mm)
     }
 
     fn target_profiles(
@@ -124,16 +129,26 @@ impl CylindricalGear for ShapingJob {
         arcs_mm: &[f64],
         rows_z_mm: &[f64],
     ) -> Result<Vec<SectionProfile>> {
-        let target = self.target_flank(tooth, side);
-        let profile: SectionProfile = arcs_mm
-            .iter()
-            .map(|&arc| target.at_arc(arc))
-            .map(|contact| (contact.point_mm, contact.normal.extend(0.0)))
-            .collect();
-        Ok(vec![profile; rows_z_mm.len()])
+        let profile = |z_mm: f64| -> Result<SectionProfile> {
+            let target = self.flank_in_section(tooth, side, z_mm)?;
+            let places = arcs_mm.iter().map(|&arc| target.at_arc(arc));
+            let normal = |of: DVec2| self.helix.map_or(of.extend(0.0), |helix| helix.flank_normal(side, of));
+            Ok(places.map(|place| (place.point_mm, normal(place.normal))).collect())
+        };
+        if self.helix.is_none() {
+            return Ok(vec![profile(0.0)?; rows_z_mm.len()]);
+        }
+        rows_z_mm.iter().map(|&z_mm| profile(z_mm)).collect()
     }
 
     fn target_roots(&self, space: u32, spacing_mm: f64, rows_z_mm: &[f64]) -> Result<Vec<SectionProfile>> {
+        if self.helix.is_some() {
+            let in_section = |&z_mm: &f64| {
+                let points = self.root_in_section(space, spacing_mm, z_mm)?;
+                Ok(points.iter().map(|point| (point.point_mm, point.normal.extend(0.0))).collect())
+            };
+            return rows_z_mm.iter().map(in_section).collect();
+        }
         let points = self.target_fillets(space).into_iter().map(|(fillet, ends)| fillet.points(ends, spacing_mm));
         let halves: Vec<SectionProfile> = points
             .map(|points| points.iter().map(|point| (point.point_mm, point.normal.extend(0.0))).collect())
@@ -152,8 +167,9 @@ impl CylindricalGear for ShapingJob {
     ) -> Result<Vec<Vec<DVec2>>> {
         let mut field = self.planar().root_field(&self.target_root(space, spacing_mm));
         field.rows_z_mm = rows_z_mm.to_vec();
-        let cut = self.cut(backend, field)?;
-        let mut sections = points_of_sections(&cut.field, &cut.layers);
+        let cut = self.cut_on(backend, GearPart::Root(space, spacing_mm), field)?;
+        let mut sections =
+            points_of_sections(&self.in_space(GearPart::Root(space, spacing_mm), cut.field)?, &cut.layers);
         let dwell_mm: Vec<DVec2> = self.dwell_mm(space, spacing_mm).iter().map(|[point, _]| *point).collect();
         if let [(last, ends), _] = &self.target_fillets(space)[..] {
             let half = last.points(*ends, spacing_mm).len();
@@ -164,8 +180,8 @@ impl CylindricalGear for ShapingJob {
         Ok(sections)
     }
 
-    fn target_section(&self, tooth: u32, _z_mm: f64, spacing_mm: f64) -> Result<ToothSection> {
-        Ok(self.tooth_section(tooth, spacing_mm)?)
+    fn target_section(&self, tooth: u32, z_mm: f64, spacing_mm: f64) -> Result<ToothSection> {
+        Ok(self.tooth_in_section(tooth, z_mm, spacing_mm)?)
     }
 
     fn tool_section(&self, chord_mm: f64) -> ToolSection {
@@ -181,13 +197,9 @@ impl CylindricalGear for ShapingJob {
     }
 
     fn tip_surface(&self, backend: &dyn Backend, tooth: u32) -> Result<Option<SurfaceGrid>> {
-        let foot = |side| {
-            let flank = self.target_flank(tooth, side);
-            let tip = flank.at_arc(flank.length_mm());
-            self.blank.height(tip.point_mm, tip.phi_rad).1
-        };
-        let Some(field) = self.planar().tip_field([Side::Right, Side::Left].map(foot)) else { return Ok(None) };
-        let cut = self.cut(backend, field)?;
-        Ok(Some(SurfaceGrid::new(&cut.field, &cut.layers, self.scene.output.mesh_spacing_mm)))
+        let Some(field) = self.planar().tip_field(self.tip_feet(tooth, 0.0)?) else { return Ok(None) };
+        let cut = self.cut_on(backend, GearPart::Tip(tooth), field)?;
+        let rays = self.in_space(GearPart::Tip(tooth), cut.field)?;
+        Ok(Some(SurfaceGrid::new(&rays, &cut.layers, self.scene.output.mesh_spacing_mm)))
     }
 }

@@ -44,6 +44,8 @@ fn machine() -> Machine {
         overrun_mm: 5.0,
         back_off_mm: 0.5,
         retraction: Retraction::CenterLine,
+        guide_lead_mm: None,
+        guide_hand: None,
         errors: MachineErrors::default(),
         compliance: Compliance::default(),
         limits: AxisLimits {

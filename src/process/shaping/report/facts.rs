@@ -64,15 +64,21 @@ pub fn section(job: &ShapingJob, found: &Findings) -> PageSection {
         table("Shaper cutter", [own, of_all].concat()),
         table(
             "Machine",
-            vec![
+            [
                 ("Double strokes", format!("{} per minute", plain(machine.double_strokes_per_minute))),
                 ("Approach, overrun", format!("{}, {}", mm(machine.approach_mm), mm(machine.overrun_mm))),
                 ("Back-off on the return stroke", back_off),
-                (
-                    "Speed limits",
-                    speed_limits(["work", "cutter", "centre distance"], &AXES, &dynamics::limits(&machine.limits)),
-                ),
-            ],
+            ]
+            .into_iter()
+            .chain(
+                job.helix
+                    .map(|helix| ("Helical guide", format!("lead {}, {}-hand", mm(helix.lead_mm), helix.hand.name()))),
+            )
+            .chain([(
+                "Speed limits",
+                speed_limits(["work", "cutter", "centre distance"], &AXES, &dynamics::limits(&machine.limits)),
+            )])
+            .collect(),
         ),
     ]);
     PageSection::new("setup", "What was cut, and how", "", blocks).judged(Tone::Aside, "gear, cutter, machine")

@@ -49,7 +49,7 @@ pub fn section(job: &ShapingJob, found: &Findings) -> Option<PageSection> {
 fn chart(job: &ShapingJob, name: &str, section: &Section) -> Option<LineChart> {
     let table = section.table_of(&RETURN_PLACES).filter(|table| !table.is_empty())?;
     let curve = |row: &QuantityRow| table.points(&PHI, row);
-    let pressure_deg = job.scene.gear.pressure_angle_rad.to_degrees();
+    let pressure_deg = job.transverse.pressure_angle_rad.to_degrees();
     Some(LineChart {
         title: format!("{name} of {}: return strokes over one period of the pitch curve", job.scene.name),
         x_name: "polar angle φ".to_owned(),

@@ -31,7 +31,10 @@ pub(super) fn cut(
     };
     let Some(cut) = job.cut_blank(backend, field, &advance)? else { return Ok(None) };
     step.finish();
-    let target = job.target_outline(TARGET_SPACING_MM).ok();
-    let report = blank_report::measure(&job.planar(), &cut, target.as_ref());
+    // One section stands for all of a spur gear.
+    let slices_z_mm: &[f64] = if job.helix.is_some() { &cut.field.grid.slices_z_mm } else { &[0.0] };
+    let targets: Result<Vec<_>, _> =
+        slices_z_mm.iter().map(|&z_mm| job.target_outline(z_mm, TARGET_SPACING_MM)).collect();
+    let report = blank_report::measure_sections(&job.planar(), &cut, &targets.unwrap_or_default());
     Ok(Some((cut, report)))
 }

@@ -36,7 +36,7 @@ pub fn write(job: &ShapingJob, ledger: &ChipLedger, folder: &OutputFolder, notes
             step_mm: chips.by_stroke.per_row * feed_mm,
             count: chips.by_stroke.rows,
         };
-        let pitch_mm = std::f64::consts::PI * job.scene.gear.module_mm;
+        let pitch_mm = std::f64::consts::PI * job.transverse.module_mm;
         let by_space = MapAxis {
             name: "space".into(),
             meaning: format!("mean arc of pitch curve; space j is at j times {} mm", significant(pitch_mm, 4)),

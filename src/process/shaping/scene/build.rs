@@ -151,6 +151,8 @@ fn machine(values: &Values) -> Option<Machine> {
             "auto" => Retraction::Auto,
             _ => return None,
         },
+        guide_lead_mm: machine.number("guide_lead_mm"),
+        guide_hand: machine.hand("guide_hand"),
         errors: machine_errors(values, &AXES)?,
         compliance: compliance(values),
         limits: AxisLimits {

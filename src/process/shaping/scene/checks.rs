@@ -2,11 +2,13 @@
 
 use super::defaults::reach_mm;
 use super::keys::{AXES, BUILT_UP_EDGE, BUILT_UP_EDGE_KEYS, CMM, EDGE_ROUGHNESS, EDGE_ROUNDING, PROFILE};
+use super::model::guide_hand;
 use crate::scene::build::{sector_deg, stock_or_offset_mm};
 use crate::scene::drawn_profile;
 use crate::scene::keys::join;
 use crate::scene::machine_errors;
 use crate::scene::problems::Found;
+use gearcut_core::gear::GearKind;
 use std::f64::consts::PI;
 
 /// Most strokes of one operation; ten thousand per tooth of a hundred-tooth gear are already beyond any machine.
@@ -33,6 +35,7 @@ pub(super) fn check(found: &mut Found<'_, '_, '_>) {
     found.blame(measures_nothing, CMM, message, "remove it, or write an operation that roughs before");
     drawn_tooth(found);
     sector(found);
+    let _: Option<()> = helix(found);
     machine_errors::check(found, &AXES);
     for index in 0..found.values.count("operation") {
         let path = format!("operation.{index}");
@@ -77,6 +80,56 @@ fn sector(found: &mut Found) {
             found.blame(wrong, &join(&path, name), message, "remove it, or write the operation twice");
         }
     }
+}
+
+/// A helical gear needs a guide of its hand, and is not cut with all that a spur gear is.
+fn helix(found: &mut Found) -> Option<()> {
+    let (gear, machine) = (found.view("gear"), found.view("machine"));
+    let is_helical = gear.number("helix_angle_deg")? > 0.0;
+    let written = [
+        ("machine.guide_lead_mm", machine.number("guide_lead_mm").is_some()),
+        ("machine.guide_hand", machine.text("guide_hand").is_some()),
+    ];
+    for (key, is_written) in written {
+        let message = || format!("`{key}`: a spur gear is cut with a straight guide");
+        found.blame(!is_helical && is_written, key, message, "remove it, or write gear.helix_angle_deg");
+    }
+    if !is_helical {
+        return None;
+    }
+    let kind = if gear.text("kind")? == "internal" { GearKind::Internal } else { GearKind::External };
+    let (gear_hand, needed) = (gear.hand("hand")?, guide_hand(kind, gear.hand("hand")?));
+    let is_other = machine.hand("guide_hand").is_some_and(|hand| hand != needed);
+    let message = || {
+        let where_to = if kind == GearKind::Internal { "ring" } else { "external gear" };
+        format!(
+            "`machine.guide_hand`: a {}-hand {where_to} needs a {}-hand guide; this one cuts the other hand",
+            gear_hand.name(),
+            needed.name()
+        )
+    };
+    found.blame(is_other, "machine.guide_hand", message, "remove it, or give the gear the other hand");
+    let spur_only = [
+        ("gear.sector_deg", sector_deg(found.values).is_some(), "a sector"),
+        ("machine.compliance", yields(found), "deflection by the cut"),
+        (EDGE_ROUNDING, found.view(EDGE_ROUNDING).number("radius_um").is_some(), "ploughing by rounded edges"),
+        (BUILT_UP_EDGE, found.view(BUILT_UP_EDGE).number("density_per_mm2").is_some(), "tearing by a built-up edge"),
+        (CMM, found.values.has_section(CMM), "a coordinate measurement"),
+    ];
+    for (key, is_written, what) in spur_only {
+        let message = || format!("`{key}`: {what} is known for spur gears alone");
+        found.blame(is_written, key, message, "remove it, or write helix_angle_deg = 0");
+    }
+    Some(())
+}
+
+/// Whether the machine gives way at all.
+fn yields(found: &Found) -> bool {
+    let compliance = found.view("machine.compliance");
+    let of = |side: &str| {
+        ["radial_um_per_kn", "tangential_um_per_kn", "torsional_urad_per_nm"].map(|name| format!("{side}_{name}"))
+    };
+    ["tool", "work"].iter().flat_map(|side| of(side)).any(|name| compliance.number(&name).is_some_and(|of| of > 0.0))
 }
 
 /// Each of some keys says nothing without the others: a root mean square without a length, a radius without a share.

@@ -8,7 +8,7 @@ mod output;
 mod sector;
 mod tool;
 
-use crate::scene::keys::{Addition, KeySection};
+use crate::scene::keys::{Addition, HELIX, KeySection};
 
 pub(super) use chips::LARGEST_CHIP_SPACING_MM;
 pub(super) use cmm::CMM;
@@ -22,4 +22,4 @@ pub(super) static SECTIONS: &[&[KeySection]] =
 
 /// Keys in shared sections.
 pub(super) static ADDED: &[&Addition] =
-    &[&chips::ADDED, &machine::ADDED, &operation::ADDED, &output::ADDED, &sector::ADDED];
+    &[&chips::ADDED, &machine::ADDED, &operation::ADDED, &output::ADDED, &sector::ADDED, &HELIX];

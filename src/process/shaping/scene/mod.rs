@@ -9,7 +9,7 @@ pub mod model;
 
 use crate::machine_errors::ErrorLayer;
 use crate::scene::error_sources::{self, ErrorSource, KeyForm, Tried};
-use crate::scene::{ProcessPart, SceneProcess, Senseless, StandardOperation};
+use crate::scene::{ProcessPart, SceneProcess, StandardOperation};
 pub(in crate::process::shaping) use keys::PROFILE;
 use model::{EdgeRoughness, Shaping};
 use std::path::Path;
@@ -83,14 +83,7 @@ pub static SCENE: SceneProcess = SceneProcess {
     of_one_gear: &["window_deg"],
     on_demand: &[keys::CMM],
     cuts_rings: true,
-    senseless: &[
-        Senseless {
-            path: "gear.helix_angle_deg",
-            why: "the ram strokes along the gear's axis: a helical guide is not modelled",
-            instead: "remove it",
-        },
-        Senseless { path: "gear.hand", why: "the ram strokes along the gear's axis", instead: "remove it" },
-    ],
+    senseless: &[],
     axes: &keys::AXES,
     errors: &[error_sources::MOUNTING, error_sources::GUIDE, TOOL_ERRORS, CUT_ERRORS],
     derive: defaults::derive,

@@ -5,7 +5,9 @@ use crate::material::EdgeForce;
 use crate::random::Draws;
 use crate::scene::Scene;
 use crate::scene::drawn_profile::ToolProfile;
+use gearcut_core::gear::GearKind;
 use gearcut_core::passes::planar::strokes::StrokeLaw;
+use gearcut_core::terms::Hand;
 use std::path::PathBuf;
 
 /// Shaping: tool, machine and operations.
@@ -104,6 +106,20 @@ pub struct CutterSpec {
     pub profile: Option<ToolProfile>,
 }
 
+impl CutterSpec {
+    /// Coefficients of a cutter in modules of its transverse section, from those in modules of its normal one.
+    #[must_use]
+    pub fn transverse(&self, helix_angle_rad: f64) -> Self {
+        let cos = if helix_angle_rad == 0.0 { 1.0 } else { helix_angle_rad.cos() };
+        Self {
+            addendum_coefficient: self.addendum_coefficient * cos,
+            dedendum_coefficient: self.dedendum_coefficient * cos,
+            profile_shift_coefficient: self.profile_shift_coefficient * cos,
+            ..self.clone()
+        }
+    }
+}
+
 /// Pits and scratches that fragments of a built-up edge tear into flanks.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BuiltUpEdge {
@@ -186,6 +202,10 @@ pub struct Machine {
     pub back_off_mm: f64,
     /// Which way.
     pub retraction: Retraction,
+    /// Lead of the helical guide on the ram; `None`: the one that the gear's helix needs, none for spur gears.
+    pub guide_lead_mm: Option<f64>,
+    /// Its hand; `None`: the one that the gear needs.
+    pub guide_hand: Option<Hand>,
     /// What is wrong with its axes (work, cutter, centre distance), its ram's guide and the work on its spindle.
     pub errors: MachineErrors<3>,
     /// How far cutter and work give way to the forces of the cut.
@@ -198,6 +218,14 @@ impl Machine {
     /// How the ram passes a face of this width, mm.
     pub fn crank(&self, face_width_mm: f64) -> StrokeLaw {
         StrokeLaw::crank(face_width_mm, self.approach_mm, self.overrun_mm)
+    }
+}
+
+/// Hand of the guide, and of the cutter, that a gear needs.
+pub fn guide_hand(kind: GearKind, hand: Hand) -> Hand {
+    match (kind, hand) {
+        (GearKind::External, Hand::Right) | (GearKind::Internal, Hand::Left) => Hand::Left,
+        _ => Hand::Right,
     }
 }
 

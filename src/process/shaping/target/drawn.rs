@@ -50,7 +50,7 @@ impl Generation {
         let start = curve.phi_at_arc(space as f64 * pitch_mm - self.gear().tip_sign() * r_c * crossing_rad);
         let in_work = |phi: f64| {
             let m = self.motion(phi);
-            let turn = DVec2::from_angle(self.tooth_angle(m.angle, space));
+            let turn = DVec2::from_angle(self.tooth_angle(m.angle, space as f64));
             (turn.rotate(p), turn.rotate(n), m)
         };
         let last = LastStep::absolute(LAST_STEP_RAD);

@@ -27,7 +27,7 @@ const STEPS_PER_PITCH: f64 = 128.0;
 #[derive(Debug, Clone)]
 pub struct Fillet<'a> {
     generation: &'a Generation,
-    space: i64,
+    space: f64,
     pieces: Vec<FilletPiece>,
 }
 
@@ -47,10 +47,10 @@ enum FilletPiece {
 
 impl<'a> Fillet<'a> {
     /// Of the space after tooth `space` (space 0 is centred on phi = 0).
-    pub fn new(generation: &'a Generation, space: i64) -> Self {
+    pub fn new(generation: &'a Generation, space: f64) -> Self {
         let curve = generation.linkage.curve();
         let pitch_arc_mm = 2.0 * PI * generation.cutter.pitch_radius_mm / f64::from(generation.cutter.teeth);
-        let phi_space = curve.phi_at_arc(space as f64 * pitch_arc_mm);
+        let phi_space = curve.phi_at_arc(space * pitch_arc_mm);
         let step = pitch_arc_mm / curve.frame(phi_space).arc_rate_mm_per_rad / STEPS_PER_PITCH;
         let piece = |part: TipPart| {
             let contact = |phi: f64| generation.tip_contact(phi, space, &part);
@@ -65,7 +65,7 @@ impl<'a> Fillet<'a> {
             let is_backwards = (b - a).dot(normal.perp()) * generation.gear().tip_sign() < 0.0;
             Some(FilletPiece::Tip { part, phi_rad: if is_backwards { [to, from] } else { [from, to] } })
         };
-        if let Some(profile) = generation.space_profile(space) {
+        if let Some(profile) = generation.space_profile(space.round() as i64) {
             // From the left flank of the gear to the right one.
             let mut points = profile.map_or(Vec::new(), |profile| profile.root().to_vec());
             if generation.gear() == GearKind::External {
@@ -87,7 +87,7 @@ impl<'a> Fillet<'a> {
     pub fn middle(&self) -> f64 {
         let curve = self.generation.linkage.curve();
         let pitch_arc_mm = 2.0 * PI * self.generation.cutter.pitch_radius_mm / f64::from(self.generation.cutter.teeth);
-        let frame = curve.frame(curve.phi_at_arc(self.space as f64 * pitch_arc_mm));
+        let frame = curve.frame(curve.phi_at_arc(self.space * pitch_arc_mm));
         let is_before = |place: f64| {
             self.at(place).is_some_and(|(_, point_mm, _)| (point_mm - frame.point_mm).dot(frame.tangent) < 0.0)
         };
@@ -128,8 +128,34 @@ impl<'a> Fillet<'a> {
     }
 
     /// Points about `spacing_mm` apart between two places, half a spacing off the ends of every piece.
-    pub fn points(&self, [from, to]: [f64; 2], spacing_mm: f64) -> Vec<ProfilePoint> {
+    pub fn points(&self, ends: [f64; 2], spacing_mm: f64) -> Vec<ProfilePoint> {
+        let shares = self.shares(ends, spacing_mm);
+        Self::profile(shares.into_iter().filter_map(|(index, share)| self.on_piece(&self.pieces[index], share)))
+    }
+
+    /// As many points between two places as those of another fillet between its `other_ends`, at the same parts of the
+    /// way: sections of one root.
+    pub fn points_like(&self, [from, to]: [f64; 2], other: (&Self, [f64; 2]), spacing_mm: f64) -> Vec<ProfilePoint> {
+        let (other, other_ends) = other;
+        let [other_from, other_to] = other_ends;
+        let shares = other.shares(other_ends, spacing_mm).into_iter();
+        let part = |(index, share): (usize, f64)| (index as f64 + share - other_from) / (other_to - other_from);
+        Self::profile(shares.filter_map(|place| self.at(from + (to - from) * part(place))))
+    }
+
+    /// Points with their lengths from the first one.
+    fn profile(places: impl Iterator<Item = (f64, DVec2, DVec2)>) -> Vec<ProfilePoint> {
         let mut points: Vec<ProfilePoint> = Vec::new();
+        for (phi_rad, point_mm, normal) in places {
+            let arc_mm = points.last().map_or(0.0, |last| last.arc_mm + last.point_mm.distance(point_mm));
+            points.push(ProfilePoint { arc_mm, point_mm, normal, phi_rad });
+        }
+        points
+    }
+
+    /// Pieces and shares of them about `spacing_mm` apart between two places, half a spacing off the ends of each.
+    fn shares(&self, [from, to]: [f64; 2], spacing_mm: f64) -> Vec<(usize, f64)> {
+        let mut places = Vec::new();
         for (index, piece) in self.pieces.iter().enumerate() {
             let shares = [from, to].map(|place| (place - index as f64).clamp(0.0, 1.0));
             let share_at = |part: f64| shares[0] + (shares[1] - shares[0]) * part;
@@ -141,23 +167,19 @@ impl<'a> Fillet<'a> {
                 .collect();
             let length: f64 = chords.windows(2).map(|w| w[0].1.distance(w[1].1)).sum();
             let count = (length / spacing_mm).ceil().max(1.0) as u32;
-            let mut arc = points.last().map_or(0.0, |p| p.arc_mm);
             let mut travelled = 0.0;
             let mut next = 0.5 * length / f64::from(count);
             for pair in chords.windows(2) {
                 let length_mm = pair[0].1.distance(pair[1].1);
                 while next <= travelled + length_mm && length_mm > 0.0 {
                     let share = pair[0].0 + (pair[1].0 - pair[0].0) * (next - travelled) / length_mm;
-                    if let Some((phi_rad, point_mm, normal)) = self.on_piece(piece, share) {
-                        arc += points.last().map_or(0.0, |p| p.point_mm.distance(point_mm));
-                        points.push(ProfilePoint { arc_mm: arc, point_mm, normal, phi_rad });
-                    }
+                    places.push((index, share));
                     next += length / f64::from(count);
                 }
                 travelled += length_mm;
             }
         }
-        points
+        places
     }
 }
 

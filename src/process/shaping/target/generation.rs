@@ -119,14 +119,15 @@ impl Generation {
         self.linkage.gear()
     }
 
-    /// Cutter orientation for the tooth that cuts space `space` (any integer, counted along the arc without wrapping).
-    pub(super) fn tooth_angle(&self, cutter_angle: f64, space: i64) -> f64 {
-        cutter_angle - self.gear().tip_sign() * TAU * space as f64 / f64::from(self.cutter.teeth)
+    /// Cutter orientation for the tooth that cuts space `space` (any number, counted along the arc without wrapping;
+    /// between whole ones lie the sections of a helical gear).
+    pub(super) fn tooth_angle(&self, cutter_angle: f64, space: f64) -> f64 {
+        cutter_angle - self.gear().tip_sign() * TAU * space / f64::from(self.cutter.teeth)
     }
 
     /// Contact of the cutter flank that cuts side `side` of space `space` at `phi_rad`; `None` where the flank touches
     /// nothing.
-    pub fn flank_contact(&self, phi_rad: f64, space: i64, side: Side) -> Option<FlankContact> {
+    pub fn flank_contact(&self, phi_rad: f64, space: f64, side: Side) -> Option<FlankContact> {
         let sigma = self.gear().tip_sign() * side.sign();
         let m = self.motion(phi_rad);
         let tooth = self.cutter.involute()?;
@@ -162,7 +163,7 @@ impl Generation {
 
     /// Contact of the straight base below the involute that cuts side `side` of `space`: point (gear frame, mm) and
     /// normal out of the gear; `None` where it touches nothing.
-    pub fn base_contact(&self, phi_rad: f64, space: i64, side: Side) -> Option<[DVec2; 2]> {
+    pub fn base_contact(&self, phi_rad: f64, space: f64, side: Side) -> Option<[DVec2; 2]> {
         let m = self.motion(phi_rad);
         let turn = DVec2::from_angle(self.tooth_angle(m.angle, space));
         let tooth = self.cutter.involute()?;
@@ -176,7 +177,7 @@ impl Generation {
 
     /// Contact of a tip part of the tooth that cuts `space`: point (gear frame, mm) and normal out of the gear, where
     /// that part touches at all.
-    pub fn tip_contact(&self, phi_rad: f64, space: i64, part: &TipPart) -> Option<(DVec2, DVec2)> {
+    pub fn tip_contact(&self, phi_rad: f64, space: f64, part: &TipPart) -> Option<(DVec2, DVec2)> {
         let m = self.motion(phi_rad);
         let turn = DVec2::from_angle(self.tooth_angle(m.angle, space));
         let in_tooth = |n: DVec2| DVec2::new(turn.x, -turn.y).rotate(n).to_angle();

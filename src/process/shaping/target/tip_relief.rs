@@ -34,7 +34,7 @@ const MOST_STEPS: u32 = 128;
 pub struct TipRelief<'a> {
     generation: &'a Generation,
     blank: &'a Blank,
-    space: i64,
+    space: f64,
     side: Side,
     /// Parameter of the linkage at the involute's end and at the outline.
     phi_rad: [f64; 2],

@@ -40,14 +40,18 @@ impl ToothTarget {
     /// The first tooth on which the cutter generates no flank, or which is pointed below the pitch curve.
     pub fn of_all(generation: &Arc<Generation>, blank: &Blank, teeth: u32) -> Result<Vec<Self>, Refusal> {
         let found: Vec<Result<Self, Refusal>> =
-            (1..=teeth).into_par_iter().map(|tooth| Self::new(generation, blank, tooth)).collect();
+            (1..=teeth).into_par_iter().map(|tooth| Self::shifted(generation, blank, tooth, 0.0)).collect();
         // In order of teeth: whichever thread was first, the same tooth is blamed.
         found.into_iter().collect()
     }
 
-    fn new(generation: &Arc<Generation>, blank: &Blank, tooth: u32) -> Result<Self, Refusal> {
+    /// Target of a tooth that stands `shift` pitches further along the pitch curve.
+    ///
+    /// # Errors
+    /// As for [`Self::of_all`].
+    pub fn shifted(generation: &Arc<Generation>, blank: &Blank, tooth: u32, shift: f64) -> Result<Self, Refusal> {
         let up_to = |height_mm: Option<f64>| -> Result<(TargetFlank, TargetFlank, f64), Refusal> {
-            let flank = |side| TargetFlank::as_generated(generation, blank, tooth, side, height_mm);
+            let flank = |side| TargetFlank::as_generated(generation, blank, tooth, side, shift, height_mm);
             let (left, right) = (flank(Side::Left)?, flank(Side::Right)?);
             let tip_land_mm = tip_land_mm(blank, &left, &right);
             Ok((left, right, tip_land_mm))

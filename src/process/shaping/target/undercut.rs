@@ -34,7 +34,7 @@ impl TargetFlank {
     /// # Errors
     /// No involute is generated, or the cutter's tip cuts all of it away.
     pub fn new(generation: &Arc<Generation>, blank: &Blank, tooth: u32, side: Side) -> Result<Self, Refusal> {
-        Self::as_generated(generation, blank, tooth, side, None)?.whole_part(blank)
+        Self::as_generated(generation, blank, tooth, side, 0.0, None)?.whole_part(blank)
     }
 
     /// What of a generated flank stands: all of it above an undercut.

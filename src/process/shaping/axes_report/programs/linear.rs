@@ -4,6 +4,7 @@ use crate::findings::Notice;
 use crate::gcode::{AxisColumn, Ram, Script, StraightLine};
 use crate::machine::Axis;
 use crate::number_text::plain;
+use crate::process::shaping::helix::Helix;
 use crate::process::shaping::job::{PreparedOperation, ShapingJob};
 use crate::process::shaping::linkage::dynamics::AXES;
 use crate::process::shaping::motion::gcode::{AxisProgram, Knot};
@@ -87,7 +88,7 @@ pub fn script(
     Script {
         name: operation.spec.name.clone(),
         number: job.operations.iter().take_while(|before| before.spec.name != operation.spec.name).count() as u32 + 1,
-        head: head.into_iter().chain(after).chain(told).collect(),
+        head: head.into_iter().chain(job.helix.as_ref().map(guide_words)).chain(after).chain(told).collect(),
         columns: [distance, work, cutter].map(column).to_vec(),
         clear: (0, clear_mm(job)),
         ram: Some(Ram {
@@ -99,6 +100,15 @@ pub fn script(
         lines: program.knots.windows(2).map(line).collect(),
         contour_error_mm: output.gcode_contour_error_mm,
     }
+}
+
+/// The helical guide, which turns the cutter beside what the program commands.
+fn guide_words(helix: &Helix) -> String {
+    format!(
+        "GUIDE helical, {}-hand, lead {} mm, turning the cutter by nothing in the middle of the face; B is without it",
+        helix.hand.name(),
+        plain(helix.lead_mm)
+    )
 }
 
 /// Centre distance at which the cutter is clear of the blank, however both are turned: beside it, or in the middle of a

@@ -23,6 +23,9 @@ pub fn text(job: &ShapingJob, operation: &PreparedOperation, warnings: &[Notice]
     let Linkage::ShapingNormal { .. } = operation.spec.linkage else {
         return Err("the one-block form is that of the normal linkage; use gcode = \"linear\"".to_owned());
     };
+    if job.helix.is_some() {
+        return Err("the one-block form is that of spur gears; use gcode = \"linear\"".to_owned());
+    }
     let start_rad = operation.schedule.phi_rad(0.0);
     let comment = |warning: &Notice| format!("({})\n", ascii(&warning.line()));
     let told = warnings.iter().map(comment).collect::<Vec<_>>().concat();

@@ -66,7 +66,7 @@ fn spaces_of(job: &ShapingJob, operation: usize, polygon: &EdgePolygon) -> Vec<u
     let blades = (0..job.cutter.blade_count()).map(|blade| job.cutter.tool_from_blade(blade));
     let tips_mm: Vec<DVec2> =
         blades.map(|tool_from_blade| pose.after(&tool_from_blade).point(polygon.tip_mm)).collect();
-    let pitch_mm = PI * job.scene.gear.module_mm;
+    let pitch_mm = PI * job.transverse.module_mm;
     let holds_tip = |number: &u32| {
         let at = |pitches: f64| job.curve.phi_at_arc((f64::from(*number) + pitches) * pitch_mm);
         let (from_rad, to_rad, middle_mm) = (at(-0.5), at(0.5), job.curve.frame(at(0.0)).point_mm);

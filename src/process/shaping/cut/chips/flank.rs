@@ -185,6 +185,7 @@ mod tests {
     use crate::output::flank_maps::FlankMaps;
     use crate::process::load;
     use crate::process::shaping::scene::model::Shaping;
+    use crate::process::shaping::sections::GearPart;
     use gearcut_core::cut::cpu::Cpu;
     use gearcut_core::terms::Side;
     use std::path::Path;
@@ -226,7 +227,7 @@ mod tests {
             let scene = load(Path::new("scenes/shaping/elliptical_normal.toml"), &settings).expect("the shipped scene");
             let job = ShapingJob::new(scene.scene).expect("the shipped gear");
             let field = job.flank_field(job.target_flank(4, Side::Left));
-            let cut = job.cut_on_flank(&Cpu::default(), (4, Side::Left), field).expect("cuts");
+            let cut = job.cut_on(&Cpu::default(), GearPart::Flank(4, Side::Left), field).expect("cuts");
             let field = cut.field;
             let arcs_mm: Vec<f64> = field.columns.iter().map(|column| column.arc_mm).collect();
             let spacing_mm = job.scene.output.map_spacing_mm;

@@ -116,7 +116,7 @@ impl<'a> Space<'a> {
         number: u32,
         room_mm: f64,
     ) -> (Self, StockHeight) {
-        let pitch_mm = std::f64::consts::PI * job.scene.gear.module_mm;
+        let pitch_mm = std::f64::consts::PI * job.transverse.module_mm;
         let at = |pitches: f64| job.curve.phi_at_arc((f64::from(number) + pitches) * pitch_mm);
         let middle = job.curve.frame(at(0.0));
         let out = job.blank.towards_tip(&middle);

@@ -109,7 +109,7 @@ pub fn measure(
         tip_lands_mm: (1..=teeth).map(|tooth| job.target(tooth).tip_land_mm).collect(),
         allowances,
         cmm: Vec::new(),
-        inspection: GearInspection::of_crossings(&job.blank, [&left, &right], job.scene.gear.pressure_angle_rad),
+        inspection: GearInspection::of_crossings(&job.blank, [&left, &right], job.transverse.pressure_angle_rad),
         unsettled: unsettled.into_iter().collect(),
         period_teeth: job.curve.period_teeth(teeth),
     }
@@ -141,7 +141,7 @@ mod tests {
         let job = ShapingJob::new(scene).expect("a gear");
         let cut = crossings(&job, job.operations.len() - 1, CrossedSurface::Strokes).teeth;
         let [left, right] = [0, 1].map(|side| cut.iter().map(|tooth| tooth[side]).collect::<Vec<_>>());
-        let alpha = job.scene.gear.pressure_angle_rad;
+        let alpha = job.transverse.pressure_angle_rad;
         let runout = runout(&job.blank, &left, &right, alpha).expect("all cross");
         // The space after the last tooth is centred on phi = 0, the side that the gear was shifted to, towards the
         // cutter: it is cut deepest, and the probe lies deepest.

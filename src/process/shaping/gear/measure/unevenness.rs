@@ -129,7 +129,7 @@ pub fn allowances(operation: &[ToothCrossings], finished: &[ToothCrossings]) -> 
 /// line, mm.
 pub fn rack_allowance_mm(job: &ShapingJob, operation: usize) -> f64 {
     (job.operations[operation].spec.offset_mm - job.finishing().spec.offset_mm)
-        * job.scene.gear.pressure_angle_rad.tan()
+        * job.transverse.pressure_angle_rad.tan()
 }
 
 /// Largest and mean of some percentages; `None` of none.

@@ -47,7 +47,7 @@ pub(super) fn tip_rounds(job: &ShapingJob) -> Vec<Round> {
 /// Of the spaces behind the first `teeth` teeth: on the way in, and out. `None` where the target's outline is not
 /// known.
 pub(super) fn of_period(job: &ShapingJob, teeth: u32) -> Option<Vec<[CornerPath; 2]>> {
-    let target = job.target_outline(TARGET_SPACING_MM).ok()?;
+    let target = job.target_outline(0.0, TARGET_SPACING_MM).ok()?;
     let rounds = tip_rounds(job);
     let paths = |space: u32| [-1, 1].map(|direction| path(job, &target, &rounds, space, direction));
     Some((1..=teeth).into_par_iter().map(paths).collect())
@@ -56,7 +56,7 @@ pub(super) fn of_period(job: &ShapingJob, teeth: u32) -> Option<Vec<[CornerPath;
 /// One path, from the middle of the space outwards: backwards in time on the way in.
 fn path(job: &ShapingJob, target: &TargetOutline, rounds: &[Round], space: u32, direction: i32) -> CornerPath {
     let (linkage, offset_mm) = (&job.finishing().linkage, job.finishing().spec.offset_mm);
-    let pitch_mm = PI * job.scene.gear.module_mm;
+    let pitch_mm = PI * job.transverse.module_mm;
     let farthest_mm = FARTHEST_MODULES * job.scene.gear.module_mm;
     let mut air = CornerPath { clearance_mm: farthest_mm, phi_rad: 0.0 };
     let mut cut = CornerPath { clearance_mm: -LEAST_DEPTH_MM, phi_rad: 0.0 };

@@ -28,7 +28,7 @@ pub struct Trimming {
 
 /// The deepest place of all operations; `None` where the target's outline is not known.
 pub(super) fn deepest(job: &ShapingJob) -> Option<Trimming> {
-    let target = job.target_outline(TARGET_SPACING_MM).ok()?;
+    let target = job.target_outline(0.0, TARGET_SPACING_MM).ok()?;
     let none = Trimming { depth_mm: 0.0, tooth: 1, operation: 0, stroke: 0 };
     let deeper = |a: Trimming, b: Trimming| if b.depth_mm > a.depth_mm { b } else { a };
     let of_operation = |operation: usize| {
@@ -43,7 +43,7 @@ pub(super) fn deepest(job: &ShapingJob) -> Option<Trimming> {
 /// The deepest corner of one stroke; `None` where none is inside the target.
 fn of_stroke(job: &ShapingJob, target: &TargetOutline, operation: usize, stroke: usize) -> Option<Trimming> {
     let pose = job.operations[operation].schedule.state(stroke as f64).pose;
-    let module_mm = job.scene.gear.module_mm;
+    let module_mm = job.transverse.module_mm;
     let bore_mm = job.curve.facts().smallest_radius_mm - job.blank.addendum_mm;
     let blades = job.cutter.teeth;
     let corners = (0..blades).flat_map(|blade| {

@@ -55,6 +55,25 @@ pub(super) static ADDED: Addition = Addition {
                 tilted out of the normal so that it clears stock too, or turned only where the line of centres is not \
                 clear.",
         },
+        Key::optional(
+            "guide_lead_mm",
+            "mm",
+            Range::closed(1.0, 1e6),
+            "the lead that the gear's helix needs: 2 pi r_c / tan(helix angle), r_c the cutter's pitch radius",
+            "728.29",
+            "Lead of the helical guide on the ram, which turns the cutter about its axis once over that much of its \
+                way; helical gears alone have one. Another lead than the gear's helix needs cuts another helix.",
+        ),
+        Key {
+            name: "guide_hand",
+            kind: Kind::Word(&["right", "left"]),
+            unit: "",
+            default: Default::LeftOut(
+                "the hand that the gear needs: against the gear's outside, the gear's own in a ring",
+            ),
+            example: "\"left\"",
+            teach: "Hand of the helical guide, and of the cutter.",
+        },
     ],
     groups: &[],
 };
