@@ -53,13 +53,9 @@ pub struct BlankReport {
     pub stats: BlankStats,
 }
 
-/// Report on a cut blank; `target` is the target's transverse section, where it is known in closed form.
-pub fn measure(gear: &PlanarGear, cut: &CutBlank, target: Option<&TargetOutline>) -> BlankReport {
-    measure_sections(gear, cut, target.map_or(&[], std::slice::from_ref))
-}
-
-/// The same with the target's sections in all slices, or one that stands for all.
-pub fn measure_sections(gear: &PlanarGear, cut: &CutBlank, targets: &[TargetOutline]) -> BlankReport {
+/// Report on a cut blank; `targets` are the target's transverse sections in all slices, or one that stands for all, or
+/// none where they are not known in closed form.
+pub fn measure(gear: &PlanarGear, cut: &CutBlank, targets: &[TargetOutline]) -> BlankReport {
     let operations = damage::volumes(cut);
     let left_mm3 = cut.left_mm3.last().copied().unwrap_or(cut.blank_mm3);
     let last = gear.operations.len() - 1;

@@ -45,7 +45,7 @@ fn target(job: &ShapingJob) -> TargetOutline {
 }
 
 fn report(job: &ShapingJob, cut: &CutBlank) -> BlankReport {
-    blank_report::measure(&job.planar(), cut, Some(&target(job)))
+    blank_report::measure(&job.planar(), cut, &[target(job)])
 }
 
 /// A round gear of 24 teeth in so many finishing strokes.
@@ -270,7 +270,7 @@ fn gouges_are_found_and_named() {
             .collect();
         replace_strokes(&mut job, operation, &list);
         let cut = cut(&job);
-        let report = blank_report::measure(&job.planar(), &cut, Some(&target));
+        let report = blank_report::measure(&job.planar(), &cut, std::slice::from_ref(&target));
         let lone = lone_strokes(&job.planar(), &cut, &report);
         let damage = if operation == 1 { &report.gouges } else { &report.interference };
         let other = if operation == 1 { &report.interference } else { &report.gouges };
@@ -312,7 +312,7 @@ mod slow {
             let target = job.target_outline(0.0, TARGET_SPACING_MM).ok();
             let base_shapes_tips = name == "fourier_concave";
             assert_eq!(target.is_none(), base_shapes_tips, "{name}");
-            let report = blank_report::measure(&job.planar(), &cut, target.as_ref());
+            let report = blank_report::measure(&job.planar(), &cut, target.as_slice());
             let lone = lone_strokes(&job.planar(), &cut, &report);
             println!(
                 "{name}: {} slices, {} triangles, {guessed} guessed, volume {:.5} of the rays', {} gouges, {} \
@@ -351,7 +351,7 @@ mod slow {
                 (0..20).map(|b| if b == blade { shift_mm } else { 0.0 }).collect();
             let job = job(scene);
             let cut = cut(&job);
-            let report = blank_report::measure(&job.planar(), &cut, Some(&target));
+            let report = blank_report::measure(&job.planar(), &cut, std::slice::from_ref(&target));
             let lone = lone_strokes(&job.planar(), &cut, &report);
             // Cutter tooth b cuts the spaces b, b + 20, b + 40 of 42 in turn against its own count: each of them is
             // damaged on one side, as deep as the shift along the flank's normal.
@@ -389,7 +389,7 @@ mod slow {
             }
             replace_strokes(&mut job, operation, &list);
             let cut = cut(&job);
-            let report = blank_report::measure(&job.planar(), &cut, Some(&target));
+            let report = blank_report::measure(&job.planar(), &cut, std::slice::from_ref(&target));
             let lone = lone_strokes(&job.planar(), &cut, &report);
             assert_eq!(lone.len(), 10, "run {run}: {lone:?}");
             for (k, (fault, &at)) in lone.iter().zip(&faulty).enumerate() {

@@ -465,7 +465,7 @@ fn tips_beside_the_space_are_told_before_cutting() {
         let field = job.planar().blank_field().expect("fits");
         let cut = job.cut_blank(&Cpu::default(), field, &|| true).expect("native").expect("not stopped");
         let target = job.target_outline(0.0, 0.02).expect("known");
-        let report = blank_report::measure(&job.planar(), &cut, Some(&target));
+        let report = blank_report::measure(&job.planar(), &cut, std::slice::from_ref(&target));
         let deepest_mm = report.gouges.iter().map(|gouge| gouge.depth_mm).fold(0.0, f64::max);
         println!("{teeth} teeth: {tightest:?} told, {deepest_mm:.4} mm found");
         assert_eq!(tightest.clearance_mm < 0.0, interferes);

@@ -214,7 +214,7 @@ fn the_blank_of_a_ring_is_cut_to_its_target_and_no_further() {
     let job = job(scene);
     let cut = cut(&job);
     let target = job.target_outline(0.0, 0.02).expect("ordinary teeth");
-    let report = blank_report::measure(&job.planar(), &cut, Some(&target));
+    let report = blank_report::measure(&job.planar(), &cut, std::slice::from_ref(&target));
     assert!(report.gouges.is_empty() && report.interference.is_empty(), "{:?}", report.gouges);
     let lone = crate::fixtures::stroke_faults::lone_strokes(&job.planar(), &cut, &report);
     assert!(lone.is_empty(), "{lone:?}");
@@ -251,7 +251,7 @@ fn the_blank_of_a_ring_is_cut_to_its_target_and_no_further() {
     let mut deep = oval_ring(vec![operation("finish", NORMAL, -0.05, 360)]);
     deep.fields.blank_spacing_mm = 0.2;
     let deep = self::job(deep);
-    let report = blank_report::measure(&deep.planar(), &self::cut(&deep), Some(&target));
+    let report = blank_report::measure(&deep.planar(), &self::cut(&deep), std::slice::from_ref(&target));
     let deepest = report.gouges.iter().map(|gouge| gouge.depth_mm).fold(0.0, f64::max);
     assert!((0.01..0.051).contains(&deepest), "{deepest}");
 }
@@ -264,7 +264,7 @@ fn relieved_tips_are_no_gouges() {
     let job = job(scene);
     let cut = cut(&job);
     let target = job.target_outline(0.0, 0.02).expect("the base is followed");
-    let report = blank_report::measure(&job.planar(), &cut, Some(&target));
+    let report = blank_report::measure(&job.planar(), &cut, std::slice::from_ref(&target));
     assert!(report.gouges.is_empty(), "{:?}", report.gouges);
     let face = report.end_face.expect("known");
     assert!((face.cut_mm2[0] - face.target_mm2).abs() < face.bound_mm2[0]);

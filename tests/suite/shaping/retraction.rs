@@ -235,7 +235,7 @@ fn rubbing(job: &ShapingJob, first: usize) -> [(f64, f64); 2] {
     let mut cut = cut.expect("not stopped");
     let strokes = &job.finishing().strokes;
     cut.cuts[0].rubs.retain(|rub| strokes.stroke_and_blade(rub.pass).0 >= first);
-    let report = blank_report::measure(&job.planar(), &cut, None);
+    let report = blank_report::measure(&job.planar(), &cut, &[]);
     [true, false].map(|stays| {
         let found = report.rubbing.iter().filter(|rubbing| rubbing.stays == stays);
         found.fold((0.0, 0.0), |(depth, volume), rubbing| {

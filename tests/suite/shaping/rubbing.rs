@@ -119,6 +119,6 @@ fn no_edge_enters_deeper_than_it_has_moved_along_its_normal() {
 fn what_rubs_on_a_round_gear_is_stock() {
     let job = round_job(0.5);
     let cut = job.cut_blank(&Cpu::default(), job.planar().blank_field().expect("fits"), &|| true).expect("native");
-    let report = blank_report::measure(&job.planar(), &cut.expect("not stopped"), None);
+    let report = blank_report::measure(&job.planar(), &cut.expect("not stopped"), &[]);
     assert!(report.rubbing.len() > 10 && report.rubbing.iter().all(|rubbing| !rubbing.stays), "{:?}", report.rubbing);
 }

@@ -35,6 +35,6 @@ pub(super) fn cut(
     let slices_z_mm: &[f64] = if job.helix.is_some() { &cut.field.grid.slices_z_mm } else { &[0.0] };
     let targets: Result<Vec<_>, _> =
         slices_z_mm.iter().map(|&z_mm| job.target_outline(z_mm, TARGET_SPACING_MM)).collect();
-    let report = blank_report::measure_sections(&job.planar(), &cut, &targets.unwrap_or_default());
+    let report = blank_report::measure(&job.planar(), &cut, &targets.unwrap_or_default());
     Ok(Some((cut, report)))
 }
