@@ -94,7 +94,7 @@ fn main() {
         let target = job.target_outline(0.0, 0.02).expect("ordinary teeth");
         println!("target outline: {:.2} s, {} points", started.elapsed().as_secs_f64(), target.points_mm().len());
         let started = Instant::now();
-        let report = blank_report::measure(&job.planar(), &cut, Some(&target));
+        let report = blank_report::measure(&job.planar(), &cut, std::slice::from_ref(&target));
         println!("report: {:.2} s, {} gouges", started.elapsed().as_secs_f64(), report.gouges.len());
         let started = Instant::now();
         let mesh = BlankMesh::new(&cut.field, Some(&target)).mesh;
