@@ -164,7 +164,11 @@ impl TableSection {
                 None => self.keys.push(key),
             }
         }
-        self.groups.extend(addition.groups);
+        for group in addition.groups {
+            if !self.groups.iter().any(|known| std::ptr::eq(*known, group)) {
+                self.groups.push(group);
+            }
+        }
     }
 
     /// The key of this name.

@@ -246,8 +246,26 @@ fn keys_for_no_section_are_noticed() {
 #[test]
 #[should_panic(expected = "the key cuts of operation[] is listed twice")]
 fn a_key_that_two_processes_add_is_noticed() {
-    static SAWING_TOO: SceneProcess = SceneProcess { name: "sawing_too", added: SAWING.added, ..FILING };
+    static SAWING_TOO: SceneProcess = SceneProcess {
+        added: &[&Addition {
+            path: "operation[]",
+            keys: &[Key::number("cuts", "", Range::closed(0.0, 9.0), 1.0, "2.0", "Other cuts.")],
+            groups: &[],
+        }],
+        ..FILING
+    };
     KeyTable::new(&[&SAWING, &SAWING_TOO]);
+}
+
+#[test]
+fn an_addition_that_two_processes_share_is_taken_once() {
+    static SAWING_ALIKE: SceneProcess = SceneProcess { added: SAWING.added, ..FILING };
+    let [alone, both] = [&[&SAWING][..], &[&SAWING, &SAWING_ALIKE]].map(KeyTable::new);
+    let of = |table: &KeyTable| {
+        let section = table.section("operation[]").expect("a section");
+        (section.keys.len(), section.groups.len())
+    };
+    assert_eq!(of(&alone), of(&both));
 }
 
 #[test]
