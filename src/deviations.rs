@@ -1,7 +1,7 @@
 //! Measured points of a gear, laid on its target: which flank each belongs to, and how far it is off along the normal.
 //!
-//! In: points of a measuring machine or of a drawing ([`probed`]), and a gear. Out: [`fit::LaidPoints`]: tooth, flank, place
-//! and normal deviation of each point that lies on a flank, and how the points were moved; its folder of files
+//! In: points of a measuring machine or of a drawing ([`probed`]), and a gear. Out: [`fit::LaidPoints`]: tooth, flank,
+//! place and normal deviation of each point that lies on a flank, and how the points were moved; its folder of files
 //! ([`write()`]), whose `tables/deviations.csv` is what `gearcut diagnose` and `gearcut calibrate` read.
 //!
 //! **Law.** A point p belongs to the place (u, v) of a flank on whose normal it lies: p = o(u, v) + h n(u, v), and h is

@@ -184,18 +184,6 @@ fn what_cut_refuses_is_refused_before() {
     }
 }
 
-/// The ram strokes along the axis: no key of a helix is taken in silence.
-#[test]
-fn a_shaping_scene_has_no_helix() {
-    for (setting, way_out) in
-        [("gear.helix_angle_deg=10", "write [tool.hob] instead"), ("gear.hand=left", "way out: remove it")]
-    {
-        let scene = "scenes/shaping/circular_m3_z24.toml";
-        gearcut(&["check", scene, "--set", setting])
-            .failed(1, &["this scene is for shaping, where the ram strokes along the gear's axis", way_out]);
-    }
-}
-
 /// The angle at which a ratio passes zero, sin(phi) = -1 / 1.2, at the formula's place in the file; and the same gear
 /// by its formula as by the built-in curve.
 #[test]
