@@ -309,10 +309,13 @@ mod slow {
             let volume_mm3 = mesh.volume_mm3();
             let [x, y] = cut.field.volumes_mm3();
             // The cutter's base shapes the tips of one scene: there is no target in closed form, and nothing to damage.
-            let target = job.target_outline(0.0, TARGET_SPACING_MM).ok();
+            // Sections of a helical gear differ from slice to slice.
+            let slices_z_mm: &[f64] = if job.helix.is_some() { &cut.field.grid.slices_z_mm } else { &[0.0] };
+            let targets = slices_z_mm.iter().map(|&z_mm| job.target_outline(z_mm, TARGET_SPACING_MM).ok());
+            let targets: Option<Vec<_>> = targets.collect();
             let base_shapes_tips = name == "fourier_concave";
-            assert_eq!(target.is_none(), base_shapes_tips, "{name}");
-            let report = blank_report::measure(&job.planar(), &cut, target.as_slice());
+            assert_eq!(targets.is_none(), base_shapes_tips, "{name}");
+            let report = blank_report::measure(&job.planar(), &cut, &targets.unwrap_or_default());
             let lone = lone_strokes(&job.planar(), &cut, &report);
             println!(
                 "{name}: {} slices, {} triangles, {guessed} guessed, volume {:.5} of the rays', {} gouges, {} \
