@@ -2,7 +2,8 @@
 //!
 //! In: a gear, points in its frame. Out: [`Foot`]s. The nearest of few places on each flank begins the search; Newton's
 //! method ends it on the target itself, whose derivatives are differences over a micrometre of profile and ten along
-//! the tooth. Between two flanks of a tooth that both have the point on a normal, the nearer one has it.
+//! the tooth. Between two flanks that both have the point on a normal, the one from which it deviates less has it.
+//! Points that are centres of a probe's ball are its radius away from the flank that it touches: p = o + (R + h) n.
 
 use super::probed::ProbedPoint;
 use crate::influence::gear_grid::{FlankGrid, evenly};
@@ -37,7 +38,7 @@ pub struct Foot {
     pub u_mm: f64,
     /// Place along the tooth from the middle of the face, mm.
     pub v_mm: f64,
-    /// Distance from the target along its normal, mm, positive outside of the material.
+    /// Distance from the target along its normal, mm, positive outside of the material, without the probe's ball.
     pub height_mm: f64,
     /// The normal.
     pub normal: DVec3,
@@ -47,8 +48,10 @@ pub struct Foot {
 pub struct TargetFlanks<'a> {
     gear: &'a dyn GearJob,
     flanks: Vec<FlankNet>,
-    /// How far from its flank a point may be, mm.
+    /// How far a point may deviate from its flank, mm.
     reach_mm: f64,
+    /// Radius of the ball whose centres the points are, mm; 0 of points of the surface.
+    probe_radius_mm: f64,
 }
 
 /// A flank with the ball that its net lies in.
@@ -79,17 +82,17 @@ impl<'a> TargetFlanks<'a> {
     ///
     /// # Errors
     /// The tool generates no flank somewhere.
-    pub fn new(gear: &'a dyn GearJob) -> Result<Self> {
+    pub fn new(gear: &'a dyn GearJob, probe_radius_mm: f64) -> Result<Self> {
         let half_mm = 0.5 * gear.scene().gear.face_width_mm;
         let net = |(tooth, side): (u32, Side)| {
             let arcs_mm = evenly([0.0, gear.profile_length_mm(tooth, side)?], NET[0]);
             FlankGrid::new(gear, tooth, side, arcs_mm, evenly([-half_mm, half_mm], NET[1])).map(FlankNet::new)
         };
         let flanks = flanks_of(gear).into_par_iter().map(net).collect::<Result<_>>()?;
-        Ok(Self { gear, flanks, reach_mm: RAY_DEPTH_MODULES * gear.scene().gear.module_mm })
+        Ok(Self { gear, flanks, reach_mm: RAY_DEPTH_MODULES * gear.scene().gear.module_mm, probe_radius_mm })
     }
 
-    /// How far from its flank a point may be, mm.
+    /// How far a point may deviate from its flank, mm.
     pub fn reach_mm(&self) -> f64 {
         self.reach_mm
     }
@@ -128,14 +131,14 @@ impl<'a> TargetFlanks<'a> {
         best
     }
 
-    /// How far a point is about from the flanks that it may belong to, mm, [`Self::reach_mm`] at most: along the normal
-    /// of the nearest place of the net.
-    pub fn distance_mm(&self, place_mm: DVec3, flank: Option<(u32, Side)>) -> f64 {
-        let [nearest, _] = self.nearest(place_mm, flank);
-        nearest.map_or(self.reach_mm, |NearestPlace { grid, place, .. }| {
+    /// How far a point deviates about from the flanks that it may belong to, mm, [`Self::reach_mm`] at most: along the
+    /// normals of the nearest places of the net.
+    pub fn deviation_mm(&self, place_mm: DVec3, flank: Option<(u32, Side)>) -> f64 {
+        let from = |NearestPlace { grid, place, .. }: NearestPlace<'_>| {
             let Ray { origin_mm, normal } = grid.rays[place];
-            (place_mm - origin_mm).dot(normal).abs().min(self.reach_mm)
-        })
+            ((place_mm - origin_mm).dot(normal) - self.probe_radius_mm).abs()
+        };
+        self.nearest(place_mm, flank).into_iter().flatten().map(from).fold(self.reach_mm, f64::min)
     }
 
     /// The foot of a point; none where it lies on no flank that it may belong to.
@@ -172,11 +175,12 @@ impl<'a> TargetFlanks<'a> {
             let faces_mm = [centre.y - half.y, centre.y, centre.y + half.y];
             let rays = self.gear.target_points(tooth, side, &arcs_mm, &faces_mm)?;
             let middle = rays[1][1];
-            let height_mm = (place_mm - middle.origin_mm).dot(middle.normal);
-            // Of the place on the normal at this height.
-            let along_u = (rays[1][2].at(height_mm) - rays[1][0].at(height_mm)) / (2.0 * half.x);
-            let along_v = (rays[2][1].at(height_mm) - rays[0][1].at(height_mm)) / (2.0 * half.y);
-            let rest = place_mm - middle.at(height_mm);
+            let off_mm = (place_mm - middle.origin_mm).dot(middle.normal);
+            // Of the place on the normal, so far off.
+            let along_u = (rays[1][2].at(off_mm) - rays[1][0].at(off_mm)) / (2.0 * half.x);
+            let along_v = (rays[2][1].at(off_mm) - rays[0][1].at(off_mm)) / (2.0 * half.y);
+            let rest = place_mm - middle.at(off_mm);
+            let height_mm = off_mm - self.probe_radius_mm;
             let [uu, uv, vv] = [along_u.length_squared(), along_u.dot(along_v), along_v.length_squared()];
             let [bu, bv] = [along_u.dot(rest), along_v.dot(rest)];
             let determinant = uu * vv - uv * uv;

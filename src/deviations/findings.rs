@@ -76,7 +76,7 @@ pub fn findings(scene: &Scene, points: &[ProbedPoint], freedom: FitFreedom, laid
     if free(FitFreedom::Body) {
         entries.push(SHIFT_Z.of(shift_um[2]));
     }
-    let section = DEVIATIONS.section(entries).table(flanks(laid)).table(places(laid));
+    let section = DEVIATIONS.section(entries).table(flanks(laid)).table(places(points, laid));
     let off = points.len() - all.count;
     let warnings = if off > 0 { vec![PointsOffFlanks { off, points: points.len() }.notice()] } else { Vec::new() };
     Findings::new(scene.process_name(), &scene.name, true, headline, warnings, vec![section])
@@ -97,10 +97,11 @@ fn flanks(laid: &LaidPoints) -> Table {
 
 /// A row for each point on a flank; of points that share a place to the last digit, such as the ends of lines in a
 /// drawing, the first one.
-fn places(laid: &LaidPoints) -> Table {
+fn places(points: &[ProbedPoint], laid: &LaidPoints) -> Table {
     let mut seen = std::collections::BTreeSet::new();
     let key = |foot: &Foot| (foot.tooth, foot.side, [foot.u_mm, foot.v_mm].map(|mm| (mm * 1e6).round() as i64));
-    let feet = laid.feet.iter().zip(&laid.places_mm).filter_map(|(foot, place_mm)| Some((foot.as_ref()?, *place_mm)));
+    let moved = |point: &ProbedPoint| laid.moved.place_mm(point);
+    let feet = laid.feet.iter().zip(points).filter_map(|(foot, point)| Some((foot.as_ref()?, moved(point))));
     POINT_DEVIATIONS
         .table(feet.filter(|(foot, _)| seen.insert(key(foot))))
         .column(&TOOTH, |(foot, _)| foot.tooth)

@@ -81,8 +81,6 @@ impl FitFreedom {
 pub struct LaidPoints {
     /// Feet of the points in their order; none where a point lies on no flank.
     pub feet: Vec<Option<Foot>>,
-    /// The points, moved into the gear's frame, mm.
-    pub places_mm: Vec<DVec3>,
     /// From the frame of the points to that of the gear.
     pub moved: RigidMove,
     /// Points by which they were moved: on the evaluated parts of flanks.
@@ -103,7 +101,8 @@ impl RigidMove {
         Self { turn: DMat3::from_rotation_z(angle_rad), shift_mm: DVec3::ZERO }
     }
 
-    fn place_mm(&self, point: &ProbedPoint) -> DVec3 {
+    /// Where a point is after the move.
+    pub fn place_mm(&self, point: &ProbedPoint) -> DVec3 {
         self.turn * point.place_mm + self.shift_mm
     }
 
@@ -136,9 +135,9 @@ pub fn lay(
     probe_radius_mm: f64,
     watch: &Watch<'_>,
 ) -> Result<LaidPoints> {
-    let flanks = TargetFlanks::new(gear)?;
+    let flanks = TargetFlanks::new(gear, probe_radius_mm)?;
     flanks.refuse_unknown(points)?;
-    let fit = RigidFit { gear, flanks, points, freedom, probe_radius_mm };
+    let fit = RigidFit { gear, flanks, points, freedom };
     let begun = match freedom {
         FitFreedom::Fixed => vec![RigidMove::about_axis(0.0)],
         _ => fit.places(watch)?,
@@ -164,8 +163,7 @@ pub fn lay(
     stage.count()?;
     stage.finish();
     let fitted = feet.iter().flatten().filter(|foot| fit.is_evaluated(foot)).count();
-    let places_mm = points.iter().map(|point| moved.place_mm(point)).collect();
-    Ok(LaidPoints { feet, places_mm, moved, fitted })
+    Ok(LaidPoints { feet, moved, fitted })
 }
 
 /// Numbers of the points by which places of the turn are compared, of so many: one in each of equal runs, in each at
@@ -182,7 +180,6 @@ struct RigidFit<'a> {
     flanks: TargetFlanks<'a>,
     points: &'a [ProbedPoint],
     freedom: FitFreedom,
-    probe_radius_mm: f64,
 }
 
 impl RigidFit<'_> {
@@ -210,8 +207,7 @@ impl RigidFit<'_> {
             let moved = RigidMove::about_axis(TAU * f64::from(step) / f64::from(steps));
             let squares = some.iter().map(|&index| {
                 let point = &self.points[index];
-                let distance_mm = self.flanks.distance_mm(moved.place_mm(point), point.flank);
-                (distance_mm - self.probe_radius_mm).powi(2)
+                self.flanks.deviation_mm(moved.place_mm(point), point.flank).powi(2)
             });
             let sum: f64 = squares.sum();
             stage.count()?;
@@ -222,7 +218,7 @@ impl RigidFit<'_> {
         let count = sums.len();
         let is_least = |i: usize| sums[i].0 <= sums[(i + 1) % count].0 && sums[i].0 <= sums[(i + count - 1) % count].0;
         let mut least: Vec<&(f64, RigidMove)> = (0..count).filter(|&i| is_least(i)).map(|i| &sums[i]).collect();
-        // The smallest turn is among them, whatever others are nearer by a little.
+        // The smallest turn is among them, even where others are nearer by a little.
         least.sort_by(|a, b| a.1.angle_rad().abs().total_cmp(&b.1.angle_rad().abs()));
         let smallest = least.first().copied();
         least.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -234,8 +230,7 @@ impl RigidFit<'_> {
     fn feet(&self, moved: &RigidMove, some: &[usize]) -> Result<Vec<Option<Foot>>> {
         let foot = |&index: &usize| {
             let point = &self.points[index];
-            let foot = self.flanks.foot(moved.place_mm(point), point.flank)?;
-            Ok(foot.map(|foot| Foot { height_mm: foot.height_mm - self.probe_radius_mm, ..foot }))
+            self.flanks.foot(moved.place_mm(point), point.flank)
         };
         some.par_iter().map(foot).collect()
     }

@@ -3,7 +3,7 @@
 //! Columns of a table are `x_mm`, `y_mm`, `z_mm`, and where they are known `tooth` and `flank`; `_um`, `_cm`, `_m` and
 //! `_in` are the same in other units. A drawing is that of a transverse section; it says its own unit.
 
-use crate::influence::measured_table::{FirstLine, MeasuredTable};
+use crate::influence::measured_table::{FirstLine, MeasuredRow, MeasuredTable};
 use crate::regular_file;
 use crate::scene::drawn_contour;
 use gearcut_core::error::{Error, Refusal, Result};
@@ -67,21 +67,11 @@ pub fn read(path: &Path, section: DrawnSection<'_>) -> Result<Vec<ProbedPoint>> 
         return Err(Error::Unreadable { path: path.to_owned(), reason });
     };
     let table = MeasuredTable::read(path, names, &["tooth", "flank"])?;
-    let point = |row: &crate::influence::measured_table::MeasuredRow<5>| -> Result<ProbedPoint> {
-        let [x, y, z] = [row.number(0)?, row.number(1)?, row.number(2)?].map(|number| unit_mm * number);
-        for (column, mm) in [x, y, z].into_iter().enumerate() {
-            if mm.abs() > LARGEST_MM {
-                return Err(row.wrong(column, "the coordinate of a point of a gear"));
-            }
-        }
-        let flank = if row.cell(3).is_empty() && row.cell(4).is_empty() {
-            None
-        } else {
-            let tooth = row.cell(3).parse().map_err(|_| row.wrong(3, "the number of a tooth"))?;
-            let side = [Side::Left, Side::Right].into_iter().find(|side| side.name() == row.cell(4));
-            Some((tooth, side.ok_or_else(|| row.wrong(4, "left or right"))?))
-        };
-        Ok(ProbedPoint { place_mm: DVec3::new(x, y, z), flank })
+    let point = |row: &MeasuredRow<5>| -> Result<ProbedPoint> {
+        let [x, y, z] = [0, 1, 2].map(|column| row.number_within(column, LARGEST_MM / unit_mm));
+        let is_named = !(row.cell(3).is_empty() && row.cell(4).is_empty());
+        let flank = is_named.then(|| row.flank([3, 4])).transpose()?;
+        Ok(ProbedPoint { place_mm: unit_mm * DVec3::new(x?, y?, z?), flank })
     };
     table.rows.iter().map(point).collect()
 }

@@ -76,9 +76,7 @@ impl Chart {
 
 impl MeasuredPoint {
     fn of(row: &MeasuredRow<6>, chart: Chart) -> Result<Self> {
-        let side = [Side::Left, Side::Right].into_iter().find(|side| side.name() == row.cell(1));
-        let tooth = row.cell(0).parse().map_err(|_| row.wrong(0, "the number of a tooth"))?;
-        let side = side.ok_or_else(|| row.wrong(1, "left or right"))?;
+        let (tooth, side) = row.flank([0, 1])?;
         let [u_mm, v_mm] = match chart {
             Chart::Pitch => [f64::NAN; 2],
             Chart::Places | Chart::Profile | Chart::Helix => [row.number(2)?, row.number(3)?],

@@ -9,6 +9,7 @@
 
 use crate::regular_file;
 use gearcut_core::error::{Error, Result};
+use gearcut_core::terms::Side;
 use std::path::{Path, PathBuf};
 
 /// Largest file that is read, bytes: some ten million rows.
@@ -153,6 +154,16 @@ impl<const N: usize> MeasuredRow<N> {
     pub fn number_within(&self, column: usize, most: f64) -> Result<f64> {
         let value = self.cells[column].parse::<f64>().ok().filter(|value| value.abs() <= most);
         value.ok_or_else(|| self.wrong(column, &format!("a number from {:e} to {most:e}", -most)))
+    }
+
+    /// The flank that two cells name: number of a tooth, left or right.
+    ///
+    /// # Errors
+    /// They name none.
+    pub fn flank(&self, [tooth, flank]: [usize; 2]) -> Result<(u32, Side)> {
+        let number = self.cell(tooth).parse().map_err(|_| self.wrong(tooth, "the number of a tooth"))?;
+        let side = [Side::Left, Side::Right].into_iter().find(|side| side.name() == self.cell(flank));
+        Ok((number, side.ok_or_else(|| self.wrong(flank, "left or right"))?))
     }
 
     /// The error of a row that says once more what another one says.

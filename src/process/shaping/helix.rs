@@ -5,9 +5,9 @@
 //!
 //! **Law.** The guide turns the cutter about its own axis by 2 pi z / L, L its lead, while the ram passes z. In every
 //! section the problem is planar, with the cutter's angle shifted by that much. The cutter's teeth then mesh as if
-//! those of the gear stood 2 pi z r_c / L further along the pitch curve, on any curve and with any linkage: rolling
+//! those of the gear lay 2 pi z r_c / L further along the pitch curve, on any curve and with any linkage: rolling
 //! adds S / r_c to the cutter's angle, so a turn of the cutter is an arc. A constant lead therefore is a constant helix
-//! angle along the pitch curve, tan(beta) = 2 pi r_c / L, of whatever shape the curve is.
+//! angle along the pitch curve, tan(beta) = 2 pi r_c / L, for any shape of the curve.
 //!
 //! - On a **round** gear a section is the one in the middle, turned.
 //! - On any **other** curve the teeth move along the curve, which itself does not turn: every section has teeth of its
@@ -48,7 +48,7 @@ pub struct Helix {
     pub hand: Hand,
     /// Turn of the cutter per mm of height, rad, counter-clockwise.
     cutter_rad_per_mm: f64,
-    /// How far the target's teeth stand along the pitch curve per mm of height: tan(beta), positive right-hand.
+    /// How far the target's teeth lie along the pitch curve per mm of height: tan(beta), positive right-hand.
     arc_per_mm: f64,
     /// Turn of the target's sections per mm of height, rad; none where the pitch curve is no circle.
     turn_rad_per_mm: Option<f64>,
@@ -110,7 +110,7 @@ impl Helix {
         self.turn_rad_per_mm.map(|turn| turn * z_mm)
     }
 
-    /// How many pitches the target's teeth stand further along the pitch curve at a height.
+    /// How many pitches the target's teeth lie further along the pitch curve at a height.
     pub fn pitches(&self, z_mm: f64) -> f64 {
         self.arc_per_mm * z_mm / self.pitch_mm
     }

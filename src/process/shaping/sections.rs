@@ -2,7 +2,7 @@
 //!
 //! In: a job, a part of its gear, a height. Out: points, columns of rays, fields in space. Sections of a spur gear are
 //! all alike; those of a helical one follow from its [`Helix`]: on a circle the section in the middle of the face,
-//! turned; on other pitch curves the envelope of teeth that stand further along the curve. Places along a profile are
+//! turned; on other pitch curves the envelope of teeth that lie further along the curve. Places along a profile are
 //! counted as in the middle of the face; where sections differ in length they are shares of it.
 //!
 //! Heights of helical flanks are taken along the flank's own normal in space, as on hobbed gears: the transverse height
@@ -22,7 +22,7 @@ use gearcut_core::terms::Side;
 use glam::{DVec2, DVec3};
 use std::borrow::Cow;
 
-/// A part of the gear's surface on which rays stand.
+/// A part of the gear's surface that rays lie on.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum GearPart {
     /// Flank of a tooth (1 to z).
@@ -46,7 +46,7 @@ pub enum ShapedRays {
 #[derive(Debug)]
 pub struct SectionFlank<'a> {
     flank: Cow<'a, TargetFlank>,
-    /// Turn of the section; none where it stands as it is.
+    /// Turn of the section; none where it is not turned.
     turn: Option<DVec2>,
     /// Its length over that in the middle of the face.
     stretch: f64,

@@ -90,10 +90,13 @@ fn an_involute_gear_gives_its_deviations() {
     room.run(ROUND, &points, &["--fit", "turn"]).done();
     assert!((room.value("highest") - room.value("deepest") - 2e3 * shift_mm.length()).abs() < 3.0, "runs out");
 
-    let centres = write("centres.csv", &involute_csv(1005.0, 0.0, DVec2::ZERO));
-    room.run(ROUND, &centres, &["--fit", "none", "--probe-radius-mm", "1"]).done();
-    assert!(room.rows().iter().all(|row| (number(row, "deviation_um") - 5.0).abs() < 1e-4));
-    assert_eq!(room.value("on_flanks"), 432.0);
+    // Balls smaller and larger than half a module; the larger ones' centres lie near the other flank of the space.
+    for (radius, um) in [("1", 1005.0), ("2", 2005.0)] {
+        let centres = write("centres.csv", &involute_csv(um, 0.01, DVec2::ZERO));
+        room.run(ROUND, &centres, &["--probe-radius-mm", radius]).done();
+        assert!(room.rows().iter().all(|row| (number(row, "deviation_um") - 5.0).abs() < 1e-4), "ball of {radius} mm");
+        assert_eq!(room.value("on_flanks"), 432.0);
+    }
 }
 
 /// Points that gearcut writes come back: of a cut gear with its deviations, of helical teeth and of a bevel gear in
