@@ -102,6 +102,18 @@ fn licences_that_are_not_free_are_noticed() {
     }
 }
 
+/// README's first command is `cargo run` without the name of a program. Of the workspace's programs one must be its
+/// choice, or cargo refuses.
+#[test]
+fn cargo_run_chooses_gearcut() {
+    let readme = std::fs::read_to_string("README.md").expect("a page");
+    assert!(readme.contains("\ncargo run --release -- cut scenes/"), "README's first command is another one");
+    let packages = packages();
+    let choices: Vec<_> = packages.iter().filter(|package| package["source"].is_null()).collect();
+    let choices = choices.iter().filter_map(|package| package["default_run"].as_str());
+    assert_eq!(choices.collect::<Vec<_>>(), ["gearcut"]);
+}
+
 /// Lines of a script or page that build with cargo, without `--locked`.
 fn unlocked(text: &str, subcommands: &[&str]) -> Vec<String> {
     let builds = |line: &&str| subcommands.iter().any(|subcommand| line.contains(&format!("cargo {subcommand} ")));
