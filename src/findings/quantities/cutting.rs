@@ -40,7 +40,8 @@ rows! {
          where they are the same all along the tooth, elsewhere by the rays through the blank"
         => titled("removed"), symbol("V"), or(&[STOPPED]);
     REMOVAL_RATE: "removal_rate", "cm^3/min", "removed volume over the cutting time" => symbol("Q"), or(&[STOPPED]);
-    CANDIDATES: "candidates", "passes", "passes visited per dexel of a flank and operation; two or three touch it"
+    CANDIDATES: "candidates", "passes",
+        "passes visited per dexel that is cut, of flanks and of each operation; two or three touch it"
         => titled("passes visited per dexel");
 }
 

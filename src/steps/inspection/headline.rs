@@ -99,7 +99,7 @@ pub fn quality(inspected: &Inspected) -> Vec<Entry> {
 
 /// Passes that the backend looked at for a dexel.
 pub fn candidates(work: &Work) -> Entry {
-    CANDIDATES.of(work.stats.dexel_passes as f64 / work.dexels.max(1) as f64)
+    CANDIDATES.of(work.passes_per_dexel())
 }
 
 /// The flank on which `size` of a value is largest, the first of several, with its value there.

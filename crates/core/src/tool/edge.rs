@@ -354,7 +354,8 @@ impl Segment {
             return None;
         }
         let mut h = if n.x < -0.1 { -o.x / n.x } else { -o.y * n.y };
-        if !falls(table.x_and_slope(o.y + h * n.y)[1]) {
+        let mut first = Some(table.x_and_slope(o.y + h * n.y)).filter(|&[_, slope]| falls(slope));
+        if first.is_none() {
             // Start beyond the end where the ray still runs into the tool: the residual is straight out there.
             let end = usize::from(falls(self.slope_range[1]) && !falls(self.slope_range[0]));
             let places = [table.y_start_mm, table.y_end_mm()];
@@ -362,8 +363,7 @@ impl Segment {
             h = (y - o.y) / n.y;
         }
         let found = iterate("a ray's entry into an edge", h, ENTRY_STEPS, |h| {
-            let y = o.y + h * n.y;
-            let [x, slope] = table.x_and_slope(y);
+            let [x, slope] = first.take().unwrap_or_else(|| table.x_and_slope(o.y + h * n.y));
             let rate = n.x - slope * n.y;
             if rate >= -LEAST_FALL {
                 return ControlFlow::Break(None);

@@ -39,6 +39,8 @@ pub struct EdgeTable {
     pub cells_per_mm: f64,
     /// Coefficients of `x = c0 + t (c1 + t (c2 + t c3))`, t = y - start of the cell, mm.
     pub cells: Vec<[f64; 4]>,
+    /// End of the last cell: asked for at every look at the edge, so no division is left to it.
+    y_end_mm: f64,
 }
 
 impl EdgeTable {
@@ -77,7 +79,12 @@ impl EdgeTable {
                 [x0, s0, (3.0 * secant - 2.0 * s0 - s1) / width, (s0 + s1 - 2.0 * secant) / (width * width)]
             })
             .collect();
-        Self { y_start_mm: y0, cells_per_mm: 1.0 / width, cells }
+        Self::of_cells(y0, 1.0 / width, cells)
+    }
+
+    fn of_cells(y_start_mm: f64, cells_per_mm: f64, cells: Vec<[f64; 4]>) -> Self {
+        let y_end_mm = y_start_mm + cells.len() as f64 / cells_per_mm;
+        Self { y_start_mm, cells_per_mm, cells, y_end_mm }
     }
 
     /// Largest distance from another table over the same range along x, mm: a bound, from nodes, middles and slopes of
@@ -118,12 +125,12 @@ impl EdgeTable {
 
     /// End of the last cell.
     pub fn y_end_mm(&self) -> f64 {
-        self.y_start_mm + self.cells.len() as f64 / self.cells_per_mm
+        self.y_end_mm
     }
 
     /// x and dx/dy at `y_mm`; along the end tangents outside.
     pub fn x_and_slope(&self, y_mm: f64) -> [f64; 2] {
-        let inside = y_mm.clamp(self.y_start_mm, self.y_end_mm());
+        let inside = y_mm.clamp(self.y_start_mm, self.y_end_mm);
         let index = (((inside - self.y_start_mm) * self.cells_per_mm) as usize).min(self.cells.len() - 1);
         let [c0, c1, c2, c3] = self.cells[index];
         let t = inside - self.y_start_mm - index as f64 / self.cells_per_mm;
@@ -159,10 +166,6 @@ impl EdgeTable {
         let turn = |&[c0, c1, c2, c3]: &[f64; 4]| {
             [c0 + w * (c1 + w * (c2 + w * c3)), -(c1 + w * (2.0 * c2 + w * 3.0 * c3)), c2 + 3.0 * w * c3, -c3]
         };
-        Self {
-            y_start_mm: -self.y_end_mm(),
-            cells_per_mm: self.cells_per_mm,
-            cells: self.cells.iter().rev().map(turn).collect(),
-        }
+        Self::of_cells(-self.y_end_mm, self.cells_per_mm, self.cells.iter().rev().map(turn).collect())
     }
 }

@@ -249,10 +249,10 @@ impl SegmentBounds<'_> {
                 // One cell further the entry lies this far along the edge; twice that, as it may not run evenly.
                 let margin_mm = 2.0 * sampling.cell_mm * stretch / cos;
                 let edge = match &segment.shape {
-                    SegmentShape::Table(table) => [-margin_mm, 0.0, margin_mm]
+                    SegmentShape::Table(table) => [-margin_mm, margin_mm]
                         .map(|dy| table.curvature(hit.y_mm + dy).abs())
                         .into_iter()
-                        .fold(0.0, f64::max),
+                        .fold(hit.curvature_per_mm.abs(), f64::max),
                     SegmentShape::Arc { radius_mm } => 1.0 / radius_mm,
                 };
                 let bound = stretch / (cos * cos) * (edge * stretch / cos + turn) + turn * stretch * tan2;

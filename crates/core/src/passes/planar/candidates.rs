@@ -2,10 +2,10 @@
 //!
 //! Every (dexel, pass) pair costs, so a tile (up to 16 columns by all rows) visits only passes that can matter. Pass k
 //! is left out when some other pass is **lower at every dexel of the tile, for certain**: see [`super::bounds`]. First
-//! a coarse look down the trees of [`super::time_intervals`] finds the handful of passes near the lowest surface, then
-//! a finer one in quarters of the tile decides. What the bounds cannot decide (a ray grazing a corner round, a segment
-//! met partly beyond its end) is kept unless its box stays clear of the rays below the surface that is already certain.
-//! Equality with brute force over all passes is tested bit for bit.
+//! a coarse look down the trees of [`super::time_intervals`] finds the handful of passes near the lowest surface, then,
+//! where a tile has dexels enough to pay for it, a finer one in quarters of the tile decides. What the bounds cannot
+//! decide (a ray grazing a corner round, a segment met partly beyond its end) is kept unless its box stays clear of the
+//! rays below the surface that is already certain. Equality with brute force over all passes is tested bit for bit.
 //!
 //! Road not taken: the contact moment from the meshing condition. It knows only the finishing envelope; roughing,
 //! plunges, partial turns and undercut need no special case here.
@@ -32,8 +32,8 @@ pub const TILE_COLUMNS: usize = 16;
 /// Tiles are no wider than this where the columns are coarse: twice the width of a facet at 4,200 strokes. Wider ones
 /// collect passes of many facets.
 const TILE_WIDTH_MM: f64 = 0.08;
-/// Tiles of fewer dexels than this are widened all the same: planning one costs about as much as some thousand
-/// dexel-passes.
+/// Tiles of fewer dexels than this are widened all the same, and the coarse look decides where they come to fewer even
+/// so: planning one costs about as much as some thousand dexel-passes.
 const MIN_TILE_DEXELS: usize = 4096;
 /// Cells across a tile in which dominance is decided.
 const CELLS: usize = 4;
@@ -86,7 +86,7 @@ impl CutPlan {
         field: &Field,
         set: &StrokeSet,
         tool: &dyn PlanarTool,
-        choose: impl Fn(&PassPlanner, &[Column], &mut Vec<usize>) -> Vec<(usize, usize)>,
+        choose: impl Fn(&PassPlanner, &[Column], &mut Vec<(usize, usize)>) -> Vec<(usize, usize)>,
     ) -> Self {
         let planner = PassPlanner::new(field, set, tool);
         let blades: Vec<Rigid2> = (0..tool.blade_count()).map(|b| tool.tool_from_blade(b).inverse()).collect();
@@ -149,6 +149,7 @@ struct PassPlanner<'a> {
     bounds: SegmentBounds<'a>,
     near: Vec<NearPass>,
     intervals: IntervalTree,
+    rows: usize,
 }
 
 /// A set of the segments of one blade's edge, one bit each.
@@ -164,13 +165,14 @@ impl<'a> PassPlanner<'a> {
         // Rays are followed down to twice their lowest height.
         let below_mm = field.columns.iter().map(|column| -column.low_mm).fold(0.0, f64::max);
         let intervals = IntervalTree::new(&near, center_mm, reach_mm + below_mm);
-        Self { edges, bounds: SegmentBounds(edges.courses()), near, intervals }
+        Self { edges, bounds: SegmentBounds(edges.courses()), near, intervals, rows: field.rows() }
     }
 
     /// (Index of near pass, segment) pairs that may leave the lowest surface somewhere on the tile, in time order.
     ///
-    /// `seeds` carries the lowest passes of the neighbouring tile: good first guesses make early culling cheap.
-    fn candidates(&self, rays: &[Column], seeds: &mut Vec<usize>) -> Vec<(usize, usize)> {
+    /// `seeds` carries the lowest passes of the neighbouring tile with their segments: good first guesses make early
+    /// culling cheap.
+    fn candidates(&self, rays: &[Column], seeds: &mut Vec<(usize, usize)>) -> Vec<(usize, usize)> {
         let Some(phases) = self.near.first().map(|pass| pass.blade_from_work.len()) else { return Vec::new() };
         let all_segments = |blade: u32| {
             let count = self.edges.edge_of(blade).segments.len();
@@ -187,8 +189,9 @@ impl<'a> PassPlanner<'a> {
             bounded: Vec::new(),
             undecided: Vec::new(),
         };
-        for &pass in seeds.iter() {
-            look.at_pass(pass, all_segments(self.near[pass].blade), false);
+        let first_segment = |pass: usize| self.edges.segments_of(self.near[pass].blade).start;
+        for &(pass, segment) in seeds.iter() {
+            look.at_pass(pass, 1 << (segment - first_segment(pass)));
         }
         let whole = |&root: &usize| (root, all_segments(self.intervals.intervals[root].blade));
         let mut intervals: Vec<(usize, SegmentSet)> = self.intervals.roots.iter().map(whole).collect();
@@ -198,31 +201,36 @@ impl<'a> PassPlanner<'a> {
             match interval.content {
                 _ if segments == 0 => {}
                 Content::Halves([earlier, later]) => intervals.extend([(later, segments), (earlier, segments)]),
-                Content::Pass(pass) => look.at_pass(pass, segments, true),
+                Content::Pass(pass) => {
+                    let seen = seeds.iter().filter(|(seed, _)| *seed == pass);
+                    let seen = seen.fold(0, |set, (_, segment)| set | 1 << (segment - first_segment(pass)));
+                    look.at_pass(pass, segments & !seen);
+                }
             }
         }
-        let CoarseLook { middle, ends_mm, upper, bounded, mut undecided, .. } = look;
-        let fine_places = places(rays, CELLS);
-        let fine = sampling(&fine_places);
-        let mut finely_bounded = Vec::new();
-        for coarse in undominated(bounded, COARSE_CELLS) {
-            match self.bounds.bound(&self.near[coarse.pass], coarse.pass, coarse.segment, &fine) {
-                Verdict::Clear => {}
-                Verdict::Undecided => undecided.push((coarse.pass, coarse.segment)),
-                Verdict::Bounded(samples) => finely_bounded.push(samples),
+        let CoarseLook { middle, ends_mm, coarse, upper, bounded, mut undecided, .. } = look;
+        let (mut left, mut lowest) = undominated(bounded, COARSE_CELLS);
+        if rays.len() * self.rows >= MIN_TILE_DEXELS {
+            let fine_places = places(rays, CELLS);
+            let fine = sampling(&fine_places);
+            let mut finely_bounded = Vec::new();
+            for coarse in left {
+                match self.bounds.bound(&self.near[coarse.pass], coarse.pass, coarse.segment, &fine) {
+                    Verdict::Clear => {}
+                    Verdict::Undecided => undecided.push((coarse.pass, coarse.segment)),
+                    Verdict::Bounded(samples) => finely_bounded.push(samples),
+                }
             }
+            (left, lowest) = undominated(finely_bounded, CELLS);
         }
-        let mut chosen: Vec<(usize, usize)> =
-            undominated(finely_bounded, CELLS).iter().map(|s| (s.pass, s.segment)).collect();
-        *seeds = chosen.iter().map(|&(pass, _)| pass).collect();
-        seeds.sort_unstable();
-        seeds.dedup();
+        *seeds = lowest;
+        let mut chosen: Vec<(usize, usize)> = left.iter().map(|s| (s.pass, s.segment)).collect();
         chosen.extend(undecided.into_iter().filter(|&(pass, segment)| {
             let pass = &self.near[pass];
             let rays: ArrayVec<BladeRay, MAX_PHASES> =
                 BladeRay::of_poses(pass.blade_from_work.looks().0, &[middle]).collect();
             let margin_mm = ends_mm + travel_mm(pass, &middle);
-            self.bounds.box_meets(&rays, segment, [fine.floor_mm, upper.highest_mm], margin_mm)
+            self.bounds.box_meets(&rays, segment, [coarse.floor_mm, upper.highest_mm], margin_mm)
         }));
         chosen.sort_unstable();
         chosen.dedup();
@@ -271,8 +279,8 @@ impl CoarseLook<'_> {
         segments
     }
 
-    /// Samples the segments of a pass that are not culled at once; with `keep` unset it only lowers what is certain.
-    fn at_pass(&mut self, index: usize, segments: SegmentSet, keep: bool) {
+    /// Samples the segments of a pass that are not culled at once, and lowers what is certain.
+    fn at_pass(&mut self, index: usize, segments: SegmentSet) {
         let PassPlanner { edges, bounds, near, .. } = self.planner;
         let pass = &near[index];
         let (edge, first) = (edges.edge_of(pass.blade), edges.segments_of(pass.blade).start);
@@ -303,15 +311,13 @@ impl CoarseLook<'_> {
                 continue;
             }
             match bounds.bound(pass, index, segment, &self.coarse) {
-                Verdict::Undecided if keep => self.undecided.push((index, segment)),
-                Verdict::Clear | Verdict::Undecided => {}
+                Verdict::Clear => {}
+                Verdict::Undecided => self.undecided.push((index, segment)),
                 Verdict::Bounded(samples) => {
                     if samples.certain {
                         self.upper.lower(&samples);
                     }
-                    if keep {
-                        self.bounded.push(samples);
-                    }
+                    self.bounded.push(samples);
                 }
             }
         }

@@ -36,12 +36,13 @@ pub struct PassSamples {
     pub certain: bool,
 }
 
-/// Leaves out every pass that another, certain one undercuts at all corners of all cells (cell by cell).
+/// Leaves out every pass that another, certain one undercuts at all corners of all cells (cell by cell); with those
+/// that are left, passes and segments of the few certain ones that are lowest at a corner.
 ///
 /// A difference of two bilinear functions is extreme at corners, so comparing there, with both errors added, decides
 /// for the whole cell.
-pub fn undominated(samples: Vec<PassSamples>, cells: usize) -> Vec<PassSamples> {
-    let Some(any) = samples.first() else { return samples };
+pub fn undominated(samples: Vec<PassSamples>, cells: usize) -> (Vec<PassSamples>, Vec<(usize, usize)>) {
+    let Some(any) = samples.first() else { return (samples, Vec::new()) };
     let per_place = any.heights_mm.len() / (cells + 1);
     let corners = |cell: usize| cell * per_place..(cell + 2) * per_place;
     // In each cell the certain passes that are lowest at one of its corners: at most a handful, and no other can
@@ -67,5 +68,9 @@ pub fn undominated(samples: Vec<PassSamples>, cells: usize) -> Vec<PassSamples> 
         .iter()
         .map(|k| !(0..cells).all(|cell| dominating[cell].iter().any(|&other| dominates(&samples[other], k, cell))))
         .collect();
-    samples.into_iter().zip(keep).filter_map(|(sample, keep)| keep.then_some(sample)).collect()
+    let lowest = dominating.iter().flatten().map(|&k| (samples[k].pass, samples[k].segment));
+    let mut lowest: Vec<(usize, usize)> = lowest.collect();
+    lowest.sort_unstable();
+    lowest.dedup();
+    (samples.into_iter().zip(keep).filter_map(|(sample, keep)| keep.then_some(sample)).collect(), lowest)
 }
