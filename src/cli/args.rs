@@ -161,10 +161,12 @@ pub enum Command {
     Pair(PairArguments),
     /// Bring a bevel gear and its pinion into contact without load: motion error, contact path and ellipses.
     #[command(after_help = "Example:\n  \
-        gearcut contact scenes/bevel/crown_gear.toml scenes/bevel/crown_pinion.toml\n  \
+        gearcut contact scenes/bevel/five_linkage_corrected.toml scenes/bevel/five_linkage_pinion.toml \\\n      \
+        scenes/bevel/five_linkage_pinion_concave.toml\n  \
         gearcut contact scenes/bevel/crown_gear.toml scenes/bevel/crown_pinion.toml --e-um 50 --g-um -30\n\n\
-        The flanks that the heads' cones generate touch; marks of blades are left out. Both scenes have a face-mill \
-        head, one module and opposite hands of spiral; the shaft angle is the sum of their pitch angles.\n\n\
+        The flanks that the heads' cones generate touch; marks of blades are left out. Gear and pinion have a \
+        face-mill head, one module and opposite hands of spiral; the shaft angle is the sum of their pitch angles. A \
+        pinion that is finished side by side has two scenes: the second one cuts its concave flanks.\n\n\
         Errors of the mounting have Gleason's letters: E offset of the pinion's axis, P pinion and G gear away from \
         the apex, Sigma shaft angle. Beside the mounting of the command, 50 um and 0.05 deg of each are tried in both \
         directions: how far the contact moves, and what the motion error becomes.\n\n\

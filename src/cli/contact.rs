@@ -31,18 +31,20 @@ const THICKEST_MM: f64 = 0.1;
 pub fn run(arguments: &ContactArguments) -> Result<(), Failure> {
     let errors = errors(arguments)?;
     let marking_mm = within("--marking-um", arguments.marking_um / UM_PER_MM, THICKEST_MM, 0.0, UM_PER_MM)?;
-    let gear = load(&arguments.gear, &arguments.set_gear)?;
-    let pinion = load(&arguments.pinion, &arguments.set_pinion)?;
-    let name = format!("{}_with_{}", gear.scene.name, pinion.scene.name);
+    // The gear, its pinion, and the pinion's concave side where that has a scene of its own.
+    let mut scenes = vec![load(&arguments.gear, &arguments.set_gear)?];
+    for pinion in std::iter::once(&arguments.pinion).chain(&arguments.pinion_concave) {
+        scenes.push(load(pinion, &arguments.set_pinion)?);
+    }
+    let name = format!("{}_with_{}", scenes[0].scene.name, scenes[1].scene.name);
     let out = arguments.out.clone().unwrap_or_else(|| PathBuf::from("out").join(&name));
     let words = std::env::args().skip(1).collect::<Vec<_>>();
-    let jobs = [job(&gear)?, job(&pinion)?];
+    let jobs: Vec<BevelJob> = scenes.iter().map(job).collect::<Result<_, _>>()?;
     let progress = Progress::new(ProgressMode::choose(false, arguments.json));
     let filled = folder::fill(&out, "contact", |folder, interrupt| {
-        let rolled = roll(&jobs[0], &jobs[1], &errors, marking_mm, (&progress, interrupt))?;
+        let rolled = roll(&jobs[0], [&jobs[1], &jobs[jobs.len() - 1]], &errors, marking_mm, (&progress, interrupt))?;
         interrupt.check()?;
-        let jobs = [&jobs[0], &jobs[1]];
-        let found = findings::findings(&name, jobs, &rolled);
+        let found = findings::findings(&name, &jobs, &rolled);
         let motion_error = charts::motion_error(&rolled);
         motion_error.write_svg(&folder.path("pictures/motion_error.svg")?)?;
         for side in &rolled.sides {
@@ -50,12 +52,13 @@ pub fn run(arguments: &ContactArguments) -> Result<(), Failure> {
             write_bytes_atomically(&path, bearing::svg(side, rolled.marking_mm).as_bytes())?;
         }
         write_tables(&found, folder)?;
-        let [gear, pinion] = [&gear, &pinion].map(LoadedScene::resolved_toml);
-        let end = page::ending(folder, [&gear, &pinion])?;
-        page::page(jobs, &rolled, &found, motion_error, end).write(&folder.path(REPORT_FILE)?)?;
+        let scenes: Vec<String> = scenes.iter().map(LoadedScene::resolved_toml).collect();
+        let end = page::ending(folder, &scenes)?;
+        page::page(&jobs, &rolled, &found, motion_error, end).write(&folder.path(REPORT_FILE)?)?;
         folder.write_json(RESULTS_FILE, &found.to_json())?;
-        let record = [("arguments", json!(words)), ("scene_gear", json!(gear)), ("scene_pinion", json!(pinion))];
-        Ok((record.to_vec(), found))
+        let keys = ["scene_gear", "scene_pinion", "scene_pinion_concave"].into_iter();
+        let record = std::iter::once(("arguments", json!(words)));
+        Ok((record.chain(keys.zip(scenes.iter().map(|scene| json!(scene)))).collect(), found))
     });
     let (path, found) = filled.map_err(|error| match error {
         // What geometry refuses of a pair lies in both scenes.

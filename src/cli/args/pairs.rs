@@ -12,10 +12,12 @@ pub struct ContactArguments {
     pub gear: PathBuf,
     /// The pinion that runs with it.
     pub pinion: PathBuf,
+    /// The pinion as its concave flanks are finished, where they have settings of their own.
+    pub pinion_concave: Option<PathBuf>,
     /// Put another value into the gear's scene; may be repeated.
     #[arg(long, value_name = "KEY=VALUE")]
     pub set_gear: Vec<String>,
-    /// Put another value into the pinion's scene; may be repeated.
+    /// Put another value into the pinion's scenes; may be repeated.
     #[arg(long, value_name = "KEY=VALUE")]
     pub set_pinion: Vec<String>,
     /// Offset of the pinion's axis (E).

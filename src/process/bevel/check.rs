@@ -44,7 +44,7 @@ pub fn print(sheet: &mut Sheet, job: &BevelJob) -> Result<Vec<Notice>> {
 /// The gear in a line.
 pub(super) fn gear_words(job: &BevelJob) -> String {
     let settings = &job.finishing().settings;
-    let kind = if settings.blank_offset_mm == 0.0 { "Spiral bevel" } else { "Hypoid" };
+    let kind = if job.spec.cones.hypoid_offset_mm == 0.0 { "Spiral bevel" } else { "Hypoid" };
     let not_generated = if settings.plunges() { " that is not generated (Formate)" } else { "" };
     format!(
         "{kind} gear{not_generated}, {} teeth, outer module {} mm, pitch angle {:.4} deg, face width {} mm",

@@ -1,8 +1,8 @@
 //! A bevel gear and its pinion in contact, without load: motion error, contact path and ellipses, and what errors of
 //! the mounting do to them.
 //!
-//! In: two bevel jobs and how they are mounted. Out: [`RolledBevels`], its findings ([`findings`]), charts
-//! ([`charts`], [`bearing`]) and page ([`page`]).
+//! In: the bevel jobs of gear and pinion, and how they are mounted. Out: [`RolledBevels`], its findings ([`findings`]),
+//! charts ([`charts`], [`bearing`]) and page ([`page`]).
 //!
 //! Target flanks touch, those that the heads' cones generate: marks of single blades are left out. The law stands in
 //! [`gearcut_core::bevel::contact`]. Concave flanks of the gear, cut by outside blades, run on the pinion's convex
@@ -255,18 +255,27 @@ pub struct Nominal {
     pub offset_mm: f64,
 }
 
-/// Brings a gear and a pinion into contact.
+/// Brings a gear into contact with its pinion: as the flanks that run on the gear's concave ones are finished, and as
+/// those on the convex ones are. Both are the same job where the pinion is finished at once.
 ///
 /// # Errors
 /// Scenes that make no pair; flanks that do not meet; Ctrl-C.
 pub fn roll(
     gear: &BevelJob,
-    pinion: &BevelJob,
+    pinions: [&BevelJob; 2],
     errors: &MountingErrors,
     marking_mm: f64,
     (progress, interrupt): (&Progress, &Interrupt),
 ) -> Result<RolledBevels> {
-    let nominal = fitting(gear, pinion)?;
+    if pinions[0].blank != pinions[1].blank {
+        return Err(Refusal::new(
+            "pair",
+            format!("{} and {} have different blanks", pinions[0].scene.name, pinions[1].scene.name),
+            "name two scenes of one pinion, its convex flanks first",
+        )
+        .into());
+    }
+    let [nominal, _] = [fitting(gear, pinions[0])?, fitting(gear, pinions[1])?];
     let tried: Vec<(MountingError, f64)> =
         MountingError::ALL.into_iter().flat_map(|error| [(error, -1.0), (error, 1.0)]).collect();
     let step = progress.step("contact", 2 * (1 + tried.len()) as u64, "mountings");
@@ -283,7 +292,7 @@ pub fn roll(
         };
         let mounted = |errors: &MountingErrors| BevelPair {
             gear: gear.target[gear_blades.index()].clone(),
-            pinion: pinion.target[pinion_blades.index()].clone(),
+            pinion: pinions[gear_blades.index()].target[pinion_blades.index()].clone(),
             mounting: Mounting {
                 shaft_angle_rad: nominal.shaft_angle_rad + errors.shaft_angle_rad,
                 offset_mm: nominal.offset_mm + errors.offset_mm,

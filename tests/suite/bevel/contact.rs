@@ -1,4 +1,5 @@
-//! `gearcut contact`: a gear and a pinion that one crown gear generates, from their scenes to the folder.
+//! `gearcut contact`: a gear and a pinion that one crown gear generates, from their scenes to the folder; and a pinion
+//! whose motion error, path and ellipse were chosen.
 
 use super::jobs::job;
 use crate::fixtures::command::{gearcut, read_json};
@@ -30,7 +31,7 @@ fn jobs(pinion: &[&str]) -> [BevelJob; 2] {
 
 fn rolled([gear, pinion]: &[BevelJob; 2], errors: &MountingErrors) -> RolledBevels {
     let (progress, interrupt) = (Progress::new(ProgressMode::Quiet), Interrupt::default());
-    roll(gear, pinion, errors, MARKING_MM, (&progress, &interrupt)).expect("they meet")
+    roll(gear, [pinion, pinion], errors, MARKING_MM, (&progress, &interrupt)).expect("they meet")
 }
 
 /// Settings of a pinion whose inside blades follow the gear's cone: no crowning at all.
@@ -236,13 +237,73 @@ fn cut_flanks_touch_where_the_contact_is_found() {
     }
 }
 
+/// The pinion of the gear of 2008 follows from a local synthesis: in the mean point the motion error bends as a
+/// parabola of 10 arc seconds at half a pitch, the path of contact crosses the trace of the tooth at 115 and 65 deg,
+/// and 6.35 um of compound reach 9 mm along the line of contact. Over the pitch the path stays inside of the flank.
+#[test]
+fn a_synthesised_pinion_runs_as_it_was_chosen() {
+    let [gear, convex, concave] = ["five_linkage_corrected", "five_linkage_pinion", "five_linkage_pinion_concave"]
+        .map(|name| job(name, &[]).expect("a gear"));
+    let (progress, interrupt) = (Progress::new(ProgressMode::Quiet), Interrupt::default());
+    let pinions = [&convex, &concave];
+    let rolled = roll(&gear, pinions, &MountingErrors::default(), MARKING_MM, (&progress, &interrupt)).expect("met");
+    let half_mm = 0.5 * gear.blank.face_width_mm;
+    for (side, (mean_mm, chosen_deg)) in rolled.sides.iter().zip([(-0.9_f64, 115.0_f64), (-1.1, 65.0)]) {
+        let (running, blades) = (&side.running, side.gear_blades);
+        let half_pitch_rad = PI / f64::from(convex.blank.teeth);
+        // Second difference about the chosen mean point of what one pair of teeth does.
+        let met: Vec<(f64, Contact, f64)> =
+            running.teeth.iter().filter_map(|&(at, met)| met.map(|(contact, error)| (at, contact, error))).collect();
+        let mean = (1..met.len() - 1).min_by(|&a, &b| {
+            let off = |i: usize| (met[i].1.place_mm[1] - mean_mm).abs();
+            off(a).total_cmp(&off(b))
+        });
+        let [before, at, after] = mean.map(|i| [met[i - 1], met[i], met[i + 1]]).expect("contacts");
+        let bend = (before.2 + after.2 - 2.0 * at.2) / (after.0 - at.0).powi(2);
+        let arcsec = ARCSEC_PER_RAD * at.1.closing * 0.5 * bend * half_pitch_rad.powi(2);
+        // The path against the trace of the tooth, both in the plane that touches the flank.
+        let point = |[along_mm, height_mm]: [f64; 2]| {
+            let row = side.pair.gear.row(along_mm).expect("a row");
+            let share = (height_mm - row.form_height_mm) / (row.tip_height_mm - row.form_height_mm);
+            row.point(share).expect("a point")
+        };
+        let [along_mm, height_mm] = at.1.place_mm;
+        let trace = point([along_mm + 0.1, height_mm]).point_mm - point([along_mm - 0.1, height_mm]).point_mm;
+        let up = point([along_mm, height_mm + 0.1]).point_mm - point([along_mm, height_mm - 0.1]).point_mm;
+        let across = up - up.project_onto(trace);
+        let path = point(after.1.place_mm).point_mm - point(before.1.place_mm).point_mm;
+        let path_deg = path.dot(across.normalize()).atan2(path.dot(trace.normalize())).to_degrees().rem_euclid(180.0);
+        let [long_mm, _] = at.1.ellipse.expect("inside of the flank").half_axes_mm;
+        let parabola = ARCSEC_PER_RAD * running.parabola().expect("21 places").over_pitch_rad() * at.1.closing;
+        let range = ARCSEC_PER_RAD * running.motion_error_rad();
+        println!("{}: bend {arcsec}, parabola {parabola}, range {range} arc seconds, {long_mm} mm", blades.flank());
+        println!("path at {path_deg} deg, chosen {chosen_deg} deg");
+        assert!((path_deg - chosen_deg).abs() < 1.5 && (long_mm - 9.0).abs() < 0.5, "{path_deg} deg, {long_mm} mm");
+        assert!((arcsec - 10.0).abs() < 0.1, "{arcsec} arc seconds");
+        assert!((parabola - 10.0).abs() < 0.2, "{parabola} arc seconds");
+        assert!(range > 9.0 && range < 10.5, "{range} arc seconds");
+        for (_, contact, _) in &running.carrying {
+            let [along_mm, height_mm] = contact.place_mm;
+            let row = side.pair.gear.row(along_mm).expect("a row");
+            assert!(along_mm.abs() < 0.1 * half_mm, "{along_mm} mm");
+            assert!(height_mm > row.form_height_mm + 0.3 && height_mm < row.tip_height_mm - 0.3, "{height_mm} mm");
+            let ellipse = contact.ellipse.expect("no edge");
+            assert!((ellipse.half_axes_mm[0] - 9.0).abs() < 2.0, "{ellipse:?}");
+        }
+    }
+    // Alive: without its blank offset the pinion does not run so.
+    let plain = job("five_linkage_pinion", &["machine.cradle.blank_offset_mm=0"]).expect("a pinion");
+    let rolled = roll(&gear, [&plain, &plain], &MountingErrors::default(), MARKING_MM, (&progress, &interrupt));
+    assert!(ARCSEC_PER_RAD * rolled.expect("met").sides[0].running.motion_error_rad() > 50.0);
+}
+
 /// Ctrl-C ends the work between two mountings.
 #[test]
 fn contact_stops_when_asked() {
     let [gear, pinion] = jobs(&[]);
     let (progress, interrupt) = (Progress::new(ProgressMode::Quiet), Interrupt::default());
     interrupt.raise();
-    let stopped = roll(&gear, &pinion, &MountingErrors::default(), MARKING_MM, (&progress, &interrupt));
+    let stopped = roll(&gear, [&pinion, &pinion], &MountingErrors::default(), MARKING_MM, (&progress, &interrupt));
     assert!(matches!(stopped, Err(gearcut::Error::Interrupted)));
 }
 

@@ -19,8 +19,8 @@ pub const PROCESS: &str = "bevel pair";
 /// Seconds of arc in a radian.
 pub const ARCSEC_PER_RAD: f64 = 180.0 * 3600.0 / std::f64::consts::PI;
 
-/// Everything that was found.
-pub fn findings(name: &str, jobs: [&BevelJob; 2], rolled: &RolledBevels) -> Findings {
+/// Everything that was found; `jobs` are the gear and the scenes of its pinion, here and below.
+pub fn findings(name: &str, jobs: &[BevelJob], rolled: &RolledBevels) -> Findings {
     let headline = rolled.sides.iter().flat_map(headline);
     let warnings = rolled.sides.iter().filter_map(at_edge);
     let sections = std::iter::once(mounted(jobs, rolled)).chain(rolled.sides.iter().map(side));
@@ -66,13 +66,15 @@ fn at_edge(side: &RolledSide) -> Option<Notice> {
 }
 
 /// The pair as it is mounted.
-pub fn mounted([gear, pinion]: [&BevelJob; 2], rolled: &RolledBevels) -> Section {
+pub fn mounted(jobs: &[BevelJob], rolled: &RolledBevels) -> Section {
+    let (gear, pinions) = (&jobs[0], &jobs[1..]);
+    let names: Vec<&str> = pinions.iter().map(|pinion| pinion.scene.name.as_str()).collect();
     let MountingErrors { offset_mm, pinion_axial_mm, gear_axial_mm, shaft_angle_rad } = rolled.errors;
     PAIR.section([
         GEAR.of(gear.scene.name.as_str()),
-        PINION.of(pinion.scene.name.as_str()),
+        PINION.of(names.join(", ")),
         TEETH_OF_GEAR.of(gear.blank.teeth),
-        TEETH_OF_PINION.of(pinion.blank.teeth),
+        TEETH_OF_PINION.of(pinions[0].blank.teeth),
         OUTER_MODULE.of(gear.blank.outer_module_mm()),
         SHAFT_ANGLE.of(rolled.nominal.shaft_angle_rad.to_degrees()),
         HYPOID_OFFSET.of(rolled.nominal.offset_mm),

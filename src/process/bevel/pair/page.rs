@@ -14,19 +14,22 @@ use crate::steps::report::{page_of, quantities};
 use gearcut_core::error::Result;
 use gearcut_core::units::UM_PER_MM;
 
+/// What the jobs of a pair are.
+const ROLES: [&str; 3] = ["gear", "pinion", "pinion, concave flanks"];
+
 /// The end of the page: the files, and what is needed to roll the pair again, scenes of gear and pinion.
 ///
 /// # Errors
 /// The folder cannot be read.
-pub fn ending(folder: &OutputFolder, scenes: [&str; 2]) -> Result<[PageSection; 2]> {
-    let words = ["The scene of the gear, every value written out", "The scene of the pinion, every value written out"];
-    let scenes = [0, 1].map(|k| (words[k], scenes[k]));
+pub fn ending(folder: &OutputFolder, scenes: &[String]) -> Result<[PageSection; 2]> {
+    let words = ROLES.map(|role| format!("The scene of the {role}, every value written out"));
+    let scenes: Vec<(&str, &str)> = words.iter().map(String::as_str).zip(scenes.iter().map(String::as_str)).collect();
     steps::report::ending(folder, ["Flanks", "the targets of both scenes, not cut"], &scenes)
 }
 
 /// The page; `end` is [`ending`].
 pub fn page(
-    jobs: [&BevelJob; 2],
+    jobs: &[BevelJob],
     rolled: &RolledBevels,
     found: &Findings,
     motion_error: LineChart,
@@ -59,7 +62,7 @@ pub fn page(
         vec![Block::Table(quantities::table(&findings::mounted(jobs, rolled)))],
     ));
     sections.extend(end);
-    let roles = jobs.into_iter().zip(["gear", "pinion"]);
+    let roles = jobs.iter().zip(ROLES);
     Page {
         what: "tooth contact report",
         subtitle: format!(
