@@ -47,7 +47,8 @@ pub fn columns(field: &Field, strokes: &StrokeSet, tool: &dyn PlanarTool) -> Vec
     };
     let in_tooth = |pass: &NearPass, ends: &[DVec2; 2]| {
         let tooth = &teeth[edges.index_of(pass.blade)];
-        ends.iter().all(|end| tooth.holds(pass.middle().point(*end)))
+        // Hardly a tooth comes near the low end.
+        ends.iter().rev().all(|end| tooth.holds(pass.middle().point(*end)))
     };
     let step = (columns.len() / (PROBES - 1)).max(1);
     let probes: Vec<[DVec2; 2]> = columns.iter().step_by(step).chain(columns.last()).map(ends).collect();
