@@ -108,7 +108,7 @@ impl<'a> ActualSlot<'a> {
                     slides_mm: DVec3::new(x, y, z),
                     work_rad,
                     swing_rad,
-                    head_rad: as_set.at(moment).cradle_rad,
+                    head_rad: self.machine.axes_of_cradle(as_set, moment).head_rad,
                 })
             }
         };

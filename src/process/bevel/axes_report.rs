@@ -13,7 +13,7 @@ use super::quantities::CRADLE_ANGLE;
 use super::scene::model::SlotFeed;
 use crate::findings::quantities::cutting::TIME;
 use crate::findings::{Notice, Table};
-use crate::machine::{Motion as _, Order, Peak, peaks};
+use crate::machine::{Axis, Motion as _, Order, Peak, peaks};
 use crate::number_text::{from_full_depth, plain, significant};
 use crate::output::line_chart::LineChart;
 use crate::output::text::Sheet;
@@ -108,7 +108,9 @@ impl<'a> BevelAxesReport<'a> {
         if self.operation.settings.plunges() {
             return Ok(found);
         }
-        for (index, axis) in AXES.iter().enumerate().filter(|(_, axis)| matches!(axis.letter, 'X' | 'Y' | 'A')) {
+        let all_move = !self.operation.settings.tilt.is_none();
+        let moves = |axis: &Axis| all_move || matches!(axis.letter, 'X' | 'Y' | 'A');
+        for (index, axis) in AXES.iter().enumerate().filter(|(_, axis)| moves(axis)) {
             for order in ORDERS {
                 let value = |time_s: f64| axis.kind.shown(motion.positions(time_s)[index]);
                 let fit = WindowFit::new(value, [0.0, self.operation.course.slot_s()], order, FIT_SAMPLES)?;
@@ -128,8 +130,9 @@ impl<'a> BevelAxesReport<'a> {
         let linkage = self.linkage_words();
         let words = [self.operation.spec.name.as_str(), &self.job.scene.name, &linkage];
         [(Order::Position, "positions"), (Order::Speed, "velocities")].map(|(order, name)| {
-            // B rests.
-            let panels = panels(&AXES, 0..AXES.len() - 1, &limits(self.job), order, &points);
+            // B rests unless the head is tilted.
+            let shown = AXES.len() - usize::from(self.operation.settings.tilt.is_none());
+            let panels = panels(&AXES, 0..shown, &limits(self.job), order, &points);
             (
                 name,
                 chart(
@@ -154,7 +157,8 @@ impl AxesOfOperation for BevelAxesReport<'_> {
             return "six axes, plunged along Z".to_owned();
         }
         let modified = roll.second_order_per_rad != 0.0 || roll.third_order_per_rad2 != 0.0;
-        format!("six axes, five linked, {} roll", if modified { "modified" } else { "even" })
+        let head = if self.operation.settings.tilt.is_none() { "" } else { "tilted head, " };
+        format!("six axes, five linked, {head}{} roll", if modified { "modified" } else { "even" })
     }
 
     fn peak_words(&self) -> &PeakWords {

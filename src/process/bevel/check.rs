@@ -106,6 +106,10 @@ fn print_head(sheet: &mut Sheet, job: &BevelJob) {
         "in the work",
         format!("within {:.2} deg to either side of the slot's middle", head.half_window_rad.to_degrees()),
     );
+    if !settings.tilt.is_none() {
+        let [tilt, swivel] = [settings.tilt.tilt_rad, settings.tilt.swivel_rad].map(f64::to_degrees);
+        sheet.line("head leans", format!("{tilt:.4} deg against the cradle's axis, swivel {swivel:.4} deg"));
+    }
     let ratio = if settings.plunges() { "0: nothing rolls".to_owned() } else { format!("{:.6}", settings.roll.ratio) };
     sheet.line("ratio of roll", ratio);
     let missed_mm = job.depth_missed_mm();

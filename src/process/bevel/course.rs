@@ -54,7 +54,7 @@ impl SlotCourse {
     }
 
     /// X, Y, Z, A and B at a time from the beginning of the slot, mm, rad and per s: those of a circle and of the
-    /// roll's polynomial, or of a straight way along Z.
+    /// roll's polynomial, of a tilted head, or of a straight way along Z.
     pub fn axes(&self, machine: FiveAxisMachine, settings: &CradleSettings, time_s: f64) -> [AxisMotion; 5] {
         let [moment, per_s] = self.at(time_s);
         let axes = machine.axes_of_cradle(settings, moment);
@@ -62,17 +62,17 @@ impl SlotCourse {
         let of_moment = if settings.plunges() {
             let rest = [x, y, axes.work_rad, axes.swing_rad].map(Jet::constant);
             [rest[0], rest[1], Jet::from_derivatives([z, 1.0, 0.0]), rest[2], rest[3]]
+        } else if !settings.tilt.is_none() {
+            let [x, y, z, work, swing, _] = machine.axes_of_tilted(settings, moment);
+            [x, y, z, work, swing]
         } else {
             let (sin, cos) = moment.sin_cos();
             let s = settings.radial_setting_mm;
-            let roll = settings.roll;
-            let by = moment - settings.cradle_angle_rad;
-            let bend = -roll.ratio * (2.0 * roll.second_order_per_rad + 6.0 * roll.third_order_per_rad2 * by);
             [
                 Jet::from_derivatives([x, -s * sin, -s * cos]),
                 Jet::from_derivatives([y, s * cos, -s * sin]),
                 Jet::constant(z),
-                Jet::from_derivatives([axes.work_rad, settings.work_angle(moment)[1], bend]),
+                settings.work_angle_jet(moment),
                 Jet::constant(axes.swing_rad),
             ]
         };

@@ -9,7 +9,7 @@
 use super::job::BevelJob;
 use gearcut_core::bevel::blank::BevelBlank;
 use gearcut_core::bevel::cradle::CradleSettings;
-use glam::DVec2;
+use glam::{DMat3, DVec2};
 use std::f64::consts::TAU;
 use std::fmt::Write as _;
 
@@ -91,7 +91,7 @@ fn entries(drawn: &Drawn) -> Vec<(&'static str, String)> {
     let mm = |symbol: &str, name: &str, value: f64| format!("{symbol}  {name}: {value:.4} mm");
     let deg = |symbol: &str, name: &str, rad: f64| format!("{symbol}  {name}: {:.4}°", rad.to_degrees());
     let cradle_angle = if of.plunges() { "cradle angle, at rest" } else { "cradle angle, middle of the roll" };
-    vec![
+    let mut entries = vec![
         (CRADLE, mm("S_r", "radial setting", of.radial_setting_mm)),
         (CRADLE, deg("q", cradle_angle, of.cradle_angle_rad)),
         (HEAD, mm("r_c", "mean cutter radius", drawn.radius_mm)),
@@ -102,7 +102,12 @@ fn entries(drawn: &Drawn) -> Vec<(&'static str, String)> {
         (WORK, deg("γ_m", "machine root angle", of.root_angle_rad)),
         (PLAIN, format!("R_a  ratio of roll, work angle A over q: {:.6}", of.roll.ratio)),
         (PLAIN, format!("C, D  modified roll: {}, {}", of.roll.second_order_per_rad, of.roll.third_order_per_rad2)),
-    ]
+    ];
+    if !of.tilt.is_none() {
+        entries.push((HEAD, deg("i", "tilt of the head", of.tilt.tilt_rad)));
+        entries.push((HEAD, deg("j", "swivel, from the line of S_r", of.tilt.swivel_rad)));
+    }
+    entries
 }
 
 /// The paper draws the work at rest and moves the head by E_m and X_B; here the cradle rests, as on the machine, and
@@ -172,19 +177,22 @@ fn across(drawn: &Drawn) -> String {
     let head_x = of.radial_setting_mm * of.cradle_angle_rad.cos();
     let tips = of.sliding_base_mm;
     let depth = 0.35 * r;
-    let corners = [DVec2::new(tips - depth, head_x - r), DVec2::new(tips, head_x + r)];
+    // The head's axis, seen along y.
+    let lean = DMat3::from_rotation_z(of.cradle_angle_rad) * of.tilt.rotation().z_axis;
+    let middle = DVec2::new(tips, head_x);
+    let leaning = |along_mm: f64, out_mm: f64| {
+        middle + DVec2::new(lean.z, lean.x).normalize().rotate(DVec2::new(along_mm, out_mm))
+    };
+    let corners = [leaning(-depth, -r), leaning(0.0, -r), leaning(0.0, r), leaning(-depth, r)];
     let mut places: Vec<DVec2> = section(1.0).into_iter().chain(section(-1.0)).collect();
     places.extend(corners);
     places.extend([DVec2::ZERO, apex + 1.1 * heel * axis]);
     let mut view = DrawingView::around(&places);
     view.axes(["z", "x"], 0.9 * heel);
     view.line([apex - 0.1 * heel * axis, apex + 1.1 * heel * axis], (WORK, 1.2, "12 4 2 4"));
-    view.polygon(
-        &[corners[0], DVec2::new(tips, corners[0].y), corners[1], DVec2::new(tips - depth, corners[1].y)],
-        HEAD,
-    );
-    view.line([DVec2::new(tips - depth - 8.0, head_x), DVec2::new(tips + 8.0, head_x)], (HEAD, 1.2, "12 4 2 4"));
-    view.text(DVec2::new(tips - depth, corners[1].y), DVec2::new(2.0, -6.0), HEAD, "head");
+    view.polygon(&corners, HEAD);
+    view.line([leaning(-depth - 8.0, 0.0), leaning(8.0, 0.0)], (HEAD, 1.2, "12 4 2 4"));
+    view.text(corners[3], DVec2::new(2.0, -6.0), HEAD, "head");
     for side in [1.0, -1.0] {
         view.polygon(&section(side), WORK);
     }

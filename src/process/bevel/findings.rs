@@ -17,7 +17,8 @@ use super::quantities::{
     IDLE_SHARE, INFEED, INFERRED_RADIUS, INFERRED_RATIO, INFERRED_SPIRAL, LARGEST_ERROR, MARK_HEIGHT, MARK_SPACING,
     MARKS, MISSED_DEPTH, MODIFIED_C, MODIFIED_D, NO_GRID, NO_MARKS, NO_SLOT, NOTHING_TO_EXPLAIN, ORDER, PLUNGE_WAY,
     POSITION, PRESSURE, RADIAL, RADIUS_SOURCE, ROLL_FROM, ROLL_RATIO, ROLL_TO, ROOT_ANGLE, SETTING, SETTING_ERROR,
-    SETTINGS, SLIDING_BASE, SLOT_DEPTH, SLOT_TIME, SLOT_WIDTH, SPIRAL, THICKNESS, UNEXPLAINED, WHOLE_DEPTH,
+    SETTINGS, SLIDING_BASE, SLOT_DEPTH, SLOT_TIME, SLOT_WIDTH, SPIRAL, SWIVEL, THICKNESS, TILT, UNEXPLAINED,
+    WHOLE_DEPTH,
 };
 use super::scene::model::SlotFeed;
 use crate::findings::quantities::OPERATIONS;
@@ -130,23 +131,27 @@ fn headline(job: &BevelJob, gear: &BevelGear, measured: &BevelMeasured) -> Vec<E
 fn settings(job: &BevelJob) -> Section {
     let of = &job.finishing().settings;
     let given = if job.spec.head.radius_mm.is_some() { "given by the scene" } else { "inferred from the settings" };
-    SETTINGS.section([
-        RADIAL.of(of.radial_setting_mm),
-        CRADLE.of(of.cradle_angle_rad.to_degrees()),
-        BLANK_OFFSET.of(of.blank_offset_mm),
-        SLIDING_BASE.of(of.sliding_base_mm),
-        CENTER_TO_BACK.of(of.center_to_back_mm),
-        ROOT_ANGLE.of(of.root_angle_rad.to_degrees()),
-        ROLL_RATIO.of(of.roll.ratio),
-        CUTTER_RADIUS.of(job.head.radius_mm),
-        RADIUS_SOURCE.of(given),
-        INFERRED_RADIUS.of(job.inferred.radius_mm),
-        INFERRED_SPIRAL.of(job.inferred.spiral_angle_rad.to_degrees()),
-        MODIFIED_C.of(of.roll.second_order_per_rad),
-        MODIFIED_D.of(of.roll.third_order_per_rad2),
-        INFERRED_RATIO.of(job.inferred.roll_ratio),
-        MISSED_DEPTH.of(job.depth_missed_mm()),
-    ])
+    let tilt = (!of.tilt.is_none())
+        .then(|| [TILT.of(of.tilt.tilt_rad.to_degrees()), SWIVEL.of(of.tilt.swivel_rad.to_degrees())]);
+    SETTINGS
+        .section([
+            RADIAL.of(of.radial_setting_mm),
+            CRADLE.of(of.cradle_angle_rad.to_degrees()),
+            BLANK_OFFSET.of(of.blank_offset_mm),
+            SLIDING_BASE.of(of.sliding_base_mm),
+            CENTER_TO_BACK.of(of.center_to_back_mm),
+            ROOT_ANGLE.of(of.root_angle_rad.to_degrees()),
+            ROLL_RATIO.of(of.roll.ratio),
+            CUTTER_RADIUS.of(job.head.radius_mm),
+            RADIUS_SOURCE.of(given),
+            INFERRED_RADIUS.of(job.inferred.radius_mm),
+            INFERRED_SPIRAL.of(job.inferred.spiral_angle_rad.to_degrees()),
+            MODIFIED_C.of(of.roll.second_order_per_rad),
+            MODIFIED_D.of(of.roll.third_order_per_rad2),
+            INFERRED_RATIO.of(job.inferred.roll_ratio),
+            MISSED_DEPTH.of(job.depth_missed_mm()),
+        ])
+        .entries(tilt.into_iter().flatten())
 }
 
 fn operations(job: &BevelJob, motion: &[BevelAxesReport]) -> Result<Section> {

@@ -75,6 +75,8 @@ rows! {
     MODIFIED_C: "modified_roll_c", "1/rad", "C of the modified roll; 0 where the roll is even" => symbol("C");
     MODIFIED_D: "modified_roll_d", "1/rad^2", "D of the modified roll; 0 where it is even" => symbol("D");
     INFERRED_RATIO: "inferred_roll_ratio", "1", "roll ratio of a crown gear of these cones";
+    TILT: "tilt", "deg", "lean of the head's axis against the cradle's, where there is one" => symbol("i");
+    SWIVEL: "swivel", "deg", "direction of that lean, from the line of the radial setting" => symbol("j");
     MISSED_DEPTH: "missed_depth", "mm", "distance of the blades' tips from the blank's roots, middle of the face";
 }
 

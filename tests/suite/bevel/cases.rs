@@ -1,7 +1,7 @@
 //! Bevel cases of the independent implementation: tests/data/bevel/b*.json, whose tolerances stand in the files.
 
 use gearcut::bevel::blank::BevelBlank;
-use gearcut::bevel::cradle::{CradleSettings, Roll};
+use gearcut::bevel::cradle::{CradleSettings, Roll, Tilt};
 use gearcut::bevel::face_mill::{BladeKind, CuttingSurface};
 use serde_json::Value;
 
@@ -34,6 +34,7 @@ pub fn settings(file: &Value) -> CradleSettings {
         sliding_base_mm: 0.0,
         center_to_back_mm: of("Xp"),
         root_angle_rad: of("gm").to_radians(),
+        tilt: Tilt::default(),
         roll: Roll { ratio: of("Ra"), ..Roll::default() },
     }
 }

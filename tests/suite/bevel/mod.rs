@@ -14,3 +14,4 @@ mod oracle;
 mod pair;
 mod program_under_test;
 mod refusals;
+mod tilt;

@@ -2,7 +2,7 @@
 
 use super::cases::*;
 use gearcut::bevel::blank::{MatingCones, pitch_angle_rad};
-use gearcut::bevel::cradle::{CradleSettings, Roll};
+use gearcut::bevel::cradle::{CradleSettings, Roll, Tilt};
 use gearcut::bevel::envelope::{Envelope, OnFlank};
 use gearcut::bevel::face_mill::{BladeKind, CuttingSurface};
 use gearcut::bevel::five_axis::{FiveAxisMachine, SixAxes};
@@ -35,6 +35,7 @@ fn matrices_and_axes() {
             sliding_base_mm: 0.0,
             center_to_back_mm: of("X_p"),
             root_angle_rad: of("gamma_m"),
+            tilt: Tilt::default(),
             roll: Roll { ratio: 1.0, ..Roll::default() },
         };
         let pose = settings.work_from_tool_at(of("q"), of("phi_G"));
@@ -253,7 +254,7 @@ fn settings_come_back_from_axes() {
     };
     let machine = FiveAxisMachine { mounting_mm: 37.05 };
     let roll: Vec<SixAxes> = (0..40).map(|i| machine.axes_of_cradle(&settings, 0.7 + 0.01 * f64::from(i))).collect();
-    let (found, off_mm) = machine.cradle_of(&roll, settings.cradle_angle_rad, 0.7).expect("settings");
+    let (found, off_mm) = machine.cradle_of(&roll, settings.cradle_angle_rad, 0.7, settings.tilt).expect("settings");
     assert!(off_mm < 1e-11, "{off_mm:e} mm");
     for (found, wanted) in [
         (found.radial_setting_mm, settings.radial_setting_mm),
@@ -272,9 +273,10 @@ fn settings_come_back_from_axes() {
         .iter()
         .enumerate()
         .map(|(i, axes)| SixAxes { slides_mm: axes.slides_mm + 1e-3 * (0.3 * i as f64).sin() * DVec3::Y, ..*axes });
-    let (_, off_mm) = machine.cradle_of(&bent.collect::<Vec<_>>(), settings.cradle_angle_rad, 0.7).expect("settings");
+    let (_, off_mm) =
+        machine.cradle_of(&bent.collect::<Vec<_>>(), settings.cradle_angle_rad, 0.7, settings.tilt).expect("settings");
     assert!(off_mm > 1e-4, "{off_mm:e} mm");
-    assert!(machine.cradle_of(&roll[..1], 0.9, 0.7).is_err());
+    assert!(machine.cradle_of(&roll[..1], 0.9, 0.7, settings.tilt).is_err());
 }
 
 /// Point of the fillet that belongs to angles about the head's axis and of the cradle, work frame, and its lean: the

@@ -4,7 +4,7 @@
 use super::cases::{blank, data, settings, surface};
 use gearcut::bevel::blank::{BevelBlank, pitch_angle_rad};
 use gearcut::bevel::contact::{BevelPair, Contact, Mounting};
-use gearcut::bevel::cradle::{CradleSettings, Roll};
+use gearcut::bevel::cradle::{CradleSettings, Roll, Tilt};
 use gearcut::bevel::ease_off::{Setting, ease_off_mm, explain};
 use gearcut::bevel::envelope::Envelope;
 use gearcut::bevel::face_mill::{BladeKind, CuttingSurface};
@@ -56,6 +56,7 @@ fn pair(wider_mm: f64, offset_mm: f64) -> BevelPair {
             sliding_base_mm: DEDENDUM_MM,
             center_to_back_mm: 0.0,
             root_angle_rad: pitch_angle_rad,
+            tilt: Tilt::default(),
             roll: Roll { ratio: 1.0 / pitch_angle_rad.sin(), ..Roll::default() },
         }
     };

@@ -99,7 +99,7 @@ impl HeadInSlot {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::bevel::cradle::Roll;
+    use crate::bevel::cradle::{Roll, Tilt};
 
     fn head() -> FaceMill {
         FaceMill {
@@ -123,6 +123,7 @@ mod tests {
             sliding_base_mm: 5.0,
             center_to_back_mm: -1.0,
             root_angle_rad: 1.13,
+            tilt: Tilt { tilt_rad: 0.03, swivel_rad: 0.5 },
             roll: Roll { ratio: 1.1, second_order_per_rad: 0.05, third_order_per_rad2: -0.2 },
         }
     }

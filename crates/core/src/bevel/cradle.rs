@@ -11,10 +11,11 @@
 //! machine's x axis, where it acts like a part of X_p; on a machine the sliding base runs along the cradle's axis. Both
 //! are settings here, so that the printed example and a corrected one can be told apart.
 //!
-//! The road not taken: cutter tilt and swivel as settings. A tilted head is a pose like any other for all that follows
-//! (envelope, axes, passes); only [`CradleSettings::motion`] would have to know it.
+//! **Tilt.** The head may lean against the cradle's axis ([`Tilt`]): between R_z(q) and the tool's points comes
+//! R_z(j) R_y(i) R_z(-j), about the middle of the plane of the tips, so that S_r and X_D are that point's.
 
 use crate::frame::{Rigid3, RigidMotion3};
+use crate::math::Jet;
 use glam::{DMat3, DVec2, DVec3};
 
 /// Settings of a cradle machine; mm and rad.
@@ -34,8 +35,36 @@ pub struct CradleSettings {
     pub center_to_back_mm: f64,
     /// Machine root angle gamma_m.
     pub root_angle_rad: f64,
+    /// How the head leans.
+    pub tilt: Tilt,
     /// How the work follows the cradle.
     pub roll: Roll,
+}
+
+/// How the head's axis leans against the cradle's: by i towards the direction j, which counts from the line of the
+/// radial setting and turns with the cradle. In the machine it runs along (sin i cos(q + j), sin i sin(q + j), cos i).
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Tilt {
+    /// Tilt i, rad; 0: the head's axis is parallel to the cradle's.
+    pub tilt_rad: f64,
+    /// Swivel j, rad.
+    pub swivel_rad: f64,
+}
+
+impl Tilt {
+    /// Whether there is none.
+    pub fn is_none(&self) -> bool {
+        self.tilt_rad == 0.0
+    }
+
+    /// R_z(j) R_y(i) R_z(-j).
+    pub fn rotation(&self) -> DMat3 {
+        if self.is_none() {
+            return DMat3::IDENTITY;
+        }
+        let swivel = DMat3::from_rotation_z(self.swivel_rad);
+        swivel * DMat3::from_rotation_y(self.tilt_rad) * swivel.transpose()
+    }
 }
 
 /// Where the machine is at a moment of a slot.
@@ -76,10 +105,18 @@ impl CradleSettings {
     }
 
     /// How far the plane of the tips at full depth stands short of a place of the axial section (along the work's axis
-    /// and away from it, mm) on the head's side, along the cradle's axis; negative where it stands beyond.
+    /// and away from it, mm) on the head's side, along the head's axis in the middle of the roll; negative where it
+    /// stands beyond.
     pub fn short_of_mm(&self, axial_mm: DVec2) -> f64 {
         let (sin, cos) = self.root_angle_rad.sin_cos();
-        sin * (axial_mm.x + self.center_to_back_mm) - cos * axial_mm.y - self.sliding_base_mm
+        let out_mm = axial_mm.x + self.center_to_back_mm;
+        let along_mm = sin * out_mm - cos * axial_mm.y - self.sliding_base_mm;
+        if self.tilt.is_none() {
+            return along_mm;
+        }
+        let head = self.machine_from_tool(self.cradle_angle_rad);
+        let across_mm = DVec2::new(cos * out_mm + sin * axial_mm.y, 0.0) - head.translation_mm.truncate();
+        head.rotation.z_axis.dot(across_mm.extend(along_mm))
     }
 
     /// Work angle A and its rate dA/dq at a cradle angle; A is R_a q where the roll is not modified.
@@ -92,12 +129,20 @@ impl CradleSettings {
         ]
     }
 
+    /// The same with d^2 A / dq^2.
+    pub fn work_angle_jet(&self, cradle_rad: f64) -> Jet<3> {
+        let Roll { ratio, second_order_per_rad: c, third_order_per_rad2: d } = self.roll;
+        let bend = -ratio * (2.0 * c + 6.0 * d * (cradle_rad - self.cradle_angle_rad));
+        let [work_rad, rate] = self.work_angle(cradle_rad);
+        Jet::from_derivatives([work_rad, rate, bend])
+    }
+
     /// Tool in the machine frame, the blank's offset and both bases included.
     fn machine_from_tool(&self, cradle_rad: f64) -> Rigid3 {
         let (sin, cos) = cradle_rad.sin_cos();
         let s = self.radial_setting_mm;
         Rigid3 {
-            rotation: DMat3::from_rotation_z(cradle_rad),
+            rotation: DMat3::from_rotation_z(cradle_rad) * self.tilt.rotation(),
             translation_mm: DVec3::new(
                 s * cos + self.cross_shift_mm,
                 s * sin + self.blank_offset_mm,
@@ -157,10 +202,11 @@ mod tests {
             sliding_base_mm: 1.3,
             center_to_back_mm: 2.5,
             root_angle_rad: 1.1,
+            tilt: Tilt { tilt_rad: 0.2, swivel_rad: -0.7 },
             roll: Roll { ratio: 1.08, second_order_per_rad: 0.03, third_order_per_rad2: -0.2 },
         };
         let (q, h, at) = (1.02, 1e-5, DVec3::new(40.0, -81.0, -3.0));
-        let formate = CradleSettings { roll: Roll::default(), ..settings };
+        let formate = CradleSettings { roll: Roll::default(), tilt: Tilt::default(), ..settings };
         for (settings, moment) in [(settings, q), (formate, -2.0)] {
             let motion = settings.motion(moment);
             let moved = |moment: f64| settings.work_from_tool(moment).point(at);

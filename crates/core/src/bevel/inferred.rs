@@ -20,7 +20,7 @@
 //! without modified roll that let the head's circle run through the mean point.
 
 use super::blank::BevelBlank;
-use super::cradle::CradleSettings;
+use super::cradle::{CradleSettings, Tilt};
 use glam::DVec2;
 
 /// What follows from settings and blank.
@@ -41,7 +41,16 @@ impl InferredCutter {
         // Both hands as one: mirrored at the plane of the axes.
         let offset_mm = settings.blank_offset_mm * settings.cradle_angle_rad.signum();
         let head = settings.radial_setting_mm * DVec2::from_angle(settings.cradle_angle_rad.abs());
-        let to_head = head + DVec2::new(-blank.mean_cone_distance_mm() * dedendum_cos, offset_mm);
+        let mut to_head = head + DVec2::new(-blank.mean_cone_distance_mm() * dedendum_cos, offset_mm);
+        if !settings.tilt.is_none() {
+            // The circle lies square to the leaning axis; its tangent is seen along the cradle's axis.
+            let hand = settings.cradle_angle_rad.signum();
+            let Tilt { tilt_rad, swivel_rad } = settings.tilt;
+            let lean = settings.cradle_angle_rad.abs() + hand * swivel_rad;
+            let axis = (tilt_rad.sin() * DVec2::from_angle(lean)).extend(tilt_rad.cos());
+            let arm = to_head.extend(0.0).reject_from(axis);
+            to_head = arm.length() * axis.cross(arm).truncate().normalize().perp() * -1.0;
+        }
         let tan_spiral = -to_head.x / to_head.y;
         Self {
             radius_mm: to_head.length(),

@@ -7,7 +7,7 @@ use crate::scene::build::{cutting_force, linear_programs, stock_or_offset_mm};
 use crate::scene::machine_errors::{machine_errors, tool_mounting};
 use crate::scene::values::{Values, View};
 use gearcut_core::bevel::blank::MatingCones;
-use gearcut_core::bevel::cradle::{CradleSettings, Roll};
+use gearcut_core::bevel::cradle::{CradleSettings, Roll, Tilt};
 use gearcut_core::bevel::ease_off::Setting;
 use gearcut_core::units::{TURN_RAD, UM_PER_MM};
 use std::path::Path;
@@ -86,6 +86,7 @@ fn settings(cradle: View<'_>, errors: View<'_>) -> Option<SettingsSpec> {
             sliding_base_mm: cradle.number("sliding_base_mm")?,
             center_to_back_mm: cradle.number("center_to_back_mm")?,
             root_angle_rad: root_angle_rad.unwrap_or_default(),
+            tilt: Tilt { tilt_rad: cradle.rad("tilt_deg")?, swivel_rad: cradle.rad("swivel_deg")? },
             roll: Roll {
                 ratio: roll_ratio.unwrap_or_default(),
                 second_order_per_rad: cradle.number("modified_roll_c")?,

@@ -57,6 +57,23 @@ pub(super) static SECTIONS: &[KeySection] = &[
                 "59.0",
                 "Machine root angle gamma_m.",
             ),
+            Key::number(
+                "tilt_deg",
+                "deg",
+                Range::closed(0.0, 45.0),
+                0.0,
+                "0.0",
+                "Tilt i of the head's axis against the cradle's, about the middle of the plane of the tips.",
+            ),
+            Key::number(
+                "swivel_deg",
+                "deg",
+                Range::closed(-180.0, 180.0),
+                0.0,
+                "0.0",
+                "Swivel j: direction to which the head leans with its end at the work, from the line of the radial \
+                setting; it turns with the cradle.",
+            ),
             Key::optional(
                 "roll_ratio",
                 "",
