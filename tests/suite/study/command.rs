@@ -134,7 +134,12 @@ fn a_killed_study_goes_on() {
         let before = lines();
         random = random * 48_271 % 0x7fff_ffff;
         let mut child = long_study(folder.path()).spawn().expect("started");
-        std::thread::sleep(std::time::Duration::from_millis(random % 300));
+        // So many rows on, and some moment after the last of them: a fast machine is still at work then, too.
+        let enough = before + (random % 8) as usize;
+        while lines() < enough && child.try_wait().expect("asked").is_none() {
+            std::thread::sleep(std::time::Duration::from_millis(1));
+        }
+        std::thread::sleep(std::time::Duration::from_micros(random / 8 % 20_000));
         child.kill().expect("killed");
         cut_off += usize::from(child.wait().expect("ended").code().is_none());
         assert!(lines() >= before, "rows are lost");
