@@ -135,7 +135,7 @@ const receivers = {
     byId("axes").replaceChildren(pictures(positions), folded);
     shown.found = {};
     byId("numbers-state").textContent = "Measuring all flanks ...";
-    work.find({ id, scene: scene(), linkages, paths: ["texture"] });
+    work.find({ id, scene: scene(), linkages, paths: ["texture", "allowance"] });
   },
 
   found({ linkage, found, draft, ms }) {
