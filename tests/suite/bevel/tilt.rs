@@ -71,7 +71,7 @@ fn the_pose_of_a_tilted_head_is_the_product_of_its_turns() {
     }
 }
 
-/// The six axes stand the tool where the cradle does, at their rates; and the settings come back from them.
+/// The six axes place the tool where the cradle does, at their rates; and the settings come back from them.
 #[test]
 fn the_axes_of_a_tilted_head_lead_both_ways() {
     let machine = FiveAxisMachine { mounting_mm: 37.0 };
@@ -149,7 +149,7 @@ fn in_the_meridian_of_its_lean_a_tilted_cone_is_an_upright_one() {
 const TILTED: [&str; 3] =
     ["machine.cradle.tilt_deg=2", "machine.cradle.swivel_deg=-40", "tool.face_mill.radius_mm=95.25"];
 
-/// Straight lines of X, Y, Z, A and B follow a tilted head, and a machine without errors stands where it is commanded.
+/// Straight lines of X, Y, Z, A and B follow a tilted head, and a machine without errors is where it is commanded.
 #[test]
 fn programs_follow_a_tilted_head() {
     let job = job("five_linkage_printed", &TILTED).expect("a gear");

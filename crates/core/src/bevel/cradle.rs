@@ -106,7 +106,7 @@ impl CradleSettings {
 
     /// How far the plane of the tips at full depth stands short of a place of the axial section (along the work's axis
     /// and away from it, mm) on the head's side, along the head's axis in the middle of the roll; negative where it
-    /// stands beyond.
+    /// lies beyond.
     pub fn short_of_mm(&self, axial_mm: DVec2) -> f64 {
         let (sin, cos) = self.root_angle_rad.sin_cos();
         let out_mm = axial_mm.x + self.center_to_back_mm;

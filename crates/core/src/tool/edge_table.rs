@@ -39,7 +39,7 @@ pub struct EdgeTable {
     pub cells_per_mm: f64,
     /// Coefficients of `x = c0 + t (c1 + t (c2 + t c3))`, t = y - start of the cell, mm.
     pub cells: Vec<[f64; 4]>,
-    /// End of the last cell: asked for at every look at the edge, so no division is left to it.
+    /// End of the last cell: every look at the edge needs it, so it is divided once.
     y_end_mm: f64,
 }
 
