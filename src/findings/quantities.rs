@@ -12,6 +12,7 @@ pub mod program;
 pub mod sizes;
 pub mod surfaces;
 pub mod teeth;
+pub mod tool_wear;
 
 use super::row::QuantityGroup;
 
@@ -31,6 +32,7 @@ pub static SHARED: &[&QuantityGroup] = &[
     &cutting::CUTTING,
     &cutting::AXES,
     &cutting::AXIS_TABLES,
+    &tool_wear::TOOL_WEAR,
     &blank::BLANK,
     &blank::DAMAGE,
     &program::PROGRAM,

@@ -18,6 +18,7 @@ pub mod scallop;
 pub mod stock;
 pub mod target_outline;
 pub mod thickness;
+pub mod tool_wear;
 pub mod verdict;
 
 /// Surface texture, from the crate of its own.

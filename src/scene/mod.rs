@@ -34,6 +34,7 @@ mod table;
 mod template;
 #[cfg(test)]
 mod tests;
+pub(crate) mod tool_wear;
 mod tree;
 pub(crate) mod values;
 mod walk;

@@ -26,6 +26,7 @@ pub mod report;
 pub mod sheets;
 pub mod stages;
 pub mod summary;
+pub mod tool_wear;
 pub mod view_mesh;
 pub mod whole_blank;
 

@@ -52,7 +52,7 @@ pub enum Stage {
     Texture,
     /// Rays through the whole blank; only shaped gears, whose chips do not come from there, can do without.
     Blank,
-    /// The ledger of a shaper's chips.
+    /// The ledger of a shaper's chips, and the wear that follows from it.
     Chips,
     /// Stock in a shaped gear's roots.
     Roots,
@@ -78,6 +78,7 @@ impl Stage {
                 "largest_chip_section",
                 "entry_cutting_force",
                 "idle_strokes",
+                "tool_wear",
             ],
             Self::Roots => &["root_stock"],
             Self::Allowances => &["allowance", "unevenness", "unevenness_max", "unevenness_mean"],

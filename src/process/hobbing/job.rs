@@ -18,6 +18,7 @@ use crate::process::hobbing::scene::model::{
 };
 use crate::scene::Scene;
 use crate::scene::model::Gear;
+use crate::scene::tool_wear::WearSpec;
 use gearcut_core::error::{Refusal, Result};
 use gearcut_core::gear::PitchCurve;
 use gearcut_core::gear::blank::Blank;
@@ -71,7 +72,7 @@ pub struct HobbingJob {
     /// Cutting force of the work's material, where the scene names it.
     pub material: Option<CuttingForce>,
     /// How the hob wears, where the scene says.
-    pub wear: Option<model::WearSpec>,
+    pub wear: Option<WearSpec>,
     /// The pitch curve.
     pub curve: Arc<PitchCurve>,
     /// The hob.

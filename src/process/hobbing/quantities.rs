@@ -1,6 +1,7 @@
 //! Quantities that only hobbing finds.
 
 use crate::findings::quantities::cutting::STOPPED;
+use crate::findings::quantities::tool_wear::NO_RANGE;
 use crate::findings::{QuantityGroup, rows};
 
 /// A texture window that names no heights.
@@ -15,8 +16,6 @@ pub const NOTHING: &str = "the operation or the tooth takes nothing";
 pub const NOT_CUT_THERE: &str = "the flank was not cut there";
 /// Too few points.
 pub const TOO_FEW: &str = "fewer than two points were cut";
-/// A constant without a range.
-pub const NO_RANGE: &str = "no range of a constant is named, and none is fitted";
 /// A hob that cannot be shifted from gear to gear.
 pub const NO_ROOM: &str =
     "a tooth at an end of the hob works, so that loads would not move along, or the hob is too short to be shifted";
@@ -25,7 +24,7 @@ pub const SECTION_SAYS: &str = "the section of its step has the reason";
 
 /// The groups of this table.
 pub static QUANTITIES: &[&QuantityGroup] =
-    &[&HOBBED_GEAR, &EVALUATED, &OPERATION, &LOAD, &FORCE, &HOB_WEAR, &POINTS, &ERRORS, &MARKS, &FLANK, &AXIS_COLUMNS];
+    &[&HOBBED_GEAR, &EVALUATED, &OPERATION, &LOAD, &FORCE, &HOB_SHIFT, &POINTS, &ERRORS, &MARKS, &FLANK, &AXIS_COLUMNS];
 
 rows! {
     /// What the headline of a hobbed gear adds.
@@ -128,61 +127,10 @@ rows! {
 }
 
 rows! {
-    /// Wear of the hob's teeth.
-    HOB_WEAR: "hob_wear", "Wear of the hob's teeth",
-        "hob_wear; columns of its tables, of the row's tooth, place of the edge or shift";
+    /// The hob shifted between gears.
+    HOB_SHIFT: "hob_shift", "The hob shifted between gears",
+        "tool_wear of a hob; columns of its tables, of the row's shift";
 
-    WEAR_LAW: "law", "", "law of the hob's wear";
-    UNKNOWN: "not_known", "", "what the wear does not know";
-    WEAR_LIMIT: "limit", "mm", "width VB of the worn flank at which the hob is reground" => symbol("VB_lim");
-    LIFE: "life", "m", "length of cut after which an edge is worn to the limit by chips of the reference thickness at \
-        the reference speed"
-        => titled("length of cut that an edge lasts"), symbol("L_1"), source("Taylor 1907");
-    LIFE_SOURCE: "life_source", "", "where the length of cut that an edge lasts comes from";
-    LIFE_FROM: "life_from", "m", "smallest length of cut that an edge lasts, by the ends of the ranges of the constants"
-        => or(&[NO_RANGE]);
-    LIFE_TO: "life_to", "m", "largest length of cut that an edge lasts, by the ends of the ranges of the constants"
-        => or(&[NO_RANGE]);
-    EXPONENT: "thickness_exponent", "1", "power of the chip thickness with which life falls" => symbol("x");
-    EXPONENT_FROM: "thickness_exponent_from", "1", "smallest power of the chip thickness that is taken for possible"
-        => or(&[NO_RANGE]);
-    EXPONENT_TO: "thickness_exponent_to", "1", "largest power of the chip thickness that is taken for possible"
-        => or(&[NO_RANGE]);
-    THICKNESS: "reference_thickness", "um", "chip thickness for which the length of cut holds" => symbol("h_1");
-    SPEED: "reference_speed", "m/min", "cutting speed for which the length of cut holds" => symbol("v_1");
-    TAYLOR: "taylor_exponent", "1", "exponent of the time in Taylor's law" => symbol("n"), source("Taylor 1907");
-    GEARS: "gears_to_limit", "gears", "gears until the first place of an edge is worn to the limit, the hob not moved \
-        between them"
-        => shown(), or(&[NOTHING]);
-    GEARS_FROM: "gears_to_limit_from", "gears", "fewest gears to the limit, by the ends of the ranges of the constants"
-        => or(&[NO_RANGE]);
-    GEARS_TO: "gears_to_limit_to", "gears", "most gears to the limit, by the ends of the ranges of the constants"
-        => or(&[NO_RANGE]);
-    FIRST_TOOTH: "first_tooth", "", "hob tooth that is worn to the limit first" => shown();
-    FIRST_PLACE: "first_place", "",
-        "place of its edge: the tip, or a quarter of the depth of the flank to the entering or to the leaving end, 1 \
-         next to the tip";
-    MEAN_THICKNESS: "mean_thickness", "um",
-        "mean chip thickness over the length of cut: at the place that wears first, as a column at the row's place"
-        => or(&[NOTHING]);
-    WORN_TEETH: "worn_teeth", "teeth", "hob teeth with a tenth of the limit or more when the first one has all of it";
-    WORN_BAND: "worn_band", "", "first and last hob tooth with a tenth of the limit or more";
-    EVEN_TEETH: "even_teeth", "teeth",
-        "hob teeth with nine tenths of the limit or more when the first one has all of it";
-    EVEN_BAND: "even_band", "", "first and last hob tooth with nine tenths of the limit or more";
-    GEARS_IF_EVEN: "gears_if_even", "gears",
-        "gears to the limit if all teeth of the hob wore alike: no shift lasts longer";
-    WEAR: "wear", "um", "width VB of the worn flank when the first place of an edge has reached the limit: of a tooth \
-        where it has the most, or at the row's place"
-        => symbol("VB"), or(&[NOT_FINITE]), bars();
-    WEAR_FROM: "wear_from", "um", "smallest wear, by the ends of the ranges of the constants" => or(&[NO_RANGE]);
-    WEAR_TO: "wear_to", "um", "largest wear, by the ends of the ranges of the constants" => or(&[NO_RANGE]);
-    WEAR_PER_GEAR: "wear_per_gear", "um", "width VB that one gear adds to the tooth where it has the most"
-        => or(&[NOT_FINITE]);
-    EDGE_PLACE: "edge_place", "",
-        "place of the edge: the tip, or a quarter of the depth of a flank, 1 next to the tip; of a tooth the one that \
-         wears most"
-        => or(&[NOTHING]);
     SHIFT: "shift", "mm",
         "way that the hob is shifted along its axis after every gear, of a quarter, a half and whole distances of its \
          teeth: the one that lasts longest, as a column that of the row"

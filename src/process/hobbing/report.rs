@@ -4,6 +4,7 @@
 mod facts;
 
 use crate::findings::quantities::cutting::{LARGEST_FORCE, LINKAGE, OFFSET, THICKEST_CHIP};
+use crate::findings::quantities::tool_wear::TOOL_WEAR;
 use crate::findings::{self, Entry, Findings, Quantity, QuantityRow};
 use crate::measure::verdict::GearVerdict;
 use crate::number_text::{from_full_depth, plain, significant};
@@ -13,11 +14,9 @@ use crate::output::line_chart::LineChart;
 use crate::output::report::{Block, Page, PageSection, PageTable, Tone};
 use crate::process::hobbing::axes_report::HobbingAxesReport;
 use crate::process::hobbing::quantities::{
-    ACCURACY, ASSUMPTION, AXIAL_FEED, DIFFERENCE, EVEN_BAND, EVEN_TEETH, EXPONENT, EXPONENT_FROM, EXPONENT_TO,
-    FEED_MARK, FIRST_PLACE, FIRST_TOOTH, FORCE, GEARS, GEARS_FROM, GEARS_IF_EVEN, GEARS_TO, GENERATING_MARK, HOB_WEAR,
-    KINEMATIC, LAW, LENGTH, LIFE, LIFE_FROM, LIFE_SOURCE, LIFE_TO, LOAD, MARKS, MEAN_THICKNESS, PEAK_TO_MEAN, SHIFT,
-    SHIFT_GEARS, SHIFT_GEARS_FROM, SHIFT_GEARS_TO, SHIFT_RETURN, SHIFT_TO, SURFACE, TO_AXIS, TO_TRACE, UNKNOWN,
-    WEAR_LAW, WEAR_LIMIT, WORN_BAND, WORN_TEETH,
+    ACCURACY, ASSUMPTION, AXIAL_FEED, DIFFERENCE, FEED_MARK, FORCE, GENERATING_MARK, KINEMATIC, LAW, LENGTH, LOAD,
+    MARKS, PEAK_TO_MEAN, SHIFT, SHIFT_GEARS, SHIFT_GEARS_FROM, SHIFT_GEARS_TO, SHIFT_RETURN, SHIFT_TO, SURFACE,
+    TO_AXIS, TO_TRACE,
 };
 use crate::process::hobbing::{HobCutter, HobbedGear, HobbingJob};
 use crate::steps;
@@ -25,6 +24,7 @@ use crate::steps::axes;
 use crate::steps::report::deviations;
 use crate::steps::report::deviations::{Inspection, InspectionWords};
 use crate::steps::report::{PageGear, RunWords, blank, files, headline_words, machine_errors, record, texture};
+use crate::steps::tool_wear::{self, with_ends};
 use crate::steps::view_mesh::ViewMesh;
 use gearcut_core::error::Result;
 use gearcut_core::units::UM_PER_MM;
@@ -172,59 +172,19 @@ fn marks_section(found: &Findings) -> PageSection {
     .judged(Tone::Aside, headline_words(found, &[&FEED_MARK, &GENERATING_MARK]))
 }
 
-/// Nothing where the scene does not say how the hob wears, or nothing was cut.
+/// Nothing where the scene does not say how the hob wears.
 fn wear_section(found: &Findings, chart: Option<BarChart>) -> Option<PageSection> {
-    let wear = found.group(&HOB_WEAR)?;
-    let text = |value: f64| if value.fract() == 0.0 { plain(value) } else { significant(value, 4) };
-    let number = |row: &QuantityRow| wear.value(row).map_or_else(|| "–".to_owned(), text);
-    let with_ends = |row: &QuantityRow, ends: [&QuantityRow; 2]| match ends.map(|end| wear.value(end)) {
-        [Some(from), Some(to)] => format!("{} ({} to {})", number(row), text(from), text(to)),
-        _ => number(row),
-    };
-    let teeth = |count: &QuantityRow, band: &QuantityRow| match wear.text(band) {
-        "" => number(count),
-        band => format!("{}: {band}", number(count)),
-    };
-    let title = |row| wear.entry_of(row).map_or_else(String::new, Entry::heading);
+    let wear = found.group(&TOOL_WEAR)?;
     let shift = match wear.value(&SHIFT) {
         Some(mm) => {
             format!("{} mm to the {} end, {}", significant(mm, 4), wear.text(&SHIFT_TO), wear.text(&SHIFT_RETURN))
         }
         None => wear.of(&SHIFT).and_then(Quantity::why).unwrap_or_default().to_owned(),
     };
-    let rows = [
-        (title(&GEARS), with_ends(&GEARS, [&GEARS_FROM, &GEARS_TO])),
-        (
-            "first hob tooth, place of its edge".to_owned(),
-            format!("{}, {}", wear.text(&FIRST_TOOTH), wear.text(&FIRST_PLACE)),
-        ),
-        ("teeth with a tenth of the limit or more then".to_owned(), teeth(&WORN_TEETH, &WORN_BAND)),
-        ("teeth with nine tenths of it or more".to_owned(), teeth(&EVEN_TEETH, &EVEN_BAND)),
-        (format!("L₁ [m], {}", wear.text(&LIFE_SOURCE)), with_ends(&LIFE, [&LIFE_FROM, &LIFE_TO])),
-        ("x, power of the chip thickness, given".to_owned(), with_ends(&EXPONENT, [&EXPONENT_FROM, &EXPONENT_TO])),
-        ("mean chip thickness at the first place [µm]".to_owned(), number(&MEAN_THICKNESS)),
-        ("shift after every gear that lasts longest".to_owned(), shift),
-        ("gears with that shift".to_owned(), with_ends(&SHIFT_GEARS, [&SHIFT_GEARS_FROM, &SHIFT_GEARS_TO])),
-        ("gears if all teeth wore alike".to_owned(), number(&GEARS_IF_EVEN)),
-    ];
-    let mut blocks: Vec<Block> = chart.into_iter().map(Block::Bars).collect();
-    blocks.push(Block::Table(PageTable {
-        caption: format!("Life of the hob until VB = {} mm", number(&WEAR_LIMIT)),
-        columns: Vec::new(),
-        rows: rows.into_iter().map(|(name, value)| vec![name, value]).collect(),
-    }));
-    blocks.push(Block::Note(format!("{}. Not known: {}.", wear.text(&WEAR_LAW), wear.text(&UNKNOWN))));
-    Some(
-        PageSection::new(
-            "wear",
-            "Wear of the hob's teeth",
-            "How far every tooth is worn when the first place of an edge has reached the limit, the hob not moved \
-                between gears; along the edges in tables/hob_wear_edge.csv, shifts between gears in \
-                tables/hob_shift.csv.",
-            blocks,
-        )
-        .judged(Tone::Aside, format!("{} {}", number(&GEARS), title(&GEARS))),
-    )
+    let gears = with_ends(wear, &SHIFT_GEARS, [&SHIFT_GEARS_FROM, &SHIFT_GEARS_TO]);
+    let title = |row| wear.entry_of(row).map_or_else(String::new, Entry::heading);
+    let rows = vec![(title(&SHIFT), shift), (title(&SHIFT_GEARS), gears)];
+    tool_wear::page(found, "hob", chart, (rows, ", shifts between gears in tables/hob_shift.csv"))
 }
 
 /// Nothing where the run was stopped before the whole blank was cut.

@@ -18,6 +18,7 @@ mod strokes;
 mod tables;
 mod teeth;
 pub mod warnings;
+pub mod wear;
 
 pub use headline::headline;
 

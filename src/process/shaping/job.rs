@@ -26,6 +26,7 @@ use crate::process::shaping::target::generation::Generation;
 use crate::process::shaping::target::tooth_target::ToothTarget;
 use crate::scene::Scene;
 use crate::scene::model::Gear;
+use crate::scene::tool_wear::WearSpec;
 use crate::steps::planar::{PlanarGear, PlanarOperation, ProfilePoint};
 use gearcut_core::dexel::Field;
 use gearcut_core::error::{Refusal, Result};
@@ -133,6 +134,8 @@ pub struct ShapingJob {
     pub chip_spacing_mm: f64,
     /// Form of the axis programs.
     pub gcode: GcodeDialect,
+    /// How the cutter wears, where the scene says.
+    pub wear: Option<WearSpec>,
     /// The cutter as the scene describes it.
     pub cutter_spec: model::CutterSpec,
     /// Its transverse section as a spur gear: the scene's own gear where that is one.
@@ -300,6 +303,7 @@ impl ShapingJob {
             machine,
             material,
             chip_spacing_mm,
+            wear: shaping.wear,
             gcode,
             cutter_spec: shaping.tool.clone(),
             curve,
@@ -379,6 +383,12 @@ impl ShapingJob {
     /// When the ram passes the ends of the face.
     pub fn ram_times(&self) -> RamTimes {
         RamTimes::new(self.scene.gear.face_width_mm, self.machine.approach_mm, self.machine.overrun_mm)
+    }
+
+    /// Largest speed of the ram on its crank in an operation, mm/s.
+    pub fn ram_speed_mm_per_s(&self, operation: usize) -> f64 {
+        let stroke_mm = self.machine.approach_mm + self.scene.gear.face_width_mm + self.machine.overrun_mm;
+        PI * stroke_mm * self.operations[operation].schedule.double_strokes_per_minute() / 60.0
     }
 
     /// Tooth spaces, each after the tooth of its number; before tooth 1 of a sector there is one more.

@@ -16,6 +16,7 @@ use crate::findings::quantities::cutting::{LINKAGE, OFFSET};
 use crate::findings::{self, Findings};
 use crate::measure::verdict::GearVerdict;
 use crate::number_text::{from_full_depth, significant};
+use crate::output::bar_chart::BarChart;
 use crate::output::folder::OutputFolder;
 use crate::output::report::Page;
 use crate::process::shaping::CutGear;
@@ -28,6 +29,7 @@ use crate::steps::axes;
 use crate::steps::report::deviations::{Inspection, InspectionWords};
 use crate::steps::report::facts::gear_words;
 use crate::steps::report::{PageGear, RunWords, blank, deviations, files, machine_errors, record, texture};
+use crate::steps::tool_wear;
 use crate::steps::view_mesh::ViewMesh;
 use gearcut_core::error::Result;
 use std::f64::consts::PI;
@@ -40,7 +42,7 @@ pub fn page(
     job: &ShapingJob,
     cut: &CutGear,
     found: &Findings,
-    inspection: &Inspection,
+    (inspection, wear): (&Inspection, Option<BarChart>),
     motion: &[OperationAxes],
     run: &RunWords,
     folder: &OutputFolder,
@@ -48,6 +50,7 @@ pub fn page(
     let mut sections = stock::section(job, found).into_iter().collect::<Vec<_>>();
     sections.extend(ring::section(job, found));
     sections.push(chips::section(job, &cut.chips, found));
+    sections.extend(tool_wear::page(found, "cutter", wear, (Vec::new(), "")));
     sections.extend(blank::section(found));
     sections.extend(returns::section(job, found));
     sections.push(deviations::section(inspection));

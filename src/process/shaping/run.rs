@@ -7,7 +7,7 @@ mod files;
 mod frames;
 
 use super::gear::cut_gear;
-use super::gear::measure::cmm;
+use super::gear::measure::{cmm, cutter_wear};
 use crate::findings::Findings;
 use crate::process::CutDone;
 use crate::process::shaping::ShapingJob;
@@ -58,7 +58,10 @@ pub(super) fn run(job: &ShapingJob, tools: &Tools, frames: Option<u32>) -> Resul
     let blank = attempts.of("whole blank", blank)?;
     let mut interrupted = gear.work.interrupted || wanted.has(Stage::Blank) && matches!(blank, Some(None));
     let whole = blank.flatten();
+    let worn = cutter_wear::measure(job, &gear.chips).filter(|_| wanted.has(Stage::Chips));
+    let wear_chart = worn.as_ref().and_then(|worn| findings::wear::bars(job, worn));
     let mut sections = findings::sections(job, &gear.report, &gear.chips, &motion)?;
+    sections.extend(worn.map(|worn| findings::wear::findings(job, &worn)));
     let inspected = Inspected::new(job, &gear.report.flanks, &gear.report.inspection)?;
     let other_gear = findings::program::not_of_the_cut_gear(job, &motion, &gear.report);
     sections.extend(inspected.sections(&job.scene.measure, other_gear.as_deref()));
@@ -73,6 +76,10 @@ pub(super) fn run(job: &ShapingJob, tools: &Tools, frames: Option<u32>) -> Resul
     let complete = !gear.work.interrupted;
     let mut found = Findings::new("shaping", &job.scene.name, complete, headline, list, sections);
     files::write(job, &gear, (&motion, &foreseen.windows), &found, tools, &mut attempts)?;
+    if let Some((stem, chart)) = wear_chart.as_ref().filter(|_| parts.has(Part::Chips)) {
+        let write = || chart.write_svg(&folder.path(format!("chips/{stem}.svg"))?);
+        attempts.of("chart of the cutter's wear", write())?;
+    }
     if parts.has(Part::Texture) {
         attempts.of("files of texture", texture::write(job, &textures, folder, notes))?;
     }
@@ -99,7 +106,8 @@ pub(super) fn run(job: &ShapingJob, tools: &Tools, frames: Option<u32>) -> Resul
     if parts.has(Part::Report) {
         attempts.of("inspection sheet", deviations::write_sheet(&sheet, folder))?;
     }
-    let page = |found: &Findings| report::page(job, &gear, found, &inspection, &motion, &words, folder);
+    let wear_chart = wear_chart.map(|(_, chart)| chart);
+    let page = |found: &Findings| report::page(job, &gear, found, (&inspection, wear_chart), &motion, &words, folder);
     found.complete = !interrupted;
     conclusion::write(&mut found, &motion, tools, &mut attempts, &job.scene, page, Some(sheet))?;
     let out = folder.results_path(found.complete);

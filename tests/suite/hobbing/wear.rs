@@ -2,7 +2,8 @@
 //! (2015) saw.
 
 use gearcut::cut::cpu::Cpu;
-use gearcut::process::hobbing::measure::hob_wear::{EVEN, GearCost, HobWear, WORN, WearEstimate, WearLaw, band};
+use gearcut::measure::tool_wear::{EVEN, GearCost, ToolWear, WORN, WearEstimate, WearLaw, band};
+use gearcut::process::hobbing::measure::hob_wear;
 use gearcut::process::hobbing::run::{load as hob_load, wear};
 use gearcut::process::hobbing::{HobCutter, HobbedBlank, HobbingJob};
 use gearcut::process::load;
@@ -64,7 +65,7 @@ fn wear_of_one_tooth_is_that_by_hand() {
         };
         let mut cost = GearCost::nothing(job.hob.teeth.len());
         let in_slices = [chip(of_tooth[0], 0.2), chip(of_tooth[1], 0.05)];
-        cost.add(&law, passes, &operation.linkage, job.hob.tip_radius_mm, &lengths_mm, &in_slices);
+        hob_wear::add(&mut cost, &law, passes, &operation.linkage, job.hob.tip_radius_mm, &lengths_mm, &in_slices);
         assert_eq!(cost.first(), Some([2, FLANK_PLACES]));
         0.2 * cost.equivalent_mm[2][FLANK_PLACES] / 30e3
     };
@@ -142,7 +143,7 @@ fn third_order(exponent: &str) -> HobbingJob {
 fn the_band_of_worn_teeth_tells_the_exponent() {
     let first = third_order("5");
     let blank = cut(&HobCutter::new(&first).expect("passes"));
-    let of = |exponent: &str| -> (HobWear, usize, usize) {
+    let of = |exponent: &str| -> (ToolWear, usize, usize) {
         let job = third_order(exponent);
         let worn = wear::measure(&HobCutter::new(&job).expect("passes"), &blank).expect("the scene has it");
         let cost = &worn.by_constants.cost;

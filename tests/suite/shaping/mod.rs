@@ -43,3 +43,4 @@ mod stroke_noise;
 mod tearing;
 mod tooth_tips;
 mod undercut;
+mod wear;

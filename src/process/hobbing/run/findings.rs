@@ -8,13 +8,13 @@ use crate::findings::quantities::cutting::{CYCLE_TIME, LINKAGE, OFFSET, PASSES};
 use crate::findings::quantities::flanks::{MEAN_DEVIATION, PROFILE_LENGTH, SQ, START_OF_FLANK};
 use crate::findings::{Findings, Notice, Section, Table};
 use crate::machine_errors::ErrorLayer;
+use crate::measure::tool_wear::ToolWear;
 use crate::process::hobbing::axes_report::HobbingAxesReport;
 use crate::process::hobbing::job::PreparedHobbing;
 use crate::process::hobbing::linkage::dynamics::AXES;
 use crate::process::hobbing::measure::flank_report::HobbedReport;
 use crate::process::hobbing::measure::hob_force::OperationForce;
 use crate::process::hobbing::measure::hob_load::OperationLoad;
-use crate::process::hobbing::measure::hob_wear::HobWear;
 use crate::process::hobbing::measure::marks::MarkLattice;
 use crate::process::hobbing::quantities::{
     AXIAL_FEED, EVALUATED, IDLE_TIME, IS_UNDERCUT, NOT_NAMED, PROFILE_END, PROFILE_START,
@@ -47,7 +47,7 @@ pub struct Measured<'a> {
     /// The whole blank with the hob's load and its forces; none after Ctrl-C.
     pub whole: Option<(&'a blank::WholeBlank, &'a [OperationLoad], &'a [OperationForce])>,
     /// Wear of the hob, where the scene says how it wears.
-    pub wear: Option<&'a HobWear>,
+    pub wear: Option<&'a ToolWear>,
 }
 
 /// Everything that was found.
@@ -82,7 +82,7 @@ pub fn findings(cutter: &HobCutter, gear: &HobbedGear, measured: &Measured) -> R
     if let Some((whole, loads, forces)) = measured.whole {
         sections.push(load::findings(job, loads));
         sections.extend(force::findings(job, forces));
-        sections.extend(measured.wear.and_then(|worn| wear::findings(job, worn)));
+        sections.extend(measured.wear.map(|worn| wear::findings(job, worn)));
         sections.push(blank::findings(cutter, whole));
     }
     let mut list = measured.foreseen.to_vec();

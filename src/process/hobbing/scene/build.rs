@@ -3,20 +3,17 @@
 use super::keys::{AXES, PROFILE, WEAR};
 use super::model::{
     Approach, EvenMotion, ExtraRotation, FeedDirection, FeedOf, GashForm, HobRelief, HobSize, HobSpec, Hobbing,
-    HobbingAxisLimits, HobbingKind, HobbingOperation, LinkageForm, Protuberance, ShiftDirection, ShiftStrategy,
-    WearLife, WearSpec, Worm,
+    HobbingAxisLimits, HobbingKind, HobbingOperation, LinkageForm, Protuberance, ShiftDirection, ShiftStrategy, Worm,
 };
 use super::standard_hob::{self, HobTip};
 use crate::scene::ScenePart;
 use crate::scene::build::{cutting_force, linear_programs, stock_or_offset_mm};
 use crate::scene::drawn_profile::ToolProfile;
 use crate::scene::machine_errors::{machine_errors, tool_mounting};
+use crate::scene::tool_wear;
 use crate::scene::values::{Values, View};
 use gearcut_core::units::{TURN_RAD, UM_PER_MM};
 use std::path::Path;
-
-const MM_PER_M: f64 = 1e3;
-const S_PER_MIN: f64 = 60.0;
 
 /// Hobbing: hob, limits and operations.
 pub(super) fn build(values: &Values, base_dir: &Path) -> Option<ScenePart> {
@@ -30,10 +27,6 @@ pub(super) fn build(values: &Values, base_dir: &Path) -> Option<ScenePart> {
         material if material.text("name").is_some() => Some(cutting_force(material)?),
         _ => None,
     };
-    let wear = match values.view(WEAR) {
-        wear if wear.number("limit_mm").is_some() => Some(hob_wear(wear)?),
-        _ => None,
-    };
     let programs = linear_programs(values)?;
     Some(ScenePart::new(Hobbing {
         tool,
@@ -41,7 +34,7 @@ pub(super) fn build(values: &Values, base_dir: &Path) -> Option<ScenePart> {
         errors: machine_errors(values, &AXES)?,
         operations: operations?,
         material,
-        wear,
+        wear: tool_wear::spec(values, WEAR),
         programs,
     }))
 }
@@ -110,26 +103,6 @@ fn tip_reliefs(hob: View<'_>, gear: View<'_>) -> Option<Vec<HobRelief>> {
         reliefs.push(HobRelief { height_mm, slope });
     }
     Some(reliefs)
-}
-
-fn hob_wear(wear: View<'_>) -> Option<WearSpec> {
-    let ends = |key: &str| wear.numbers(key).and_then(|ends| <[f64; 2]>::try_from(ends).ok());
-    let life = match (wear.number("life_m"), wear.whole("gears_to_limit")) {
-        (Some(m), _) => {
-            WearLife::Length { mm: m * MM_PER_M, ends_mm: ends("life_range_m").map(|ends| ends.map(|m| m * MM_PER_M)) }
-        }
-        (None, Some(gears)) => WearLife::Gears(f64::from(gears)),
-        (None, None) => return None,
-    };
-    Some(WearSpec {
-        limit_mm: wear.number("limit_mm")?,
-        life,
-        thickness_exponent: wear.number("thickness_exponent")?,
-        thickness_exponent_ends: ends("thickness_exponent_range"),
-        thickness_mm: wear.number("thickness_mm")?,
-        speed_mm_per_s: wear.number("speed_m_per_min").map(|m_per_min| m_per_min * MM_PER_M / S_PER_MIN),
-        taylor_exponent: wear.number("taylor_exponent")?,
-    })
 }
 
 fn limits(values: &Values) -> HobbingAxisLimits {

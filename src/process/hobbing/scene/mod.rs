@@ -10,6 +10,7 @@ use crate::scene::drawn_profile;
 use crate::scene::error_sources::{self, ErrorSource, KeyForm};
 use crate::scene::machine_errors;
 use crate::scene::problems::Found;
+use crate::scene::tool_wear;
 use crate::scene::{FINISH_ALONE, ProcessPart, SceneProcess, Senseless};
 pub(in crate::process::hobbing) use keys::PROFILE;
 use model::Hobbing;
@@ -77,7 +78,7 @@ fn check(found: &mut Found<'_, '_, '_>) {
     let _: Option<()> = tip_reliefs(found);
     let _: Option<()> = pitch_errors(found);
     drawn_tooth(found);
-    wear(found);
+    tool_wear::check(found, keys::WEAR);
     machine_errors::check(found, &keys::AXES);
     machine_errors::check_noise_in_time(found, &keys::AXES, "a hob");
 }
@@ -151,40 +152,6 @@ fn pitch_errors(found: &mut Found) -> Option<()> {
     let way_out = "give one value per gash, or one for each gash of each thread, or leave the key out";
     found.blame(wrong, key, message, way_out);
     Some(())
-}
-
-/// A wear without a limit or a life, or with constants outside of their ranges.
-fn wear(found: &mut Found) {
-    let wear = found.view(keys::WEAR);
-    let path = |key: &str| format!("{}.{key}", keys::WEAR);
-    let is_written = |key: &&str| found.values.is_written(keys::WEAR, key);
-    let lives = ["life_m", "gears_to_limit"];
-    let of_life = lives.iter().copied().find(|key| is_written(key));
-    let others = ["life_range_m", "thickness_exponent_range"];
-    let lonely = of_life.or(others.iter().copied().find(|key| is_written(key))).filter(|_| !is_written(&"limit_mm"));
-    let has_limit = wear.number("limit_mm").is_some();
-    if let Some(key) = lonely {
-        let message = || format!("`{}` without `{}`: no wear is computed", path(key), path("limit_mm"));
-        found.blame(true, &path(key), message, "write limit_mm, the VB at which the hob is reground (0.2 mm is usual)");
-    }
-    let message =
-        || format!("`{}` without `life_m` or `gears_to_limit`: nothing says how long an edge lasts", path("limit_mm"));
-    let way_out = "write life_m (m of cut until limit_mm), or gears_to_limit (gears that this hob cut) to fit it";
-    found.blame(has_limit && of_life.is_none(), &path("limit_mm"), message, way_out);
-    let is_fitted = wear.whole("gears_to_limit").is_some();
-    for (key, range) in [("life_m", "life_range_m"), ("thickness_exponent", "thickness_exponent_range")] {
-        let Some(&[from, to]) = wear.numbers(range) else { continue };
-        let blamed = path(range);
-        let message = || format!("`{blamed}` = [{from}, {to}]: the first end is the larger one");
-        found.blame(from > to, &blamed, message, "write the smaller one first");
-        let Some(value) = wear.number(key) else {
-            let message = || format!("`{blamed}` without `{}`: a fitted life has its interval from the fit", path(key));
-            found.blame(is_fitted, &blamed, message, "leave it out, or write life_m in place of gears_to_limit");
-            continue;
-        };
-        let message = || format!("`{blamed}` = [{from}, {to}] does not hold `{}` = {value}", path(key));
-        found.blame(from <= to && (value < from || value > to), &blamed, message, "widen the range, or move the value");
-    }
 }
 
 impl ProcessPart for Hobbing {

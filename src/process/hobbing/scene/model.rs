@@ -4,6 +4,7 @@ use crate::machine_errors::{MachineErrors, ToolMounting};
 use crate::material::CuttingForce;
 use crate::scene::Scene;
 use crate::scene::drawn_profile::ToolProfile;
+use crate::scene::tool_wear::WearSpec;
 use gearcut_core::terms::Hand;
 use std::path::PathBuf;
 
@@ -24,39 +25,6 @@ pub struct Hobbing {
     pub wear: Option<WearSpec>,
     /// Whether axis programs are written.
     pub programs: bool,
-}
-
-/// What is known of the length of cut L_1 that an edge lasts.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum WearLife {
-    /// L_1 with the ends of its range.
-    Length {
-        /// L_1, mm.
-        mm: f64,
-        /// Ends; `None` where no range is named, mm.
-        ends_mm: Option<[f64; 2]>,
-    },
-    /// Gears that this hob was seen to cut until the limit: L_1 is fitted.
-    Gears(f64),
-}
-
-/// How a hob wears: [`crate::process::hobbing::measure::hob_wear`].
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct WearSpec {
-    /// Wear VB at which the hob is reground, mm.
-    pub limit_mm: f64,
-    /// L_1.
-    pub life: WearLife,
-    /// x.
-    pub thickness_exponent: f64,
-    /// Ends of its range, if it has one.
-    pub thickness_exponent_ends: Option<[f64; 2]>,
-    /// h_1, mm.
-    pub thickness_mm: f64,
-    /// v_1, mm/s; `None`: the hob's own in the finishing operation.
-    pub speed_mm_per_s: Option<f64>,
-    /// n.
-    pub taylor_exponent: f64,
 }
 
 impl Hobbing {

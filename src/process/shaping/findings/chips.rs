@@ -10,7 +10,6 @@ use crate::process::shaping::quantities::{
 };
 use crate::steps::inspection::headline::Placed;
 use gearcut_core::units::UM_PER_MM;
-use std::f64::consts::PI;
 
 /// N mm in a N m.
 const NMM_PER_NM: f64 = 1e3;
@@ -31,7 +30,7 @@ pub fn chips(job: &ShapingJob, ledger: &ChipLedger, operation: usize) -> Section
     let volume_mm3 = ledger.area_mm2(operation) * job.scene.gear.face_width_mm;
     let minutes = schedule.time_s(count as f64) / 60.0;
     let largest_n = chips.largest(|s| s.cutting_n).map(|(_, stroke)| stroke.cutting_n);
-    let power_w = largest_n.map(|force_n| force_n * ram_speed_mm_per_s(job, operation) / 1e3);
+    let power_w = largest_n.map(|force_n| force_n * job.ram_speed_mm_per_s(operation) / 1e3);
     let count_of = |pick: fn(&StrokeChips) -> u32| chips.strokes.iter().map(|s| u64::from(pick(s))).sum::<u64>();
     CHIPS.section([
         largest(&LARGEST_SECTION, &|s| s.area_mm2),
@@ -50,13 +49,6 @@ pub fn chips(job: &ShapingJob, ledger: &ChipLedger, operation: usize) -> Section
         TWO_FLANK_CHIPS.of(count_of(|s| s.two_flank)),
         THREE_FLANK_CHIPS.of(count_of(|s| s.three_flank)),
     ])
-}
-
-/// Largest speed of the ram on its crank in an operation, mm/s.
-pub fn ram_speed_mm_per_s(job: &ShapingJob, operation: usize) -> f64 {
-    let machine = &job.machine;
-    let stroke_mm = machine.approach_mm + job.scene.gear.face_width_mm + machine.overrun_mm;
-    PI * stroke_mm * job.operations[operation].schedule.double_strokes_per_minute() / 60.0
 }
 
 /// The largest value of a stroke with its place: the stroke (counted from 0), time and work angle, the space of the

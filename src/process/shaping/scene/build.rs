@@ -1,6 +1,6 @@
 //! Checked values of a shaping scene to the model.
 
-use super::keys::{AXES, BUILT_UP_EDGE, CMM, EDGE_ROUGHNESS, EDGE_ROUNDING, PROFILE};
+use super::keys::{AXES, BUILT_UP_EDGE, CMM, EDGE_ROUGHNESS, EDGE_ROUNDING, PROFILE, WEAR};
 use super::model::{
     AxisLimits, BuiltUpEdge, CmmSpec, CutterSpec, EdgeRoughness, EdgeRounding, Feed, GcodeDialect, Infeed, Linkage,
     Machine, NormalReading, Operation, Retraction, Shaping, StockScatter, StrokeSpacing, Tip, TraditionalDirection,
@@ -12,6 +12,7 @@ use crate::scene::ScenePart;
 use crate::scene::build::stock_or_offset_mm;
 use crate::scene::drawn_profile::ToolProfile;
 use crate::scene::machine_errors::machine_errors;
+use crate::scene::tool_wear;
 use crate::scene::values::{Values, View};
 use gearcut_core::units::UM_PER_MM;
 use std::path::Path;
@@ -42,6 +43,7 @@ pub(super) fn build(values: &Values, base_dir: &Path) -> Option<ScenePart> {
             "none" => GcodeDialect::None,
             _ => return None,
         },
+        wear: tool_wear::spec(values, WEAR),
         cmm: if values.has_section(CMM) { Some(cmm(values)?) } else { None },
     }))
 }

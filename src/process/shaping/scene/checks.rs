@@ -1,13 +1,14 @@
 //! Values of a shaping scene compared with each other.
 
 use super::defaults::reach_mm;
-use super::keys::{AXES, BUILT_UP_EDGE, BUILT_UP_EDGE_KEYS, CMM, EDGE_ROUGHNESS, EDGE_ROUNDING, PROFILE};
+use super::keys::{AXES, BUILT_UP_EDGE, BUILT_UP_EDGE_KEYS, CMM, EDGE_ROUGHNESS, EDGE_ROUNDING, PROFILE, WEAR};
 use super::model::guide_hand;
 use crate::scene::build::{sector_deg, stock_or_offset_mm};
 use crate::scene::drawn_profile;
 use crate::scene::keys::join;
 use crate::scene::machine_errors;
 use crate::scene::problems::Found;
+use crate::scene::tool_wear;
 use gearcut_core::gear::GearKind;
 use std::f64::consts::PI;
 
@@ -29,6 +30,7 @@ pub(super) fn check(found: &mut Found<'_, '_, '_>) {
     together(found, EDGE_ROUGHNESS, &["rq_um", "correlation_length_um"]);
     together(found, EDGE_ROUNDING, &["radius_um", "minimum_chip_share"]);
     together(found, BUILT_UP_EDGE, &BUILT_UP_EDGE_KEYS);
+    tool_wear::check(found, WEAR);
     speeds(found);
     let measures_nothing = found.values.has_section(CMM) && found.values.count("operation") == 1;
     let message = || format!("`{CMM}` measures allowances between operations, and the scene has one alone");

@@ -5,6 +5,7 @@ use crate::material::EdgeForce;
 use crate::random::Draws;
 use crate::scene::Scene;
 use crate::scene::drawn_profile::ToolProfile;
+use crate::scene::tool_wear::WearSpec;
 use gearcut_core::gear::GearKind;
 use gearcut_core::passes::planar::strokes::StrokeLaw;
 use gearcut_core::terms::Hand;
@@ -25,6 +26,8 @@ pub struct Shaping {
     pub chip_spacing_mm: f64,
     /// Form of the axis programs.
     pub gcode: GcodeDialect,
+    /// How the cutter wears; `None` where the scene does not say, and no wear is computed.
+    pub wear: Option<WearSpec>,
     /// Coordinate measurement of the allowances, if the scene asks for one.
     pub cmm: Option<CmmSpec>,
 }

@@ -10,6 +10,7 @@
 //! tip zone and by the rays across the tooth outside of it; the zones are disjoint and fill the tooth, so nothing is
 //! counted twice.
 
+use gearcut_core::passes::sections::swept_sections::{EDGE_PLACES, FLANK_PLACES};
 use gearcut_core::tool::edge::{Edge, Segment, SegmentName};
 use glam::DVec2;
 
@@ -59,6 +60,9 @@ pub struct Station {
     pub side: EdgeSide,
     /// Distance along the edge to the nearest other part, mm.
     pub to_corner_mm: f64,
+    /// Place of the edge in whose wear it counts, below [`EDGE_PLACES`]: right flank from its depth, tip, left flank to
+    /// its depth; a flank has [`FLANK_PLACES`], each an equal part of the tooth's depth.
+    pub wear_place: usize,
 }
 
 /// Edge of one blade, sampled.
@@ -112,6 +116,7 @@ impl EdgePolygon {
                     normal: -along.perp().normalize(),
                     side: EdgeSide::of(segment.name),
                     to_corner_mm: f64::INFINITY,
+                    wear_place: FLANK_PLACES,
                 });
                 arc_mm += length_mm;
             }
@@ -128,12 +133,30 @@ impl EdgePolygon {
             .filter(|pair| pair[0].side != pair[1].side)
             .map(|pair| pair[0].arc_mm + 0.5 * pair[0].length_mm)
             .collect();
+        let radii_mm = || stations.iter().map(|s| s.point_mm.length());
+        let tip_radius_mm = radii_mm().fold(0.0, f64::max);
+        let depth_mm = tip_radius_mm - radii_mm().fold(f64::INFINITY, f64::min);
         for station in &mut stations {
+            let share = (tip_radius_mm - station.point_mm.length()) / depth_mm;
+            let under = ((share * FLANK_PLACES as f64) as usize).min(FLANK_PLACES - 1);
+            station.wear_place = match station.side {
+                EdgeSide::Right => FLANK_PLACES - 1 - under,
+                EdgeSide::Tip => FLANK_PLACES,
+                EdgeSide::Left => FLANK_PLACES + 1 + under,
+            };
             station.to_corner_mm = corners.iter().map(|c| (c - station.arc_mm).abs()).fold(f64::INFINITY, f64::min);
         }
         let tip_mm = DVec2::new(stations.iter().map(|s| s.point_mm.x).fold(0.0, f64::max), 0.0);
         let tip_zone_mm = tip_zone(&stations);
         Self { corners_mm, stations, tip_zone_mm, center_mm: edge.center_mm, reach_mm: edge.reach_mm, tip_mm }
+    }
+
+    /// Length of every place of wear, mm.
+    pub fn wear_place_lengths_mm(stations: &[Station]) -> [f64; EDGE_PLACES] {
+        stations.iter().fold([0.0; EDGE_PLACES], |mut lengths_mm, station| {
+            lengths_mm[station.wear_place] += station.length_mm;
+            lengths_mm
+        })
     }
 
     /// Number of chords of the edge itself; the two after them close the polygon through the axis.

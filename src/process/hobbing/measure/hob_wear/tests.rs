@@ -1,29 +1,5 @@
 use super::*;
 
-const LAW: WearLaw =
-    WearLaw { thickness_exponent: 2.0, thickness_mm: 0.1, speed_mm_per_s: 1000.0, taylor_exponent: 0.125 };
-
-/// By hand: L = 30 m at 0.1 mm and 1 m/s. Chips half as thick let x = 2 make it 120 m; a fifth more speed divides that
-/// by 1.2^7 = 3.5832.
-#[test]
-fn life_of_one_chip_is_that_by_hand() {
-    let life_m = 30.0 / LAW.weight(0.05, 1200.0);
-    assert!((life_m - 120.0 / 3.583_180_8).abs() < 1e-9, "{life_m}");
-}
-
-/// Taylor: v T^n = C at any speed, under one chip.
-#[test]
-fn tool_life_under_one_chip_is_taylors() {
-    let constant = |speed_mm_per_s: f64| {
-        let life_s = 30e3 / LAW.weight(0.1, speed_mm_per_s) / speed_mm_per_s;
-        speed_mm_per_s * life_s.powf(LAW.taylor_exponent)
-    };
-    let at = constant(1000.0);
-    for speed in [300.0, 700.0, 2500.0] {
-        assert!((constant(speed) / at - 1.0).abs() < 1e-12, "{speed}");
-    }
-}
-
 /// A hob with one thread.
 fn thread(teeth: usize) -> [Range<usize>; 1] {
     let all = 0..teeth;

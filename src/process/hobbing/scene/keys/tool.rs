@@ -3,6 +3,7 @@
 use crate::scene::drawn_profile::TOLERANCE;
 use crate::scene::keys::machine_errors::{TOOL_RUNOUT, TOOL_RUNOUT_ANGLE, TOOL_WOBBLE, TOOL_WOBBLE_ANGLE};
 use crate::scene::keys::{Default, Group, Key, KeySection, Kind, Range, Role};
+use crate::scene::tool_wear;
 
 /// Section of a hob's wear.
 pub const WEAR: &str = "tool.hob.wear";
@@ -11,7 +12,7 @@ pub const WEAR: &str = "tool.hob.wear";
 pub const PROFILE: &str = "tool.hob.profile";
 
 /// `[tool.hob]` and what it holds.
-pub(super) static SECTIONS: &[KeySection] = &[HOB, HOB_PROFILE, HOB_WEAR];
+pub(super) static SECTIONS: &[KeySection] = &[HOB, HOB_PROFILE, tool_wear::section(WEAR)];
 
 const HOB_PROFILE: KeySection = KeySection::new(
     PROFILE,
@@ -33,90 +34,6 @@ const HOB_PROFILE: KeySection = KeySection::new(
         \"involute\" gives the hob the thread that generates with this rack, \"straight_sided\" the contour itself in \
         its axial section. Corners stay corners, by the same rules as on a shaper cutter.",
 );
-
-const HOB_WEAR: KeySection = KeySection {
-    path: WEAR,
-    role: Role::Plain,
-    keys: &[
-        Key::optional(
-            "limit_mm",
-            "mm",
-            Range::above(0.0, 5.0),
-            "no wear is computed",
-            "0.2",
-            "Width VB of the worn flank at which the hob is reground; needs life_m or gears_to_limit.",
-        ),
-        Key::optional(
-            "life_m",
-            "m",
-            Range::above(0.0, 1e6),
-            "gears_to_limit says how long an edge lasts",
-            "20.0",
-            "L_1: length of cut after which an edge is worn to limit_mm by chips of thickness_mm at speed_m_per_min.",
-        ),
-        Key {
-            name: "life_range_m",
-            kind: Kind::Pair(Range::above(0.0, 1e6)),
-            unit: "m",
-            default: Default::LeftOut("no interval"),
-            example: "[18.0, 22.0]",
-            teach: "Smallest and largest L_1 that is taken for possible; results get intervals by it.",
-        },
-        Key {
-            name: "gears_to_limit",
-            kind: Kind::Whole { min: 2, max: 1_000_000 },
-            unit: "",
-            default: Default::LeftOut("life_m says how long an edge lasts"),
-            example: "12",
-            teach: "Gears of this scene that the hob was seen to cut until limit_mm: L_1 is fitted to them.",
-        },
-        Key::number(
-            "thickness_exponent",
-            "",
-            Range::closed(0.0, 10.0),
-            1.0,
-            "1.0",
-            "x: life falls with the chip's thickness to this power; at 1 an edge wears by the volume that passes over \
-            a length of it.",
-        ),
-        Key {
-            name: "thickness_exponent_range",
-            kind: Kind::Pair(Range::closed(0.0, 10.0)),
-            unit: "",
-            default: Default::LeftOut("no interval"),
-            example: "[0.5, 1.5]",
-            teach: "Smallest and largest x that is taken for possible; results get intervals by it.",
-        },
-        Key::number(
-            "thickness_mm",
-            "mm",
-            Range::closed(0.001, 10.0),
-            0.1,
-            "0.1",
-            "h_1: chip thickness for which L_1 holds. Near the mean thickness at the place that wears first, L_1 \
-            hardly depends on x.",
-        ),
-        Key {
-            name: "speed_m_per_min",
-            kind: Kind::Number(Range::above(0.0, 10_000.0)),
-            unit: "m/min",
-            default: Default::Derived("the hob's tip speed in the finishing operation"),
-            example: "70.0",
-            teach: "v_1: cutting speed for which L_1 holds.",
-        },
-        Key::number(
-            "taylor_exponent",
-            "",
-            Range::closed(0.05, 1.0),
-            0.125,
-            "0.125",
-            "n of Taylor's v T^n = C: life as a time falls with the speed to the power 1/n; 1/8 is Taylor's for \
-            high-speed steel (1907).",
-        ),
-    ],
-    groups: &[Group { names: &["life_m", "gears_to_limit"], required: false }],
-    teach: "Wear of the hob's teeth by Taylor's law with the chip's thickness; none is computed without limit_mm.",
-};
 
 const HOB: KeySection = KeySection {
     path: "tool.hob",

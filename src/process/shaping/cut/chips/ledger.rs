@@ -2,11 +2,12 @@
 
 use super::oblique::ElementForce;
 use super::space::{LEAST_AREA_MM2, Space, contours, middle_pose};
-use super::stroke::{StrokeChips, StrokePose, ToothChip};
+use super::stroke::{PlaceContact, StrokeChips, StrokePose, ToothChip};
 use crate::process::shaping::ShapingJob;
 use crate::process::shaping::scene::model::Infeed;
 use crate::process::shaping::tool::edge_polygon::{EdgePolygon, Station};
 use gearcut_core::cut::LEAST_CHIP_MM;
+use gearcut_core::passes::sections::swept_sections::EDGE_PLACES;
 use glam::DVec2;
 use rayon::prelude::*;
 use std::ops::RangeInclusive;
@@ -48,6 +49,8 @@ pub struct ChipLedger {
     pub stations: Vec<Station>,
     /// Spacing of rays and stations, mm.
     pub spacing_mm: f64,
+    /// Every tooth's chip, in order of time, where the scene says how the cutter wears; none otherwise.
+    pub worn_by: Vec<ToothChip>,
 }
 
 /// What one space gives to the ledger.
@@ -112,7 +115,8 @@ impl ChipLedger {
             let stroke = &mut operations[chip.operation].strokes[chip.stroke as usize];
             stroke.add(chip, module_mm, pose.translation_mm + eccentricity_mm);
         }
-        Some(Self { operations, stations: polygon.stations, spacing_mm })
+        let worn_by = if job.wear.is_some() { chips } else { Vec::new() };
+        Some(Self { operations, stations: polygon.stations, spacing_mm, worn_by })
     }
 
     /// Area that an operation takes from the transverse section, mm^2.
@@ -170,6 +174,7 @@ pub(super) fn chips_of(space: &Space, forces: &[ElementForce]) -> SpaceChips {
             space: space.number,
             area_mm2,
             contact_mm: [0.0; 3],
+            edge: [PlaceContact::default(); EDGE_PLACES],
             thickest_mm: [0.0; 3],
             cutting_n: 0.0,
             side_force_n: DVec2::ZERO,

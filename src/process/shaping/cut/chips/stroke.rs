@@ -4,10 +4,20 @@ use super::oblique::ElementForce;
 use crate::process::shaping::tool::edge_polygon::{EdgeSide, Station};
 use gearcut_core::cut::LEAST_CHIP_MM;
 use gearcut_core::frame::Rigid2;
+use gearcut_core::passes::sections::swept_sections::EDGE_PLACES;
 use glam::DVec2;
 
 /// A side of the edge takes part in a chip when it is in contact over at least this share of the module.
 const SIDE_CONTACT_MODULES: f64 = 0.02;
+
+/// A place of the edge in a chip.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct PlaceContact {
+    /// Length of edge in contact, mm.
+    pub length_mm: f64,
+    /// The same times the uncut chip thickness, mm^2.
+    pub thick_mm2: f64,
+}
 
 /// Chip of one cutter tooth in one stroke.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -24,6 +34,8 @@ pub struct ToothChip {
     pub area_mm2: f64,
     /// Length of edge in contact: right, tip, left, mm.
     pub contact_mm: [f64; 3],
+    /// The same by places of wear.
+    pub edge: [PlaceContact; EDGE_PLACES],
     /// Largest uncut chip thickness: right, tip, left, mm; on flanks, where the corner of the tip is further away than
     /// that.
     pub thickest_mm: [f64; 3],
@@ -90,6 +102,9 @@ impl ToothChip {
             }
             let side = station.side as usize;
             self.contact_mm[side] += station.length_mm;
+            let place = &mut self.edge[station.wear_place];
+            place.length_mm += station.length_mm;
+            place.thick_mm2 += station.length_mm * thickness_mm;
             // Beside a corner the old surface is reached round it: a flank would show the thickness of the tip.
             if station.side == EdgeSide::Tip || thickness_mm.max(station.length_mm) < station.to_corner_mm {
                 self.thickest_mm[side] = self.thickest_mm[side].max(thickness_mm);

@@ -4,6 +4,7 @@ pub mod below_finished;
 pub mod closing;
 pub mod cmm;
 pub mod crossing;
+pub mod cutter_wear;
 pub mod flank_deflection;
 pub mod flank_report;
 pub mod gear_report;

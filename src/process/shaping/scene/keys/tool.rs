@@ -2,6 +2,7 @@
 
 use crate::scene::drawn_profile::TOLERANCE;
 use crate::scene::keys::{Default, Group, Key, KeySection, Kind, Range, Role};
+use crate::scene::tool_wear;
 
 /// Section of the edges' roughness.
 pub const EDGE_ROUGHNESS: &str = "tool.shaper_cutter.edge_roughness";
@@ -9,6 +10,8 @@ pub const EDGE_ROUGHNESS: &str = "tool.shaper_cutter.edge_roughness";
 pub const EDGE_ROUNDING: &str = "tool.shaper_cutter.edge_rounding";
 /// Section of what builds up on edges.
 pub const BUILT_UP_EDGE: &str = "tool.shaper_cutter.built_up_edge";
+/// Section of the cutter's wear.
+pub const WEAR: &str = "tool.shaper_cutter.wear";
 /// Section of a contour in place of involute teeth.
 pub const PROFILE: &str = "tool.shaper_cutter.profile";
 /// Keys of a built-up edge, each of which needs all others.
@@ -132,6 +135,7 @@ pub(super) static SECTIONS: &[KeySection] = &[
             point where the contour turns by more than 11.5 deg, or lies 20 um beside the chord of its neighbours, is \
             a corner and stays one.",
     ),
+    tool_wear::section(WEAR),
     KeySection {
         path: EDGE_ROUGHNESS,
         role: Role::Plain,
