@@ -82,12 +82,11 @@ fn put(root: &mut Node, table: &KeyTable, names: &[&str], value: Node, name_at: 
 /// Takes out of a table what the file says otherwise about the same choice as `name`.
 fn displace(entries: &mut Vec<KeyValue>, table: &KeyTable, section: &TableSection, name: &str) {
     let is_choice = matches!(section.role, Role::Choice { .. });
-    let group = section.group_of(name);
     entries.retain(|entry| {
         let rival = if is_choice {
             table.children(section).any(|child| child.name() == entry.name)
         } else {
-            group.is_some_and(|group| group.names.contains(&entry.name.as_str()))
+            section.groups.iter().any(|group| [name, &entry.name].iter().all(|key| group.names.contains(key)))
         };
         entry.name == name || !rival || matches!(entry.name_at, At::Set(..))
     });

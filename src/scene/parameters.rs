@@ -7,7 +7,7 @@ use gearcut_core::parameter as of;
 /// Section of pitch curves.
 const CURVE: &str = "gear.pitch_curve.";
 
-const KEYS: [(&str, &str); 40] = [
+const KEYS: [(&str, &str); 41] = [
     (of::MODULE, "gear.module_mm"),
     (of::ADDENDUM, "gear.addendum_coefficient"),
     (of::FACE_WIDTH, "gear.face_width_mm"),
@@ -45,6 +45,7 @@ const KEYS: [(&str, &str); 40] = [
     (of::TIP_WIDTH, "tool.face_mill.tip_width_mm"),
     (of::CORNER_RADIUS, "tool.face_mill.corner_radius_mm"),
     (of::CRADLE, "machine.cradle"),
+    (of::BLANK_OFFSET, "machine.cradle.blank_offset_mm"),
     (of::SLIDING_BASE, "machine.cradle.sliding_base_mm"),
     (of::MACHINE_ROOT_ANGLE, "machine.cradle.root_angle_deg"),
     (of::RAY_SPACING, "fields.blank.spacing_mm"),

@@ -6,7 +6,7 @@
 
 use super::check::check;
 use super::errors::MOST_PROBLEMS;
-use super::keys::{self, Default, Key, Role, join};
+use super::keys::{self, Default, Group, Key, Role, join};
 use super::overrides::default_name;
 use super::problems::Problems;
 use super::shop_words;
@@ -96,6 +96,11 @@ impl<'a> Walk<'a, '_> {
             Some(own) => own.knows(&path),
             None => self.table.processes().iter().all(|process| KeyTable::new(&[process]).knows(&path)),
         }
+    }
+
+    /// Whether it has a group of keys.
+    fn asks_for_group(&self, section: &TableSection, group: &Group) -> bool {
+        group.names.iter().filter_map(|name| section.key(name)).any(|key| self.asks_for(section, key))
     }
 
     /// Checks the elements of a list of tables.
@@ -224,7 +229,7 @@ impl<'a> Walk<'a, '_> {
                     format!("`{}` and `{}` say the same thing twice", first.name, second.name),
                     format!("keep one and remove the other: {}", names()),
                 );
-            } else if written.is_empty() && group.required {
+            } else if written.is_empty() && group.required && self.asks_for_group(section, group) {
                 let at = self.values.place_of(&join(path, ""));
                 self.problems.add(
                     &at,

@@ -54,6 +54,7 @@ parameters! {
     TIP_WIDTH = "tip width of the blades",
     CORNER_RADIUS = "corner radius of the blades",
     CRADLE = "settings of the cradle",
+    BLANK_OFFSET = "blank offset",
     SLIDING_BASE = "sliding base",
     MACHINE_ROOT_ANGLE = "root angle of the machine",
     RAY_SPACING = "spacing of the blank's rays",

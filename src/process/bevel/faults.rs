@@ -156,9 +156,6 @@ impl BevelJob {
     /// cone, mm; positive where the slot is too shallow. The plane cuts deepest along the generatrix in the plane of
     /// the axes.
     pub fn depth_missed_mm(&self) -> f64 {
-        let settings = &self.finishing().settings;
-        let mean_mm = self.blank.mean_cone_distance_mm();
-        let root = self.blank.axial_mm([mean_mm, -self.blank.dedendum_mm(mean_mm)]);
-        settings.short_of_mm(root)
+        self.finishing().settings.short_of_mm(self.blank.mean_root_mm())
     }
 }

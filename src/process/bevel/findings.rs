@@ -17,8 +17,8 @@ use super::quantities::{
     IDLE_SHARE, INFEED, INFERRED_RADIUS, INFERRED_RATIO, INFERRED_SPIRAL, LARGEST_ERROR, MARK_HEIGHT, MARK_SPACING,
     MARKS, MISSED_DEPTH, MODIFIED_C, MODIFIED_D, NO_GRID, NO_MARKS, NO_SLOT, NOTHING_TO_EXPLAIN, ORDER, PLUNGE_WAY,
     POSITION, PRESSURE, RADIAL, RADIUS_SOURCE, ROLL_FROM, ROLL_RATIO, ROLL_TO, ROOT_ANGLE, SETTING, SETTING_ERROR,
-    SETTINGS, SLIDING_BASE, SLOT_DEPTH, SLOT_TIME, SLOT_WIDTH, SPIRAL, SWIVEL, THICKNESS, TILT, UNEXPLAINED,
-    WHOLE_DEPTH,
+    SETTINGS, SETTINGS_SOURCE, SLIDING_BASE, SLOT_DEPTH, SLOT_TIME, SLOT_WIDTH, SPIRAL, SWIVEL, THICKNESS, TILT,
+    UNEXPLAINED, WHOLE_DEPTH,
 };
 use super::scene::model::SlotFeed;
 use crate::findings::quantities::OPERATIONS;
@@ -135,6 +135,7 @@ fn settings(job: &BevelJob) -> Section {
         .then(|| [TILT.of(of.tilt.tilt_rad.to_degrees()), SWIVEL.of(of.tilt.swivel_rad.to_degrees())]);
     SETTINGS
         .section([
+            SETTINGS_SOURCE.of(job.spec.settings_source()),
             RADIAL.of(of.radial_setting_mm),
             CRADLE.of(of.cradle_angle_rad.to_degrees()),
             BLANK_OFFSET.of(of.blank_offset_mm),

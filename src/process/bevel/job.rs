@@ -33,9 +33,6 @@ use glam::{DMat3, DVec3};
 use std::f64::consts::PI;
 use std::sync::OnceLock;
 
-/// Key of the tilt, and the most that head and root angle lean together: at a right angle A and C are one turn.
-const TILT_KEY: &str = "machine.cradle.tilt_deg";
-const LARGEST_LEAN_RAD: f64 = 89.5 * PI / 180.0;
 /// Turns of the head before it can meet the blank at which a plunge begins: the first turn's blades end within.
 const CLEAR_TURNS: f64 = 1.5;
 /// Cradle angle that is rolled beyond what the flanks need, at either end, where the scene does not name the roll: some
@@ -99,11 +96,7 @@ impl BevelJob {
             return Err(Refusal::new("tool", "this tool does not cut bevel gears", "write [tool.face_mill]").into());
         };
         let blank = blank(scene, spec)?;
-        let mut settings = spec.settings.cradle;
-        settings.root_angle_rad = spec.settings.root_angle_rad.unwrap_or(blank.root_angle_rad);
-        let inferred = InferredCutter::new(&settings, &blank);
-        settings.roll.ratio = spec.settings.roll_ratio.unwrap_or(inferred.roll_ratio);
-        tilted(&settings)?;
+        let (settings, inferred) = spec.settings_on(&blank)?;
         let mut head = head(spec, &blank, &inferred);
         let held_back =
             |offset_mm: f64| CradleSettings { sliding_base_mm: settings.sliding_base_mm - offset_mm, ..settings };
@@ -121,7 +114,7 @@ impl BevelJob {
                 let prepared = PreparedBevel {
                     spec: operation.clone(),
                     settings: held_back(operation.offset_mm),
-                    as_set: with_errors(spec, &held_back(operation.offset_mm)),
+                    as_set: spec.with_errors(&held_back(operation.offset_mm)),
                     course: course(operation, &held_back(operation.offset_mm), &blank, needed_rad),
                     start_s,
                     program: operation.program.as_deref().map(|path| read_file(path, read)).transpose()?,
@@ -238,32 +231,6 @@ fn head(spec: &Bevel, blank: &BevelBlank, inferred: &InferredCutter) -> FaceMill
         runouts_mm,
         half_window_rad: PI,
     }
-}
-
-/// Settings with the machine's errors.
-fn with_errors(spec: &Bevel, settings: &CradleSettings) -> CradleSettings {
-    spec.settings.errors.iter().fold(*settings, |settings, (setting, error)| setting.off_by(*error, &settings))
-}
-
-/// Refuses tilts that no machine here cuts with.
-fn tilted(settings: &CradleSettings) -> Result<(), Refusal> {
-    let tilt_rad = settings.tilt.tilt_rad;
-    if tilt_rad != 0.0 && settings.plunges() {
-        return Err(Refusal::new(
-            TILT_KEY,
-            "a tilted head does not plunge: its shallower cones do not lie within the one at full depth",
-            "lean the work by machine.cradle.root_angle_deg, or give a ratio of roll",
-        ));
-    }
-    if tilt_rad != 0.0 && settings.root_angle_rad + tilt_rad > LARGEST_LEAN_RAD {
-        let [lean, most] = [settings.root_angle_rad + tilt_rad, LARGEST_LEAN_RAD].map(f64::to_degrees);
-        return Err(Refusal::new(
-            TILT_KEY,
-            format!("with the root angle the head may lean {lean:.3} deg: it would run along the axis of the work"),
-            format!("keep tilt and root angle together below {most} deg"),
-        ));
-    }
-    Ok(())
 }
 
 /// A slot's motion.

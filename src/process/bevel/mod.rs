@@ -28,6 +28,7 @@ pub mod quantities;
 mod report;
 mod run;
 pub mod scene;
+mod settings;
 pub mod slots;
 mod stage_costs;
 mod surfaces;

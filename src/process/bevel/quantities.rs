@@ -58,6 +58,7 @@ rows! {
     /// Settings as they hold, and what they say of the cutter.
     SETTINGS: "settings", "Settings of the machine", "settings";
 
+    SETTINGS_SOURCE: "settings_source", "", "origin of radial setting, cradle angle and what follows from them";
     RADIAL: "radial_setting", "mm", "distance of the head's axis from the cradle's" => symbol("S_r");
     CRADLE: "cradle_angle", "deg", "cradle angle in the middle of the roll, or where the cradle rests" => symbol("q");
     BLANK_OFFSET: "blank_offset", "mm", "offset of the work's axis from the cradle's" => symbol("E_m");

@@ -14,4 +14,5 @@ mod oracle;
 mod pair;
 mod program_under_test;
 mod refusals;
+mod spiral_angle;
 mod tilt;

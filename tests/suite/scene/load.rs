@@ -332,6 +332,10 @@ fn everything_in_the_template_can_be_switched_on() {
                         // Of gears alone that are not generated.
                         whole = whole.replacen("#roll_ratio = 1.13", "roll_ratio = 0.0", 1);
                     }
+                    if name(key) == "spiral_angle_deg" {
+                        // In place of both, and for a known head.
+                        whole = whole.replacen("#radius_mm = ", "radius_mm = ", 1);
+                    }
                     if ["sector_deg", "dwell_radius_mm"].contains(&name(key)) {
                         // A sector is cut in one swing at depth.
                         whole = whole.replacen("\n[operation.infeed.spiral]", "\n[operation.infeed.none]", 1);
@@ -429,8 +433,12 @@ fn name(line: &str) -> &str {
 
 /// Keys that exclude this one.
 fn rivals(name: &str) -> impl Iterator<Item = &'static str> {
-    let groups = table().sections().iter().filter_map(move |section| section.group_of(name));
-    groups.flat_map(|group| group.names).copied().filter(move |rival| *rival != name)
+    let groups = table().sections().iter().flat_map(|section| &section.groups);
+    groups
+        .filter(move |group| group.names.contains(&name))
+        .flat_map(|group| group.names)
+        .copied()
+        .filter(move |rival| *rival != name)
 }
 
 /// What of a template cannot be left out: gear and tool with the keys that must be written.

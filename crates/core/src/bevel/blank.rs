@@ -130,6 +130,12 @@ impl BevelBlank {
         DVec2::from_angle(self.pitch_angle_rad).rotate(DVec2::new(cone_distance_mm, height_mm))
     }
 
+    /// Place of the axial section on the root cone in the middle of the face, mm.
+    pub fn mean_root_mm(&self) -> DVec2 {
+        let mean_mm = self.mean_cone_distance_mm();
+        self.axial_mm([mean_mm, -self.dedendum_mm(mean_mm)])
+    }
+
     /// Cone distance and height of a point of the work frame, mm.
     pub fn cone_distance_and_height_mm(&self, point_mm: DVec3) -> [f64; 2] {
         let section = DVec2::new(point_mm.x, point_mm.yz().length());

@@ -77,13 +77,14 @@ fn head(head: View<'_>) -> Option<HeadSpec> {
 
 fn settings(cradle: View<'_>, errors: View<'_>) -> Option<SettingsSpec> {
     let (root_angle_rad, roll_ratio) = (cradle.rad("root_angle_deg"), cradle.number("roll_ratio"));
+    let (spiral_angle_rad, sliding_base_mm) = (cradle.rad("spiral_angle_deg"), cradle.number("sliding_base_mm"));
     Some(SettingsSpec {
         cradle: CradleSettings {
-            radial_setting_mm: cradle.number("radial_setting_mm")?,
-            cradle_angle_rad: cradle.rad("cradle_angle_deg")?,
+            radial_setting_mm: cradle.number("radial_setting_mm").unwrap_or_default(),
+            cradle_angle_rad: cradle.rad("cradle_angle_deg").unwrap_or_default(),
             blank_offset_mm: cradle.number("blank_offset_mm")?,
             cross_shift_mm: cradle.number("cross_shift_mm")?,
-            sliding_base_mm: cradle.number("sliding_base_mm")?,
+            sliding_base_mm: sliding_base_mm.unwrap_or_default(),
             center_to_back_mm: cradle.number("center_to_back_mm")?,
             root_angle_rad: root_angle_rad.unwrap_or_default(),
             tilt: Tilt { tilt_rad: cradle.rad("tilt_deg")?, swivel_rad: cradle.rad("swivel_deg")? },
@@ -93,6 +94,8 @@ fn settings(cradle: View<'_>, errors: View<'_>) -> Option<SettingsSpec> {
                 third_order_per_rad2: cradle.number("modified_roll_d")?,
             },
         },
+        spiral_angle_rad,
+        sliding_base_mm,
         root_angle_rad,
         roll_ratio,
         errors: [

@@ -78,7 +78,7 @@ pub static SCENE: SceneProcess = SceneProcess {
     senseless: &[
         without("gear.kind", "the pitch angle says where the teeth are", "remove it"),
         without("gear.helix_angle_deg", "the machine's settings make the spiral", "remove it"),
-        without("gear.hand", "the sign of machine.cradle.cradle_angle_deg chooses the hand", "remove it"),
+        without("gear.hand", "the sign of the spiral angle or cradle angle chooses the hand", "remove it"),
         without("gear.addendum_coefficient", "the addendum is a key of [gear.bevel]", "write gear.bevel.addendum_mm"),
         without("gear.profile_shift_coefficient", "the settings make the teeth", "remove it"),
         without("gear.bore_diameter_mm", "the body is the toothed ring", "remove it"),
@@ -137,6 +137,7 @@ fn plunges(values: &Values) -> bool {
 fn check(found: &mut Found<'_, '_, '_>) {
     let _: Option<()> = runouts(found);
     rolls(found);
+    spiral_angle(found);
     keys_of_the_other_way(found);
     machine_errors::check(found, &keys::AXES);
     machine_errors::check_noise_in_time(found, &keys::AXES, "a face-mill head");
@@ -160,6 +161,27 @@ fn rolls(found: &mut Found) {
         let message = || format!("the roll from {} to {} deg has no length", from.unwrap_or(0.0), to.unwrap_or(0.0));
         let wrong = from.is_some() && from == to;
         found.blame(wrong, &format!("{path}.roll_to_deg"), message, "make the ends differ");
+    }
+}
+
+/// A spiral angle gives the settings of an upright head of known radius on a crown gear about the machine's centre.
+fn spiral_angle(found: &mut Found) {
+    let (path, radius) = ("machine.cradle.spiral_angle_deg", "radius_mm");
+    let cradle = found.view("machine.cradle");
+    if cradle.number("spiral_angle_deg").is_none() {
+        return;
+    }
+    let unknown = !found.values.is_written(HEAD, radius);
+    let message = || format!("`{path}` gives no settings without a cutter radius");
+    found.blame(unknown, path, message, "write tool.face_mill.radius_mm, the mean radius of the head");
+    let is_set = |key: &&str| cradle.number(key).is_some_and(|number| number != 0.0);
+    for key in ["tilt_deg", "swivel_deg", "cross_shift_mm", "center_to_back_mm"].into_iter().filter(is_set) {
+        let key = join("machine.cradle", key);
+        let message = || {
+            format!("`{key}`: the settings of a spiral angle are those of an upright head about the machine's centre")
+        };
+        let way_out = "remove it, or write radial_setting_mm and cradle_angle_deg in place of spiral_angle_deg";
+        found.blame(true, &key, message, way_out);
     }
 }
 

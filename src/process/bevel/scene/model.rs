@@ -92,8 +92,12 @@ pub struct HeadSpec {
 /// Settings as the scene names them.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SettingsSpec {
-    /// Settings; the root angle and the ratio of roll count only where they are given.
+    /// Settings; those below count only where they are given.
     pub cradle: CradleSettings,
+    /// Mean spiral angle, where given in place of radial setting and cradle angle, rad; positive: right-hand.
+    pub spiral_angle_rad: Option<f64>,
+    /// Sliding base, where given, mm.
+    pub sliding_base_mm: Option<f64>,
     /// The machine's root angle, where given, rad.
     pub root_angle_rad: Option<f64>,
     /// Ratio of roll, where given.

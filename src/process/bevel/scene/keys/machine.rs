@@ -2,7 +2,7 @@
 
 use crate::machine::AxisKind;
 use crate::scene::keys::machine_errors::{WORK, X, Y, linear, rotary};
-use crate::scene::keys::{Default, Key, KeySection, Kind, Range, Role};
+use crate::scene::keys::{Default, Group, Key, KeySection, Kind, Range, Role};
 
 /// Axes with errors, by the last names of their sections, in the machine's order.
 pub const AXES: [(&str, AxisKind); 5] = [
@@ -25,15 +25,15 @@ const fn end(name: &'static str, unit: &'static str, example: &'static str, teac
 
 /// `[machine.cradle]`, `[machine.cradle_errors]`, `[machine.five_axis]`, `[machine.bevel_limits]`.
 pub(super) static SECTIONS: &[KeySection] = &[
-    KeySection::new(
-        "machine.cradle",
-        Role::Plain,
-        &[
+    KeySection {
+        path: "machine.cradle",
+        role: Role::Plain,
+        keys: &[
             Key {
                 name: "radial_setting_mm",
                 kind: Kind::Number(Range::above(0.0, 1000.0)),
                 unit: "mm",
-                default: Default::Required,
+                default: Default::OneOfGroup,
                 example: "47.0",
                 teach: "Radial setting S_r: distance of the head's axis from the cradle's.",
             },
@@ -41,13 +41,30 @@ pub(super) static SECTIONS: &[KeySection] = &[
                 name: "cradle_angle_deg",
                 kind: Kind::Number(Range::closed(-180.0, 180.0)),
                 unit: "deg",
-                default: Default::Required,
+                default: Default::OneOfGroup,
                 example: "58.0",
-                teach: "Cradle angle q in the middle of the roll, or at rest; its sign chooses the hand of the spiral.",
+                teach: "Cradle angle q in the middle of the roll, or at rest; its sign chooses the hand of the spiral, \
+                    positive is right-hand.",
+            },
+            Key {
+                name: "spiral_angle_deg",
+                kind: Kind::Number(Range::closed(-60.0, 60.0)),
+                unit: "deg",
+                default: Default::OneOfGroup,
+                example: "35.0",
+                teach: "Mean spiral angle in place of radial setting and cradle angle: both follow from it, the blank \
+                    and tool.face_mill.radius_mm. Positive is right-hand; 0 is a Zerol gear.",
             },
             length("blank_offset_mm", "0.0", "Blank offset E_m; 0 on spiral bevel gears."),
             length("cross_shift_mm", "0.0", "X_B as the five-linkage paper draws it, along the machine's x axis."),
-            length("sliding_base_mm", "0.0", "Sliding base: how much deeper the head is set along the cradle's axis."),
+            Key::optional(
+                "sliding_base_mm",
+                "mm",
+                Range::closed(-500.0, 500.0),
+                "0; with spiral_angle_deg what brings the blades' tips to the root cone",
+                "0.0",
+                "Sliding base: how much deeper the head is set along the cradle's axis.",
+            ),
             length("center_to_back_mm", "0.0", "Machine centre to back X_p: how far the work is set back."),
             Key::optional(
                 "root_angle_deg",
@@ -101,8 +118,12 @@ pub(super) static SECTIONS: &[KeySection] = &[
                 "Coefficient D of the modified roll, per rad squared.",
             ),
         ],
-        "Settings of a cradle machine for bevel gears; the six-axis machine follows from them.",
-    ),
+        groups: &[
+            Group { names: &["radial_setting_mm", "spiral_angle_deg"], required: true },
+            Group { names: &["cradle_angle_deg", "spiral_angle_deg"], required: true },
+        ],
+        teach: "Settings of a cradle machine for bevel gears; the six-axis machine follows from them.",
+    },
     KeySection::new(
         "machine.cradle_errors",
         Role::Plain,
