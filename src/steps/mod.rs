@@ -12,6 +12,7 @@ pub mod conclusion;
 pub mod cut_flanks;
 pub mod forecast;
 pub mod foreseen;
+pub mod frames;
 pub mod gear_maps;
 pub mod gear_surfaces;
 pub mod inspection;

@@ -22,6 +22,7 @@ pub mod gear_solid;
 pub mod mesh;
 pub mod outline;
 pub mod plane_area;
+pub mod prism;
 pub mod render;
 pub mod triangles;
 

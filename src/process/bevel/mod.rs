@@ -58,7 +58,9 @@ pub static PROCESS: Process = Process {
 impl super::ProcessJob for BevelJob {
     fn cut(&self, tools: &Tools, frames: Option<u32>) -> Result<CutDone> {
         if frames.is_some() {
-            tools.progress.note("no frames are drawn: pictures of the cut as it happens exist for shaping only");
+            tools
+                .progress
+                .note("no frames are drawn: pictures of the cut as it happens are those of shaping and hobbing");
         }
         run::run(self, tools)
     }

@@ -5,6 +5,7 @@ pub mod axes_report;
 pub mod blank;
 pub mod check;
 pub mod commanded;
+pub mod cut_section;
 pub mod cutter;
 pub mod drawn_rack;
 pub mod flank_patch;
@@ -59,10 +60,7 @@ pub static PROCESS: Process = Process {
 
 impl ProcessJob for HobbingJob {
     fn cut(&self, tools: &Tools, frames: Option<u32>) -> Result<CutDone> {
-        if frames.is_some() {
-            tools.progress.note("no frames are drawn: pictures of the cut as it happens exist for shaping only");
-        }
-        run::run(self, tools)
+        run::run(self, tools, frames)
     }
 
     fn check(&self, sheet: &mut Sheet) -> Result<Vec<Notice>> {

@@ -15,9 +15,11 @@ use crate::findings::Findings;
 use crate::output::table::write_tables;
 use crate::process::CutDone;
 use crate::process::hobbing::axes_report::HobbingAxesReport;
+use crate::process::hobbing::cut_section::HobbedSection;
 use crate::process::hobbing::stage_costs::STAGE_COSTS;
 use crate::process::hobbing::{HobCutter, HobbingJob};
 use crate::steps::attempts::Attempts;
+use crate::steps::frames::draw;
 use crate::steps::inspection::Inspected;
 use crate::steps::meshes::ClosedBodies;
 use crate::steps::parts::Part;
@@ -28,14 +30,14 @@ use crate::texture;
 use gearcut_core::error::Result;
 use rayon::prelude::*;
 
-/// Cuts a job and writes everything.
+/// Cuts a job and writes everything; `frames` is how many pictures of the cut as it happens are drawn.
 ///
 /// # Errors
 /// Geometry, the backend, files. Ctrl-C is no error once a flank is finished.
-pub(super) fn run(job: &HobbingJob, tools: &Tools) -> Result<CutDone> {
+pub(super) fn run(job: &HobbingJob, tools: &Tools, frames: Option<u32>) -> Result<CutDone> {
     let Tools { resolved, backend, backend_why, progress, interrupt, folder, parts, stages: wanted, notes } = *tools;
     let cutter = HobCutter::new(job)?;
-    progress.plan(stages::plan(&cutter, parts, None, &STAGE_COSTS));
+    progress.plan(stages::plan(&cutter, parts, frames, &STAGE_COSTS));
     let motion = HobbingAxesReport::of_job(job);
     let foreseen = foresee(&cutter, &motion, wanted)?;
     let windows = foreseen.windows.as_slice();
@@ -95,6 +97,10 @@ pub(super) fn run(job: &HobbingJob, tools: &Tools) -> Result<CutDone> {
         let bodies = || bodies(&cutter, flanks, tools);
         let drawn = write_meshes_and_pictures(&cutter, tools, &mut attempts, (&gear.pictured, &gear.maps), bodies)?;
         gear.work.interrupted = !drawn;
+        if let Some(count) = frames {
+            let draw = || draw(&mut HobbedSection::new(&cutter)?, &job.scene.name, count, tools);
+            gear.work.interrupted |= attempts.of("frames", draw())? == Some(false);
+        }
     }
     if parts.has(Part::Axes) {
         for operation in &motion {

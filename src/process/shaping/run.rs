@@ -6,18 +6,21 @@ mod chip_files;
 mod files;
 mod frames;
 
+use self::frames::ShapedFrames;
 use super::gear::cut_gear;
 use super::gear::measure::{cmm, cutter_wear};
 use crate::findings::Findings;
 use crate::process::CutDone;
 use crate::process::shaping::ShapingJob;
 use crate::process::shaping::axes_report::OperationAxes;
+use crate::process::shaping::cut::section::CutSection;
 use crate::process::shaping::findings::foreseen::foresee;
 use crate::process::shaping::findings::warnings;
 use crate::process::shaping::scene::model::Shaping;
 use crate::process::shaping::stage_costs::STAGE_COSTS;
 use crate::process::shaping::{findings, report};
 use crate::steps::attempts::Attempts;
+use crate::steps::frames::draw;
 use crate::steps::inspection::Inspected;
 use crate::steps::inspection::headline::quality;
 use crate::steps::parts::{Part, Stage};
@@ -92,11 +95,8 @@ pub(super) fn run(job: &ShapingJob, tools: &Tools, frames: Option<u32>) -> Resul
             meshes::gear(job, tools.backend, flanks, roots, progress).map(Some)
         })?;
         if let Some(count) = frames {
-            let drawn = attempts.of("frames", frames::draw(job, count, progress, interrupt, folder))?;
-            if let Some(drawn) = drawn.filter(|&drawn| drawn < count) {
-                progress.note(&format!("stopped: {drawn} of {count} frames are drawn"));
-                interrupted = true;
-            }
+            let draw = || draw(&mut ShapedFrames(job, CutSection::new(job)?), &job.scene.name, count, tools);
+            interrupted |= attempts.of("frames", draw())? == Some(false);
         }
     }
     let words = RunWords { resolved_scene: resolved, backend: &backend.name_in_files(), backend_why };

@@ -9,6 +9,7 @@ mod evaluated;
 mod feed_marks;
 mod force;
 mod foreseen_chips;
+mod frames;
 mod gcode;
 mod hollow;
 mod kept;

@@ -7,6 +7,7 @@ use gearcut::cut::cpu::Cpu;
 use gearcut::process;
 use gearcut::process::shaping::ShapingJob;
 use gearcut::process::shaping::cut::section::{CutSection, cutter_solid};
+use gearcut::steps::frames::section_body;
 use gearcut::steps::gear_surfaces::complete;
 use gearcut::surface::gear_solid::gear_solid;
 use gearcut::surface::outline::{BODY_MM, Outline};
@@ -86,7 +87,7 @@ fn the_body_is_as_large_as_clipping_says() {
     section.advance(strokes / 3);
     let half_way_mm2 = section.area_mm2();
     section.advance(strokes);
-    let drawn = section.solid(DVec2::from_angle(0.3));
+    let drawn = section_body(section.field(), DVec2::from_angle(0.3));
     println!("{:.4} mm^2 on rays, {half_way_mm2:.4} after a third of the strokes", section.area_mm2());
     assert!((section.area_mm2() - clipped_mm2).abs() < 0.7 && half_way_mm2 > section.area_mm2() + 10.0);
     assert!(drawn.is_closed(), "{:?}", drawn.edge_faults());

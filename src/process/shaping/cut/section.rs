@@ -8,12 +8,12 @@
 //! Chords of the drawn cutter lie within `CHORD_MM` of its edge, far below a pixel.
 
 use crate::process::shaping::ShapingJob;
-use crate::surface::BlankMesh;
-use crate::surface::mesh::{Mesh, MeshPart};
-use crate::surface::plane_area::{sides_of_contours, triangles_inside};
+use crate::steps::whole_blank;
+use crate::surface::mesh::Mesh;
+use crate::surface::prism::prism;
 use gearcut_core::cut::BlankOperation;
 use gearcut_core::cut::cpu::blank;
-use gearcut_core::dexel::{BlankField, BlankGrid};
+use gearcut_core::dexel::BlankField;
 use gearcut_core::error::Refusal;
 use gearcut_core::frame::Rigid2;
 use gearcut_core::gear::blank_outline::BlankOutline;
@@ -44,12 +44,7 @@ impl<'a> CutSection<'a> {
     /// # Errors
     /// A field that does not fit in memory.
     pub fn new(job: &'a ShapingJob) -> Result<Self, Refusal> {
-        let outline = BlankOutline::new(&job.blank);
-        let gear = &job.scene.gear;
-        let spacing_mm = job.scene.fields.blank_spacing_mm;
-        let grid = BlankGrid::new(&job.blank, &outline, gear.face_width_mm, spacing_mm, None)?;
-        let field = BlankField::new(grid, &outline);
-        Ok(Self { job, field, done: 0 })
+        Ok(Self { job, field: whole_blank::field(&job.scene, &job.blank, true)?, done: 0 })
     }
 
     /// Strokes of all operations together.
@@ -111,13 +106,9 @@ impl<'a> CutSection<'a> {
         0.5 * (x + y)
     }
 
-    /// The section as a body over the whole face, turned by an angle about the gear's axis.
-    pub fn solid(&self, turn: DVec2) -> Mesh {
-        let mut mesh = BlankMesh::new(&self.field, None).mesh;
-        for position in &mut mesh.positions_mm {
-            *position = turn.rotate(position.truncate()).extend(position.z);
-        }
-        mesh
+    /// What is left.
+    pub fn field(&self) -> &BlankField {
+        &self.field
     }
 }
 
@@ -132,33 +123,13 @@ pub fn cutter_outline(job: &ShapingJob, chord_mm: f64) -> Vec<DVec2> {
 
 /// The whole cutter as a body between two heights, placed in the plane.
 pub fn cutter_solid(job: &ShapingJob, [low_mm, high_mm]: [f64; 2], place: &Rigid2) -> Mesh {
-    let mut points_mm = cutter_outline(job, CHORD_MM);
-    let lengths = [points_mm.len(), BORE_CORNERS];
-    let bore_mm = 0.35 * job.cutter.pitch_radius_mm;
-    let corner = |i: usize| bore_mm * DVec2::from_angle(TAU * i as f64 / BORE_CORNERS as f64);
-    points_mm.extend((0..BORE_CORNERS).rev().map(corner));
-    for point in &mut points_mm {
-        *point = place.point(*point);
-    }
-    prism(&points_mm, &sides_of_contours(&lengths), [low_mm, high_mm])
+    prism(&cutter_contours(job, place), [low_mm, high_mm])
 }
 
-/// Walls and two ends over the sides of contours (outer ones counter-clockwise, holes clockwise).
-fn prism(points_mm: &[DVec2], sides: &[[usize; 2]], ends_mm: [f64; 2]) -> Mesh {
-    let total = points_mm.len() as u32;
-    let positions_mm = ends_mm.iter().flat_map(|&z| points_mm.iter().map(move |p| p.extend(z))).collect();
-    let mut triangles: Vec<[u32; 3]> = Vec::new();
-    for side in sides {
-        let [a, b] = side.map(|i| i as u32);
-        triangles.extend([[a, b, b + total], [a, b + total, a + total]]);
-    }
-    let walls = triangles.len();
-    // Contours that cross have no ends; the chord between two teeth is far longer than pitch errors.
-    for triangle in triangles_inside(points_mm, sides).unwrap_or_default() {
-        let [a, b, c] = triangle.map(|i| i as u32);
-        triangles.extend([[a, c, b], [a + total, b + total, c + total]]);
-    }
-    let part = |name: &str, triangles| MeshPart { name: name.to_owned(), triangles, measured: false };
-    let parts = vec![part("wall", 0..walls), part("ends", walls..triangles.len())];
-    Mesh { positions_mm, triangles, parts, ..Mesh::default() }
+/// The whole cutter and its bore, placed in the plane, mm.
+pub fn cutter_contours(job: &ShapingJob, place: &Rigid2) -> Vec<Vec<DVec2>> {
+    let bore_mm = 0.35 * job.cutter.pitch_radius_mm;
+    let corner = |i: usize| bore_mm * DVec2::from_angle(TAU * i as f64 / BORE_CORNERS as f64);
+    let contours = [cutter_outline(job, CHORD_MM), (0..BORE_CORNERS).rev().map(corner).collect()];
+    contours.into_iter().map(|contour| contour.into_iter().map(|point| place.point(point)).collect()).collect()
 }

@@ -229,6 +229,12 @@ impl SweptSections {
         &self.outlines[pass.edge]
     }
 
+    /// Ids of the passes whose tip comes within `reach_mm` of the gear's axis in the slice at `z_mm`, in order of time.
+    pub fn ids_through(&self, z_mm: f64, reach_mm: f64) -> Vec<u32> {
+        let comes_near = |pass: &&Sweeping| self.tip_at(pass, z_mm, 0.0).is_some_and(|tip| tip.length() <= reach_mm);
+        self.passes.iter().filter(comes_near).map(|pass| pass.pass).collect()
+    }
+
     /// Half the travel along the tool's circumference direction that the tip goes through before it is behind the
     /// blank, mm.
     fn half_travel_mm(&self, outline: &EdgeOutline) -> f64 {
@@ -349,6 +355,14 @@ pub(super) fn sagitta_mm(nodes_mm: [DVec2; 2], rates_mm: &[DVec2; 2]) -> f64 {
 }
 
 impl SweptSection {
+    /// The curve by chords, so many in each of its pieces, mm.
+    pub fn outline_mm(&self, chords: u32) -> Vec<DVec2> {
+        let share = |chord: u32| f64::from(chord) / f64::from(chords);
+        let of_piece = |law: u32| (0..chords).map(move |chord| self.place(law, share(chord))[0]);
+        let cut = (0..self.rates_mm.len() as u32).flat_map(of_piece);
+        cut.chain(self.nodes_mm[self.rates_mm.len()..].iter().copied()).collect()
+    }
+
     /// Range of the section across the rays of a family, mm.
     pub fn across_mm(&self, family: Family) -> [f64; 2] {
         let tolerance = self.pieces.iter().map(|piece| piece.sagitta_mm).fold(0.0, f64::max);
