@@ -89,18 +89,17 @@ fn print_head(sheet: &mut Sheet, job: &BevelJob) {
     sheet.heading("Head and settings");
     let source = if job.spec.head.radius_mm.is_some() { "given" } else { "inferred from the settings" };
     sheet.line("mean radius", format!("{:.4} mm, {source}", head.radius_mm));
-    let mm = |name: &str, mm: f64| format!("{name} {mm:.4} mm, ");
     sheet.line(
         "settings",
         format!(
-            "{}cradle angle {:.4} deg, {}machine root angle {:.4} deg, {}",
-            mm("radial setting", settings.radial_setting_mm),
+            "radial setting {:.4} mm, cradle angle {:.4} deg, sliding base {:.4} mm, root angle {:.4} deg",
+            settings.radial_setting_mm,
             settings.cradle_angle_rad.to_degrees(),
-            mm("sliding base", settings.sliding_base_mm),
-            settings.root_angle_rad.to_degrees(),
-            job.spec.settings_source()
+            settings.sliding_base_mm,
+            settings.root_angle_rad.to_degrees()
         ),
     );
+    sheet.line("settings are", job.spec.settings_source());
     sheet.line(
         "settings say",
         format!(
