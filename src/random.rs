@@ -27,7 +27,7 @@ impl Draws {
     }
 
     /// Numbers spread evenly above 0 and up to 1, one after the other.
-    pub fn even(&self, which: [i64; 2]) -> impl FnMut() -> f64 + use<> {
+    pub fn even(self, which: [i64; 2]) -> impl FnMut() -> f64 + use<> {
         let mut key = [0; 32];
         let words = [i64::from(self.seed), i64::from(self.source), which[0], which[1]];
         for (bytes, word) in key.chunks_exact_mut(8).zip(words) {
@@ -39,7 +39,7 @@ impl Draws {
     }
 
     /// A number of mean 0 and variance 1.
-    pub fn normal(&self, which: [i64; 2]) -> f64 {
+    pub fn normal(self, which: [i64; 2]) -> f64 {
         let mut even = self.even(which);
         let (radius, turn) = ((-2.0 * even().ln()).sqrt(), even());
         radius * (TAU * turn).cos()

@@ -38,7 +38,7 @@ impl Digits {
 
     /// A position, rad or mm, as a reader of its digits takes it back.
     pub fn rounded(self, kind: AxisKind, position: f64) -> f64 {
-        kind.from_shown(Self::round(kind.shown(position), self.of(kind)))
+        kind.read(Self::round(kind.shown(position), self.of(kind)))
     }
 
     /// A value as it is written.

@@ -115,7 +115,7 @@ impl<const N: usize> Reader<'_, N> {
         if let Some(axis) = self.position.iter().position(Option::is_none) {
             return Err(format!("axes move before axis {} has a position", self.axes[axis].letter));
         }
-        let axes = std::array::from_fn(|axis| self.axes[axis].kind.from_shown(self.position[axis].unwrap_or_default()));
+        let axes = std::array::from_fn(|axis| self.axes[axis].kind.read(self.position[axis].unwrap_or_default()));
         let time_s = match (motion, self.knots.last()) {
             (Move::Rapid, None) => 0.0,
             (Move::Rapid, Some(_)) => return Err("word `G0`: rapid travel after the start; use G1 with G93".to_owned()),

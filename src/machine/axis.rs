@@ -53,7 +53,7 @@ impl AxisKind {
     }
 
     /// A value of any order, from the unit in which it is read to rad or mm.
-    pub fn from_shown(self, shown: f64) -> f64 {
+    pub fn read(self, shown: f64) -> f64 {
         match self {
             Self::Rotary => shown.to_radians(),
             Self::Linear => shown,

@@ -61,7 +61,7 @@ fn columns_and_units_follow_from_the_kind() {
             assert_eq!(axis.kind.unit(order), format!("{}{}", base[0], ends[0]));
             assert_eq!(axis.kind.sign(order), format!("{}{}", base[1], ends[1]));
         }
-        assert!((axis.kind.from_shown(axis.kind.shown(0.7)) - 0.7).abs() < 1e-15);
+        assert!((axis.kind.read(axis.kind.shown(0.7)) - 0.7).abs() < 1e-15);
     }
     assert!(!AXES[9].has(Order::Acceleration) && AXES[9].has(Order::Speed) && AXES[8].has(Order::Acceleration));
 }

@@ -273,7 +273,7 @@ fn law(spec: &HobbingOperation) -> HobbingLaw {
 
 impl HobbingLaw {
     /// Number of the papers' scheme, I to VI.
-    pub fn scheme(&self) -> &'static str {
+    pub fn scheme(self) -> &'static str {
         match (self.even, self.extra) {
             (EvenMotion::ArcLength, ExtraRotation::Work) => "I",
             (EvenMotion::ArcLength, ExtraRotation::Hob) => "II",
@@ -285,7 +285,7 @@ impl HobbingLaw {
     }
 
     /// Whether this is the printed form where it differs from the exact one.
-    pub fn is_as_printed(&self) -> bool {
+    pub fn is_as_printed(self) -> bool {
         self.form == LinkageForm::AsPrinted && self.extra == ExtraRotation::Work
     }
 }

@@ -145,12 +145,12 @@ impl Marks<'_> {
     }
 
     /// Step from a mark to the one of the next gash.
-    pub fn to_next_gash(&self, gash: i64, space: i64) -> DVec2 {
+    pub fn to_next_gash(self, gash: i64, space: i64) -> DVec2 {
         step(self.mark(gash, space), self.mark(gash + 1, space))
     }
 
     /// Step from a mark to the one of the same hob tooth when the work has come round.
-    pub fn to_same_tooth(&self, gash: i64, space: i64, gear_teeth: u32) -> DVec2 {
+    pub fn to_same_tooth(self, gash: i64, space: i64, gear_teeth: u32) -> DVec2 {
         let teeth = i64::from(gear_teeth);
         let turns = teeth * i64::from(self.hob.gashes) / i64::from(self.hob.starts);
         step(self.mark(gash, space), self.mark(gash + turns, space + teeth))
@@ -221,7 +221,7 @@ impl MarkStep {
     }
 
     /// Angle to the tooth trace, -pi/2 to pi/2.
-    pub fn to_trace_rad(&self) -> f64 {
+    pub fn to_trace_rad(self) -> f64 {
         (self.on_flank_mm.y / self.on_flank_mm.x).atan()
     }
 }

@@ -108,7 +108,7 @@ impl ShapingJob {
         let mut marks: Vec<(usize, TornMark)> = (0..self.operations.len())
             .flat_map(|operation| {
                 let draws = Draws::new(edge.seed, SOURCE + operation as u32);
-                edge.marks(&draws, flank, corners).into_iter().map(move |mark| (operation, mark))
+                edge.marks(draws, flank, corners).into_iter().map(move |mark| (operation, mark))
             })
             .filter(|(_, mark)| on_flank(mark) && grid.reached_by(mark).iter().all(|places| !places.is_empty()))
             .filter(|(operation, mark)| {

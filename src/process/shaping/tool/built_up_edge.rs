@@ -97,7 +97,7 @@ impl BuiltUpEdge {
     }
 
     /// All marks that may lie between two places of a flank, and some beyond them.
-    pub fn marks(&self, draws: &Draws, flank: i64, [from_mm, to_mm]: [Place; 2]) -> Vec<TornMark> {
+    pub fn marks(&self, draws: Draws, flank: i64, [from_mm, to_mm]: [Place; 2]) -> Vec<TornMark> {
         let cell = |mm: f64| (mm / CELL_MM).floor() as i64;
         let mut marks = Vec::new();
         for column in cell(from_mm[0])..=cell(to_mm[0]) {
@@ -148,7 +148,7 @@ pub(in crate::process::shaping) mod tests {
         let around = [[0, 1].map(|axis| from_mm[axis] - reach[axis]), [0, 1].map(|axis| to_mm[axis] + reach[axis])];
         let count = [0, 1].map(|axis| ((to_mm[axis] - from_mm[axis]) / 0.02).round() as usize);
         let mut depths_mm = vec![0.0; count[0] * count[1]];
-        for mark in edge.marks(&Draws::new(seed, 9), 3, around) {
+        for mark in edge.marks(Draws::new(seed, 9), 3, around) {
             let near = |axis: usize| {
                 let at = |side: f64| (mark.place_mm[axis] + side * mark.half_mm[axis] - from_mm[axis]) / 0.02;
                 at(-1.0).max(0.0) as usize..(at(1.0).max(-1.0) + 1.0).min(count[axis] as f64) as usize
@@ -198,7 +198,7 @@ pub(in crate::process::shaping) mod tests {
         let cells = 8000;
         let count = |row: i64| {
             let middle = [0.5 * CELL_MM, (row as f64 + 0.5) * CELL_MM];
-            edge.marks(&Draws::new(4, 9), 1, [middle, middle]).len() as f64
+            edge.marks(Draws::new(4, 9), 1, [middle, middle]).len() as f64
         };
         let counts: Vec<f64> = (0..cells).map(count).collect();
         let mean = counts.iter().sum::<f64>() / cells as f64;
@@ -225,7 +225,7 @@ pub(in crate::process::shaping) mod tests {
     #[test]
     fn a_mark_is_the_same_one_wherever_it_is_looked_for() {
         let edge = some_marks();
-        let marks = |from: Place, to: Place| edge.marks(&Draws::new(2, 9), 5, [from, to]);
+        let marks = |from: Place, to: Place| edge.marks(Draws::new(2, 9), 5, [from, to]);
         let all = marks([0.0, -3.0], [4.0, 3.0]);
         let some = marks([1.1, -0.7], [2.3, 0.2]);
         assert!(all.len() > 600 && some.len() > 30, "{} {}", all.len(), some.len());

@@ -73,7 +73,7 @@ impl ReturnRoom {
     ) -> Self {
         let swept = Swept::new(cutter, teeth, pose, earlier);
         let polygon = EdgePolygon::new(cutter.edge(), EDGE_SPACING_MODULES * module_mm);
-        let on_tooth = |point_mm: &DVec2| swept.from_tooth_mm(*point_mm) <= CONTACT_MM;
+        let on_tooth = |point_mm: &DVec2| swept.distance_from_tooth_mm(*point_mm) <= CONTACT_MM;
         let edge_mm: Vec<DVec2> =
             polygon.corners_mm[..=polygon.edge_chords()].iter().copied().filter(on_tooth).collect();
         let mut arc_mm = 0.0;

@@ -84,7 +84,7 @@ impl Swept {
     }
 
     /// How far a point of a blade's frame lies from the tooth, mm; negative inside.
-    pub fn from_tooth_mm(&self, point_mm: DVec2) -> f64 {
+    pub fn distance_from_tooth_mm(&self, point_mm: DVec2) -> f64 {
         self.distance.at_mm(point_mm)
     }
 
