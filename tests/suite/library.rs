@@ -7,7 +7,7 @@ use gearcut::job::GearJob;
 use gearcut::process::hobbing::{HobCutter, HobbingJob};
 use gearcut::progress::{Event, Progress};
 use gearcut::scene::LoadedScene;
-use gearcut::steps::parts::Parts;
+use gearcut::steps::parts::{Parts, Stages};
 use gearcut::terms::Side;
 use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -206,4 +206,25 @@ fn a_run_is_watched_event_by_event() {
     let cut =
         |event: &&Event| matches!(event, Event::StepFinished { done: 48, total: 48, unit, .. } if unit == "flanks");
     assert_eq!(seen.iter().filter(cut).count(), 1, "{seen:?}");
+}
+
+/// What the page in the browser reads of the findings is among what it has measured: keys that it reads after a point
+/// whose measurement it leaves out.
+fn unmeasured(page: &str, paths: &[String]) -> Vec<String> {
+    let stages = Stages::of_paths(paths);
+    let is_key = |c: char| c.is_ascii_lowercase() || c == '_';
+    let keys = page.split('.').skip(1).map(|after| after.split(|c| !is_key(c)).next().unwrap_or_default());
+    keys.filter(|key| !key.is_empty() && !stages.find(key)).map(str::to_owned).collect()
+}
+
+#[test]
+fn the_page_has_measured_what_it_reads() {
+    let page = std::fs::read_to_string("web/page/page.js").expect("the page");
+    let list = page.split_once("paths: [").and_then(|(_, after)| after.split_once(']')).expect("its wishes").0;
+    let paths: Vec<String> = list.split(',').map(|path| path.trim().trim_matches('"').to_owned()).collect();
+    assert!(unmeasured(&page, &paths).is_empty(), "{:?}", unmeasured(&page, &paths));
+    // Planted: without allowances their table and the captions of both linkages are empty.
+    let fewer: Vec<String> = paths.iter().filter(|path| *path != "allowance").cloned().collect();
+    let missing = unmeasured(&page, &fewer);
+    assert!(["allowance", "unevenness_max", "unevenness_mean"].iter().all(|key| missing.iter().any(|m| m == key)));
 }
