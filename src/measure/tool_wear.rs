@@ -30,6 +30,9 @@ use gearcut_core::passes::sections::swept_sections::EDGE_PLACES;
 /// Teeth with at least this share of the largest wear are called worn: 0.02 mm at a limit of 0.2 mm, about what a
 /// measuring microscope tells from a new edge.
 pub const WORN: f64 = 0.1;
+/// Steps through the range of x. The equivalent lengths are convex in x, and so gears have one maximum: between two
+/// steps they pass the larger one by less than a hundredth of the interval's width.
+const EXPONENT_STEPS: u32 = 16;
 /// Teeth with at least this share are called evenly worn.
 pub const EVEN: f64 = 0.9;
 
@@ -173,8 +176,8 @@ pub struct ToolWear {
     pub law: WearLaw,
     /// By the constants.
     pub by_constants: WearEstimate,
-    /// By the ends of their ranges, each with each; none where neither has one.
-    pub by_ends: Vec<WearEstimate>,
+    /// By values through their ranges, each with each; none where neither has one.
+    pub in_ranges: Vec<WearEstimate>,
 }
 
 impl ToolWear {
@@ -189,23 +192,29 @@ impl ToolWear {
         let of = |thickness_exponent: f64| cost(&WearLaw { thickness_exponent, ..law });
         let by_constants = of(law.thickness_exponent);
         let exponents = spec.thickness_exponent_ends;
-        let ends = exponents.map_or_else(|| vec![by_constants.clone()], |ends| ends.map(of).into());
-        let by_ends = match spec.life.ends(exponents.is_some()) {
-            Some(lives) => ends
+        let mut costs = vec![by_constants.clone()];
+        // The place that wears first changes with x: a tool may last longest by one between the ends.
+        let steps = exponents.map_or(0..=0, |_| 0..=EXPONENT_STEPS);
+        costs.extend(exponents.into_iter().flat_map(|[from, to]| {
+            let of = &of;
+            steps.clone().map(move |step| of(from + (to - from) * f64::from(step) / f64::from(EXPONENT_STEPS)))
+        }));
+        let in_ranges = match spec.life.ends(exponents.is_some()) {
+            Some(lives) => costs
                 .into_iter()
                 .flat_map(|cost| lives.map(|life| WearEstimate { life_mm: life.length_mm(&cost), cost: cost.clone() }))
                 .collect(),
             None => Vec::new(),
         };
         let life_mm = spec.life.length_mm(&by_constants);
-        Self { spec, law, by_constants: WearEstimate { cost: by_constants, life_mm }, by_ends }
+        Self { spec, law, by_constants: WearEstimate { cost: by_constants, life_mm }, in_ranges }
     }
 
-    /// Smallest and largest value by the ends of the constants' ranges; `None` where neither has one.
+    /// Smallest and largest value through the constants' ranges; `None` where neither has one.
     pub fn range(&self, value: impl Fn(&WearEstimate) -> f64) -> Option<[f64; 2]> {
-        let values = self.by_ends.iter().map(value);
+        let values = self.in_ranges.iter().map(value);
         let ends = values.fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], value| [a.min(value), b.max(value)]);
-        (!self.by_ends.is_empty()).then_some(ends)
+        (!self.in_ranges.is_empty()).then_some(ends)
     }
 }
 
@@ -255,5 +264,33 @@ mod tests {
         for speed in [300.0, 700.0, 2500.0] {
             assert!((constant(speed) / at - 1.0).abs() < 1e-12, "{speed}");
         }
+    }
+
+    /// Two places, 10 mm of thin chips and 3 mm of thick ones: 10 / 2^x and 3 2^x are the same at 4^x = 10 / 3, and
+    /// there the tool lasts longest. Between the ends of the range of x it lasts longer than at both.
+    #[test]
+    fn intervals_know_of_lives_between_the_ends() {
+        let spec = WearSpec {
+            limit_mm: 0.2,
+            life: WearLife::Length { mm: 1000.0, ends_mm: None },
+            thickness_exponent: 0.9,
+            thickness_exponent_ends: Some([0.5, 1.5]),
+            thickness_mm: 0.1,
+            speed_mm_per_s: None,
+            taylor_exponent: 0.125,
+        };
+        let worn = ToolWear::new(spec, 1000.0, |law| {
+            let mut cost = GearCost::nothing(1);
+            for (place, length_mm, thickness_mm) in [(0, 10.0, 0.05), (1, 3.0, 0.2)] {
+                cost.add(law, [0, place], length_mm, CutChip { thickness_mm, speed_mm_per_s: 1000.0 });
+            }
+            cost
+        });
+        let [from, to] = worn.range(WearEstimate::gears).expect("a range");
+        let most = 1000.0 / 30_f64.sqrt();
+        assert!((from - 1000.0 / (3.0 * 2_f64.powf(1.5))).abs() < 1e-9, "{from}");
+        assert!(to <= most * (1.0 + 1e-12) && to > 0.98 * most, "{to} against {most}");
+        let own = worn.by_constants.gears();
+        assert!(from <= own && own <= to, "{own}");
     }
 }

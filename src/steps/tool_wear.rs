@@ -27,7 +27,8 @@ const LAW_OF_WEAR: &str = "VB in proportion to the length of cut, over the lengt
 /// What the numbers cannot know.
 const NOT_KNOWN: &str = "steel, coating, coolant and run-in of the edge are in L_1 and x alone; the law holds for the \
     steady stage of wear, not for chipped or broken edges, and only near the chips and speeds for which L_1 and x were \
-    found; every gear is taken to load the tool as the one that was cut";
+    found; every gear is taken to load the tool as the one that was cut; a first stroke of a shaper cutter that comes \
+    at full depth is left out";
 const MM_PER_M: f64 = 1e3;
 const S_PER_MIN: f64 = 60.0;
 
@@ -92,7 +93,10 @@ pub fn findings(tool: &WornTool, wear: &ToolWear) -> Section {
     let end = |ends: Option<[f64; 2]>, which: usize| ends.map(|ends| ends[which]);
     let shares = of.cost.shares();
     let words = |least: f64| {
-        band(&shares, least).map_or_else(String::new, |([from, to], _)| format!("{} to {}", labels[from], labels[to]))
+        band(&shares, least).map_or_else(String::new, |([from, to], count)| {
+            let some = if count <= to - from { "some of " } else { "" };
+            format!("{some}{} to {}", labels[from], labels[to])
+        })
     };
     let count = |least: f64| band(&shares, least).map_or(0, |(_, count)| count);
     let (first_tooth, first_place) = (labels[first[0]].clone(), tool.places[first[1]]);
@@ -187,13 +191,13 @@ pub fn with_ends(wear: &Section, row: &QuantityRow, ends: [&QuantityRow; 2]) -> 
     }
 }
 
-/// The section of the page; `more` are rows that the process adds, and a sentence on its files. Nothing where the scene
-/// does not say how the tool wears.
+/// The section of the page with rows of the process, how its teeth come to wear alike, and its other files. Nothing
+/// where the scene does not say how the tool wears.
 pub fn page(
     found: &Findings,
     tool: &str,
     chart: Option<BarChart>,
-    more: (Vec<(String, String)>, &str),
+    (more, even, files): (Vec<(String, String)>, &str, &str),
 ) -> Option<PageSection> {
     let wear = found.group(&TOOL_WEAR)?;
     let number = |row: &QuantityRow| number(wear, row);
@@ -203,7 +207,6 @@ pub fn page(
         band => format!("{}: {band}", number(count)),
     };
     let title = |row| wear.entry_of(row).map_or_else(String::new, Entry::heading);
-    let (more, files) = more;
     let mut rows = vec![
         (title(&GEARS), ends(&GEARS, [&GEARS_FROM, &GEARS_TO])),
         (
@@ -213,11 +216,12 @@ pub fn page(
         ("teeth with a tenth of the limit or more then".to_owned(), teeth(&WORN_TEETH, &WORN_BAND)),
         ("teeth with nine tenths of it or more".to_owned(), teeth(&EVEN_TEETH, &EVEN_BAND)),
         (format!("L₁ [m], {}", wear.text(&LIFE_SOURCE)), ends(&LIFE, [&LIFE_FROM, &LIFE_TO])),
+        ("h₁ [µm] and v₁ [m/min] for which L₁ holds".to_owned(), format!("{}, {}", number(&THICKNESS), number(&SPEED))),
         ("x, power of the chip thickness, given".to_owned(), ends(&EXPONENT, [&EXPONENT_FROM, &EXPONENT_TO])),
         ("mean chip thickness at the first place [µm]".to_owned(), number(&MEAN_THICKNESS)),
     ];
     rows.extend(more);
-    rows.push(("gears if all teeth wore alike".to_owned(), number(&GEARS_IF_EVEN)));
+    rows.push((format!("gears if all teeth wore alike{even}"), number(&GEARS_IF_EVEN)));
     let mut blocks: Vec<Block> = chart.into_iter().map(Block::Bars).collect();
     blocks.push(Block::Table(PageTable {
         caption: format!("Life of the {tool} until VB = {} mm", number(&WEAR_LIMIT)),
@@ -226,8 +230,8 @@ pub fn page(
     }));
     blocks.push(Block::Note(format!("{}. Not known: {}.", wear.text(&WEAR_LAW), wear.text(&UNKNOWN))));
     let intro = format!(
-        "How far every tooth is worn when the first place of an edge has reached the limit; along the edges in \
-         tables/tool_wear_edge.csv{files}."
+        "How far every tooth is worn when the first place of an edge has reached the limit. Places are the tip and \
+         quarters of each flank's depth, 1 next to the tip; all of them are in tables/tool_wear_edge.csv{files}."
     );
     Some(
         PageSection::new("wear", format!("Wear of the {tool}'s teeth"), intro, blocks).judged(

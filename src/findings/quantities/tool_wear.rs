@@ -19,9 +19,9 @@ rows! {
         the reference speed"
         => titled("length of cut that an edge lasts"), symbol("L_1"), source("Taylor 1907");
     LIFE_SOURCE: "life_source", "", "where the length of cut that an edge lasts comes from";
-    LIFE_FROM: "life_from", "m", "smallest length of cut that an edge lasts, by the ends of the ranges of the constants"
+    LIFE_FROM: "life_from", "m", "smallest length of cut that an edge lasts, through the ranges of the constants"
         => or(&[NO_RANGE]);
-    LIFE_TO: "life_to", "m", "largest length of cut that an edge lasts, by the ends of the ranges of the constants"
+    LIFE_TO: "life_to", "m", "largest length of cut that an edge lasts, through the ranges of the constants"
         => or(&[NO_RANGE]);
     EXPONENT: "thickness_exponent", "1", "power of the chip thickness with which life falls" => symbol("x");
     EXPONENT_FROM: "thickness_exponent_from", "1", "smallest power of the chip thickness that is taken for possible"
@@ -34,9 +34,9 @@ rows! {
     GEARS: "gears_to_limit", "gears", "gears until the first place of an edge is worn to the limit, the tool not moved \
         between them"
         => shown(), or(&[NO_CHIPS]);
-    GEARS_FROM: "gears_to_limit_from", "gears", "fewest gears to the limit, by the ends of the ranges of the constants"
+    GEARS_FROM: "gears_to_limit_from", "gears", "fewest gears to the limit, through the ranges of the constants"
         => or(&[NO_RANGE]);
-    GEARS_TO: "gears_to_limit_to", "gears", "most gears to the limit, by the ends of the ranges of the constants"
+    GEARS_TO: "gears_to_limit_to", "gears", "most gears to the limit, through the ranges of the constants"
         => or(&[NO_RANGE]);
     FIRST_TOOTH: "first_tooth", "", "tool tooth that is worn to the limit first" => shown();
     FIRST_PLACE: "first_place", "",
@@ -53,11 +53,12 @@ rows! {
     GEARS_IF_EVEN: "gears_if_even", "gears",
         "gears to the limit if all teeth wore alike: no shift of a hob lasts longer, and a shaper cutter lasts as \
          long where it is set on by a tooth after every gear";
+    CUTTER_TOOTH: "cutter_tooth", "1", "number of the shaper cutter's tooth, from 0";
     WEAR: "wear", "um", "width VB of the worn flank when the first place of an edge has reached the limit: of a tooth \
         where it has the most, or at the row's place"
         => symbol("VB"), or(&[NO_CHIPS]), bars();
-    WEAR_FROM: "wear_from", "um", "smallest wear, by the ends of the ranges of the constants" => or(&[NO_RANGE]);
-    WEAR_TO: "wear_to", "um", "largest wear, by the ends of the ranges of the constants" => or(&[NO_RANGE]);
+    WEAR_FROM: "wear_from", "um", "smallest wear, through the ranges of the constants" => or(&[NO_RANGE]);
+    WEAR_TO: "wear_to", "um", "largest wear, through the ranges of the constants" => or(&[NO_RANGE]);
     WEAR_PER_GEAR: "wear_per_gear", "um", "width VB that one gear adds to the tooth where it has the most"
         => or(&[NO_CHIPS]);
     EDGE_PLACE: "edge_place", "",

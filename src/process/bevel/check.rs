@@ -70,11 +70,11 @@ fn print_blank(sheet: &mut Sheet, job: &BevelJob) -> Result<()> {
     );
     for side in [Side::Left, Side::Right] {
         let (target, kind) = (job.target_of(side), job.kind_of(side));
-        let spiral = target.row(0.0)?.spiral_angle_rad()?.to_degrees();
+        let spiral = spiral_words(target.row(0.0)?.spiral_angle_rad()?, 3);
         sheet.line(
             &format!("{} flanks", side.name()),
             format!(
-                "{}, cut by {} blades, spiral angle {spiral:.3} deg, profile {:.3} mm long",
+                "{}, cut by {} blades, spiral angle {spiral}, profile {:.3} mm long",
                 kind.flank(),
                 kind.name(),
                 target.length_mm()
@@ -82,6 +82,12 @@ fn print_blank(sheet: &mut Sheet, job: &BevelJob) -> Result<()> {
         );
     }
     Ok(())
+}
+
+/// A spiral angle with its hand.
+fn spiral_words(spiral_rad: f64, decimals: usize) -> String {
+    let hand = if spiral_rad.is_sign_negative() { "left" } else { "right" };
+    format!("{:.decimals$} deg {hand}-hand", spiral_rad.abs().to_degrees())
 }
 
 fn print_head(sheet: &mut Sheet, job: &BevelJob) {
@@ -103,9 +109,9 @@ fn print_head(sheet: &mut Sheet, job: &BevelJob) {
     sheet.line(
         "settings say",
         format!(
-            "radius {:.4} mm and spiral angle {:.4} deg through the mean point, ratio of roll {:.6}",
+            "radius {:.4} mm and spiral angle {} through the mean point, ratio of roll {:.6}",
             job.inferred.radius_mm,
-            job.inferred.spiral_angle_rad.to_degrees(),
+            spiral_words(job.inferred_spiral_rad(), 4),
             job.inferred.roll_ratio
         ),
     );

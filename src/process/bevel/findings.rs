@@ -146,7 +146,7 @@ fn settings(job: &BevelJob) -> Section {
             CUTTER_RADIUS.of(job.head.radius_mm),
             RADIUS_SOURCE.of(given),
             INFERRED_RADIUS.of(job.inferred.radius_mm),
-            INFERRED_SPIRAL.of(job.inferred.spiral_angle_rad.to_degrees()),
+            INFERRED_SPIRAL.of(job.inferred_spiral_rad().to_degrees()),
             MODIFIED_C.of(of.roll.second_order_per_rad),
             MODIFIED_D.of(of.roll.third_order_per_rad2),
             INFERRED_RATIO.of(job.inferred.roll_ratio),

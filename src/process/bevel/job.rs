@@ -170,6 +170,11 @@ impl BevelJob {
         Ok(job)
     }
 
+    /// Spiral angle that the settings place on the mean point, rad; positive for right-hand spirals.
+    pub fn inferred_spiral_rad(&self) -> f64 {
+        self.finishing().settings.cradle_angle_rad.signum() * self.inferred.spiral_angle_rad
+    }
+
     /// The finishing operation.
     pub fn finishing(&self) -> &PreparedBevel {
         self.operations.last().expect("a checked scene has at least one operation")

@@ -342,7 +342,8 @@ fn fitting(gear: &BevelJob, pinion: &BevelJob) -> Result<Nominal, Refusal> {
         return Err(Refusal::new(
             "machine.cradle.cradle_angle_deg",
             "gear and pinion have the same hand of spiral",
-            "a pair has opposite hands: change the sign of one cradle angle or spiral angle",
+            "a pair has opposite hands: change the sign of one cradle angle or spiral angle (-0.0 is a left-hand Zerol \
+             gear)",
         ));
     }
     let offsets_mm = [gear, pinion].map(|job| job.spec.cones.hypoid_offset_mm);

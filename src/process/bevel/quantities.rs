@@ -71,7 +71,8 @@ rows! {
     CUTTER_RADIUS: "cutter_radius", "mm", "mean cutter radius in use" => symbol("r_c");
     RADIUS_SOURCE: "cutter_radius_source", "", "origin of the cutter radius";
     INFERRED_RADIUS: "inferred_radius", "mm", "radius of the circle that the settings lead through the mean point";
-    INFERRED_SPIRAL: "inferred_spiral_angle", "deg", "spiral angle of that circle at the mean point"
+    INFERRED_SPIRAL: "inferred_spiral_angle", "deg",
+        "spiral angle of that circle at the mean point; positive is right-hand"
         => symbol("beta_m");
     MODIFIED_C: "modified_roll_c", "1/rad", "C of the modified roll; 0 where the roll is even" => symbol("C");
     MODIFIED_D: "modified_roll_d", "1/rad^2", "D of the modified roll; 0 where it is even" => symbol("D");

@@ -143,9 +143,9 @@ rows! {
     SHIFT_PLACES: "shift_places", "places", "places that the hob takes, the first one included";
     SHIFT_GEARS: "shift_gears", "gears", "gears before the limit with that shift"
         => titled("gears with that shift"), or(&[NO_ROOM]);
-    SHIFT_GEARS_FROM: "shift_gears_from", "gears", "fewest gears with that shift, by the ends of the ranges"
+    SHIFT_GEARS_FROM: "shift_gears_from", "gears", "fewest gears with that shift, through the ranges of the constants"
         => or(&[NO_RANGE, NO_ROOM]);
-    SHIFT_GEARS_TO: "shift_gears_to", "gears", "most gears with that shift, by the ends of the ranges"
+    SHIFT_GEARS_TO: "shift_gears_to", "gears", "most gears with that shift, through the ranges of the constants"
         => or(&[NO_RANGE, NO_ROOM]);
 }
 

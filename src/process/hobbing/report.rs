@@ -184,7 +184,7 @@ fn wear_section(found: &Findings, chart: Option<BarChart>) -> Option<PageSection
     let gears = with_ends(wear, &SHIFT_GEARS, [&SHIFT_GEARS_FROM, &SHIFT_GEARS_TO]);
     let title = |row| wear.entry_of(row).map_or_else(String::new, Entry::heading);
     let rows = vec![(title(&SHIFT), shift), (title(&SHIFT_GEARS), gears)];
-    tool_wear::page(found, "hob", chart, (rows, ", shifts between gears in tables/hob_shift.csv"))
+    tool_wear::page(found, "hob", chart, (rows, "", ", shifts between gears in tables/hob_shift.csv"))
 }
 
 /// Nothing where the run was stopped before the whole blank was cut.

@@ -50,7 +50,12 @@ pub fn page(
     let mut sections = stock::section(job, found).into_iter().collect::<Vec<_>>();
     sections.extend(ring::section(job, found));
     sections.push(chips::section(job, &cut.chips, found));
-    sections.extend(tool_wear::page(found, "cutter", wear, (Vec::new(), "")));
+    sections.extend(tool_wear::page(
+        found,
+        "cutter",
+        wear,
+        (Vec::new(), ", the cutter set on by one after every gear", ""),
+    ));
     sections.extend(blank::section(found));
     sections.extend(returns::section(job, found));
     sections.push(deviations::section(inspection));

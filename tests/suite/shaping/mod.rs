@@ -18,6 +18,7 @@ mod flank_chips;
 mod flank_heights;
 mod gcode;
 mod gcode_kinematics;
+mod ground_cutter;
 mod helical;
 mod injected_errors;
 mod internal_oracle;

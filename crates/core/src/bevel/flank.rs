@@ -138,7 +138,7 @@ impl FlankRow<'_> {
         -self.form_height_mm / (self.tip_height_mm - self.form_height_mm)
     }
 
-    /// Spiral angle on the pitch cone, rad: from the generatrix to the tooth's trace, positive.
+    /// Spiral angle on the pitch cone, rad: from the generatrix to the tooth's trace, positive for right-hand spirals.
     ///
     /// # Errors
     /// The flank does not reach the pitch cone here.
@@ -148,7 +148,7 @@ impl FlankRow<'_> {
         let (sin, cos) = self.flank.blank.pitch_angle_rad.sin_cos();
         let [generatrix, out] = [DVec3::X * cos + sin * away, cos * away - sin * DVec3::X];
         let trace = pitch.normal.cross(out);
-        Ok(trace.dot(generatrix.cross(out)).abs().atan2(trace.dot(generatrix).abs()))
+        Ok((trace.dot(generatrix.cross(out)) / trace.dot(generatrix)).atan())
     }
 
     /// Point of the flank at a share of the profile: 0 in the form point, 1 on the face cone.

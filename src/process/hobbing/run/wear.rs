@@ -103,7 +103,7 @@ fn shifted(job: &HobbingJob, wear: &ToolWear, section: Section) -> Section {
     let shifts = hob_wear::shifts(&threads, &wear.by_constants.share_of_life(), room);
     let best = shifts.as_deref().and_then(longest);
     let at_ends: Option<Vec<f64>> = best.and_then(|best| {
-        let ends = wear.by_ends.iter().map(|of| {
+        let ends = wear.in_ranges.iter().map(|of| {
             let shifts = hob_wear::shifts(&threads, &of.share_of_life(), room)?;
             let same = shifts.into_iter().find(|shift| shift.teeth == best.teeth && shift.then == best.then)?;
             Some(same.gears as f64)
@@ -113,7 +113,7 @@ fn shifted(job: &HobbingJob, wear: &ToolWear, section: Section) -> Section {
     let range = at_ends
         .filter(|ends| !ends.is_empty())
         .map(|ends| [ends.iter().copied().fold(f64::INFINITY, f64::min), ends.iter().copied().fold(0.0, f64::max)]);
-    let why = if best.is_some() && wear.by_ends.is_empty() { NO_RANGE } else { NO_ROOM };
+    let why = if best.is_some() && wear.in_ranges.is_empty() { NO_RANGE } else { NO_ROOM };
     let section = section.entries([
         SHIFT.of_or(best.map(|best| best.teeth.abs() * spacing_mm), NO_ROOM),
         SHIFT_TO.of_or(best.map(end_name), NO_ROOM),

@@ -1,7 +1,7 @@
 //! The cutter's wear in a run: [`crate::steps::tool_wear`].
 
 use crate::findings::Section;
-use crate::findings::quantities::blank::CUTTER_TOOTH;
+use crate::findings::quantities::tool_wear::CUTTER_TOOTH;
 use crate::measure::tool_wear::ToolWear;
 use crate::output::bar_chart::BarChart;
 use crate::process::shaping::ShapingJob;

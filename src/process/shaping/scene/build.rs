@@ -1,9 +1,10 @@
 //! Checked values of a shaping scene to the model.
 
-use super::keys::{AXES, BUILT_UP_EDGE, CMM, EDGE_ROUGHNESS, EDGE_ROUNDING, PROFILE, WEAR};
+use super::keys::{AXES, BUILT_UP_EDGE, CMM, EDGE_ROUGHNESS, EDGE_ROUNDING, GRINDING, PROFILE, WEAR};
 use super::model::{
-    AxisLimits, BuiltUpEdge, CmmSpec, CutterSpec, EdgeRoughness, EdgeRounding, Feed, GcodeDialect, Infeed, Linkage,
-    Machine, NormalReading, Operation, Retraction, Shaping, StockScatter, StrokeSpacing, Tip, TraditionalDirection,
+    AxisLimits, BuiltUpEdge, CmmSpec, CutterSpec, EdgeRoughness, EdgeRounding, Feed, GcodeDialect, Grinding, Infeed,
+    Linkage, Machine, NormalReading, Operation, Retraction, Shaping, StockScatter, StrokeSpacing, Tip,
+    TraditionalDirection,
 };
 use crate::machine_errors::{Compliance, SideCompliance};
 use crate::material::EdgeForce;
@@ -91,11 +92,19 @@ fn shaper_cutter(values: &Values, base_dir: &Path) -> Option<CutterSpec> {
         runout_mm: cutter.mm_from_um("runout_um")?,
         runout_angle_rad: cutter.rad("runout_angle_deg")?,
         pitch_errors_mm: cutter.numbers("pitch_errors_um")?.iter().map(|um| um / UM_PER_MM).collect(),
+        grinding: grinding(values),
         edge_roughness: edge_roughness(values, base_dir),
         edge_rounding: edge_rounding(values),
         built_up_edge: built_up_edge(values),
         profile: ToolProfile::of(values, PROFILE, base_dir),
     })
+}
+
+fn grinding(values: &Values) -> Option<Grinding> {
+    let grinding = values.view(GRINDING);
+    let (relief_rad, pressure_angle_rad) = (grinding.rad("tip_relief_angle_deg"), grinding.rad("pressure_angle_deg"));
+    let is_known = relief_rad.is_some_and(|rad| rad > 0.0) || pressure_angle_rad.is_some();
+    is_known.then(|| Grinding { tip_relief_rad: relief_rad.unwrap_or_default(), pressure_angle_rad })
 }
 
 fn edge_roughness(values: &Values, base_dir: &Path) -> Option<EdgeRoughness> {

@@ -1,7 +1,9 @@
 //! Values of a shaping scene compared with each other.
 
 use super::defaults::reach_mm;
-use super::keys::{AXES, BUILT_UP_EDGE, BUILT_UP_EDGE_KEYS, CMM, EDGE_ROUGHNESS, EDGE_ROUNDING, PROFILE, WEAR};
+use super::keys::{
+    AXES, BUILT_UP_EDGE, BUILT_UP_EDGE_KEYS, CMM, EDGE_ROUGHNESS, EDGE_ROUNDING, GRINDING, PROFILE, WEAR,
+};
 use super::model::guide_hand;
 use crate::scene::build::{sector_deg, stock_or_offset_mm};
 use crate::scene::drawn_profile;
@@ -154,6 +156,8 @@ fn drawn_tooth(found: &mut Found) {
         (cutter, "profile_shift_coefficient", Some(0.0)),
         (cutter, "thinning_mm", Some(0.0)),
         (EDGE_ROUGHNESS, "rq_um", None),
+        (GRINDING, "tip_relief_angle_deg", Some(0.0)),
+        (GRINDING, "pressure_angle_deg", None),
     ];
     if !drawn_profile::refuse_beside(found, PROFILE, "cutter", &replaced) {
         return;

@@ -14,7 +14,7 @@ pub(super) use chips::LARGEST_CHIP_SPACING_MM;
 pub(super) use cmm::CMM;
 pub(super) use machine::AXES;
 pub(in crate::process::shaping) use tool::PROFILE;
-pub(super) use tool::{BUILT_UP_EDGE, BUILT_UP_EDGE_KEYS, EDGE_ROUGHNESS, EDGE_ROUNDING, WEAR};
+pub(super) use tool::{BUILT_UP_EDGE, BUILT_UP_EDGE_KEYS, EDGE_ROUGHNESS, EDGE_ROUNDING, GRINDING, WEAR};
 
 /// Sections of its own.
 pub(super) static SECTIONS: &[&[KeySection]] =

@@ -3,7 +3,7 @@
 //! In: a scene's model. Out: the table [`OWN`], from which `gearcut scatter` switches and the findings tell. What all
 //! machines have is in [`crate::machine_errors`].
 
-use super::model::{BuiltUpEdge, EdgeRoughness, EdgeRounding, Shaping};
+use super::model::{BuiltUpEdge, EdgeRoughness, EdgeRounding, Grinding, Shaping};
 use crate::machine_errors::{Compliance, ErrorLayer};
 use crate::number_text::{plain, size, um};
 use gearcut_core::units::UM_PER_MM;
@@ -39,9 +39,11 @@ pub static OWN: [OwnLayer; 6] = [
             if model.tool.pitch_errors_mm.iter().any(|&error| error != 0.0) {
                 words.push("pitch errors given for each tooth".to_owned());
             }
+            words.extend(model.tool.grinding.map(|grinding| grinding_words(&grinding, model.tool.rake_angle_rad)));
             words.join(", ")
         },
         off: |model| {
+            model.tool.grinding = None;
             model.tool.runout_mm = 0.0;
             model.tool.pitch_errors_mm.clear();
         },
@@ -82,6 +84,21 @@ pub static OWN: [OwnLayer; 6] = [
         off: |model| model.machine.compliance = Compliance::default(),
     },
 ];
+
+/// How flanks are ground.
+fn grinding_words(grinding: &Grinding, rake_rad: f64) -> String {
+    let [rake, relief] = [rake_rad, grinding.tip_relief_rad].map(|rad| plain(round_deg(rad)));
+    let angle = grinding.pressure_angle_rad.map_or_else(
+        || "a corrected pressure angle".to_owned(),
+        |rad| format!("a pressure angle of {} deg", plain(round_deg(rad))),
+    );
+    format!("ground with {angle}, rake {rake} deg, tip relief {relief} deg")
+}
+
+/// An angle as a scene wrote it.
+fn round_deg(rad: f64) -> f64 {
+    (1e9 * rad.to_degrees()).round() / 1e9
+}
 
 /// A rough edge.
 pub fn edge_words(edge: &EdgeRoughness) -> String {

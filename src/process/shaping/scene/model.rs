@@ -90,7 +90,7 @@ pub struct CutterSpec {
     pub thinning_mm: f64,
     /// Shape of the tip corners.
     pub tip: Tip,
-    /// Top rake of its conical rake face, rad; for forces alone.
+    /// Top rake of its conical rake face, rad; for forces, and for the edge where the grinding is known.
     pub rake_angle_rad: f64,
     /// Distance of the cutter's profile axis from its spindle axis.
     pub runout_mm: f64,
@@ -99,6 +99,8 @@ pub struct CutterSpec {
     /// Cumulative pitch error of each cutter tooth on the pitch circle, mm, positive counter-clockwise; empty or one
     /// value per tooth.
     pub pitch_errors_mm: Vec<f64>,
+    /// How its flanks are ground; `None`: their edges are true involutes.
+    pub grinding: Option<Grinding>,
     /// Roughness of its edges along the flanks.
     pub edge_roughness: Option<EdgeRoughness>,
     /// Rounding of its edges across; `None`: sharp ones.
@@ -118,9 +120,22 @@ impl CutterSpec {
             addendum_coefficient: self.addendum_coefficient * cos,
             dedendum_coefficient: self.dedendum_coefficient * cos,
             profile_shift_coefficient: self.profile_shift_coefficient * cos,
+            grinding: self.grinding.map(|grinding| Grinding {
+                pressure_angle_rad: grinding.pressure_angle_rad.map(|normal_rad| (normal_rad.tan() / cos).atan()),
+                ..grinding
+            }),
             ..self.clone()
         }
     }
+}
+
+/// How flanks of a cutter are ground.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Grinding {
+    /// alpha_t: relief of the tip.
+    pub tip_relief_rad: f64,
+    /// alpha_0, in the section of the cutter's numbers; `None`: corrected for rake and relief.
+    pub pressure_angle_rad: Option<f64>,
 }
 
 /// Pits and scratches that fragments of a built-up edge tear into flanks.

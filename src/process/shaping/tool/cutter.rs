@@ -6,7 +6,7 @@
 use crate::drawn_tooth::{ContourPlace, DrawnTooth, TeethOn};
 use crate::process::shaping::scene::{PROFILE, model};
 use crate::process::shaping::tool::edge_roughness;
-use crate::process::shaping::tool::involute_tooth::{InvoluteTooth, involute_tooth};
+use crate::process::shaping::tool::involute_tooth::{InvoluteTooth, ground_edge, involute_tooth};
 use crate::scene::drawn_profile::ToolProfile;
 use crate::scene::model::Gear;
 use gearcut_core::error::Refusal;
@@ -33,7 +33,7 @@ pub struct ShaperCutter {
     pub tooth: CutterTooth,
     /// The edge of an ideal tooth.
     edge: Edge,
-    /// Edges that cut: each rough in its own way, where the scene has them rough.
+    /// Edges that cut: as they are ground, and each rough in its own way, where the scene says so.
     edges: BladeEdges,
     runout_mm: DVec2,
     tooth_angles_rad: Vec<f64>,
@@ -63,6 +63,10 @@ impl ShaperCutter {
             }
             Some(profile) => Self::drawn_tooth(spec, profile, m)?,
         };
+        let ground = match &spec.grinding {
+            None => edge.clone(),
+            Some(grinding) => ground_edge(spec, grinding, gear)?,
+        };
         let errors = &spec.pitch_errors_mm;
         if !errors.is_empty() && errors.len() != spec.teeth as usize {
             return Err(Refusal::new(
@@ -84,8 +88,8 @@ impl ShaperCutter {
             root_radius_mm,
             tooth,
             edges: match &spec.edge_roughness {
-                None => BladeEdges::shared(edge.clone()),
-                Some(roughness) => edge_roughness::rough_edges(roughness, &edge, spec.teeth)?,
+                None => BladeEdges::shared(ground),
+                Some(roughness) => edge_roughness::rough_edges(roughness, &ground, spec.teeth)?,
             },
             edge,
             runout_mm: spec.runout_mm * DVec2::from_angle(spec.runout_angle_rad),
@@ -194,6 +198,7 @@ pub(crate) mod tests {
             runout_mm: 0.0,
             runout_angle_rad: 0.0,
             pitch_errors_mm: Vec::new(),
+            grinding: None,
             edge_roughness: None,
             edge_rounding: None,
             built_up_edge: None,

@@ -6,10 +6,13 @@
 //! along the tangent of the involute's last point, as cutters are relieved there; its exact run touches only gear tips
 //! that reach below the cutter's involute.
 
+use super::ground_flank::GroundFlank;
 use crate::process::shaping::scene::model;
+use crate::process::shaping::scene::model::Grinding;
 use crate::scene::model::Gear;
 use gearcut_core::error::Refusal;
 use gearcut_core::tool::edge::{Edge, Segment, SegmentName};
+use gearcut_core::tool::edge_profile::BladeCurve as _;
 use gearcut_core::tool::edge_table::TableError;
 use gearcut_core::tool::involute::{Involute, inv};
 use glam::DVec2;
@@ -29,6 +32,9 @@ const BASE_CIRCLE_TOLERANCE_MM: f64 = 2.5e-8;
 /// Below this radius of curvature (in modules) the involute gets a table of its own: its curvature changes too fast for
 /// the cells of the rest.
 const NEAR_BASE_CURVATURE_MODULES: f64 = 0.5;
+/// Steps to the corner of a ground tooth: each leaves a thousandth of the one before, of some micrometres.
+const CORNER_STEPS: usize = 4;
+
 /// A cutter tooth with involute flanks.
 #[derive(Debug, Clone, PartialEq)]
 pub struct InvoluteTooth {
@@ -81,13 +87,44 @@ pub(super) fn involute_tooth(
     spec: &model::CutterSpec,
     gear: &Gear,
 ) -> Result<(InvoluteTooth, Edge, [f64; 2]), Refusal> {
+    tooth_with(spec, gear, None)
+}
+
+/// Thickness of a tooth on the pitch circle, mm.
+fn thickness_mm(spec: &model::CutterSpec, gear: &Gear) -> f64 {
+    let shift_mm = spec.profile_shift_coefficient * gear.module_mm;
+    0.5 * PI * gear.module_mm + 2.0 * shift_mm * gear.pressure_angle_rad.tan() - spec.thinning_mm
+}
+
+/// The edge of the same tooth as it is ground. Its tip begins where the ground flank ends, as if the whole tooth were
+/// that much thicker.
+///
+/// # Errors
+/// The same; a pressure angle of another cutter.
+pub(super) fn ground_edge(spec: &model::CutterSpec, grinding: &Grinding, gear: &Gear) -> Result<Edge, Refusal> {
+    let flank = GroundFlank::new(spec, grinding, gear, thickness_mm(spec, gear))?;
+    let mut thicker = spec.clone();
+    for _ in 0..CORNER_STEPS {
+        let (tooth, ..) = tooth_with(&thicker, gear, None)?;
+        let corner_mm = tooth.flank(1.0).point(tooth.roll_range[1]).length();
+        thicker.thinning_mm = spec.thinning_mm - 2.0 * flank.deviation_mm(corner_mm) / gear.pressure_angle_rad.cos();
+    }
+    tooth_with(&thicker, gear, Some(&flank)).map(|(_, edge, _)| edge)
+}
+
+/// The tooth with its edge, whose flanks are ground ones where there is one.
+fn tooth_with(
+    spec: &model::CutterSpec,
+    gear: &Gear,
+    ground: Option<&GroundFlank>,
+) -> Result<(InvoluteTooth, Edge, [f64; 2]), Refusal> {
     let (m, alpha) = (gear.module_mm, gear.pressure_angle_rad);
     let pitch_radius_mm = 0.5 * m * f64::from(spec.teeth);
     let base_radius_mm = pitch_radius_mm * alpha.cos();
     let x0 = spec.profile_shift_coefficient;
     let tip_radius_mm = pitch_radius_mm + (spec.addendum_coefficient + x0) * m;
     let root_radius_mm = pitch_radius_mm - (spec.dedendum_coefficient - x0) * m;
-    let thickness_mm = 0.5 * PI * m + 2.0 * x0 * m * alpha.tan() - spec.thinning_mm;
+    let thickness_mm = thickness_mm(spec, gear);
     let half_angle_rad = 0.5 * thickness_mm / pitch_radius_mm + inv(alpha);
     let left = Involute { base_radius_mm, half_angle_rad, side: 1.0 };
     if root_radius_mm <= LEAST_ROOT_SHARE * pitch_radius_mm {
@@ -133,7 +170,8 @@ pub(super) fn involute_tooth(
             teeth",
         ));
     }
-    let start_roll = (6.0 * BASE_CIRCLE_TOLERANCE_MM / base_radius_mm).cbrt().max(left.roll_at_radius(root_radius_mm));
+    let least_roll = |base_mm: f64| (6.0 * BASE_CIRCLE_TOLERANCE_MM / base_mm).cbrt();
+    let start_roll = least_roll(base_radius_mm).max(left.roll_at_radius(root_radius_mm));
 
     // Tip corner: the roll where the involute ends, and the segments between it and the tip circle.
     let (end_roll, corner, corner_segment, tip_angle_rad) = match spec.tip {
@@ -195,7 +233,18 @@ pub(super) fn involute_tooth(
             "the flank is too long or too sharply curved; use ordinary proportions",
         )
     };
-    let start = left.point(start_roll);
+    // Arc of the ground flank where the involute has a roll.
+    let arc_mm = |flank: &GroundFlank, roll: f64| {
+        let base_mm = flank.base_radius_mm;
+        flank.arc_at_radius_mm(base_radius_mm * roll.hypot(1.0)).max(0.5 * base_mm * least_roll(base_mm).powi(2))
+    };
+    let (start, inwards) = match ground {
+        None => (left.point(start_roll), left.normal(start_roll).perp()),
+        Some(flank) => {
+            let [point_mm, rate] = flank.point_and_rate(arc_mm(flank, start_roll));
+            (point_mm, -rate.normalize())
+        }
+    };
     let start_radius_mm = start.length();
     let near_base_roll = NEAR_BASE_CURVATURE_MODULES * m / base_radius_mm;
     let mut flank_rolls = vec![end_roll];
@@ -208,12 +257,16 @@ pub(super) fn involute_tooth(
     let mut left_half = Vec::new();
     left_half.extend(corner_segment);
     for rolls in flank_rolls.windows(2) {
-        left_half.push(Segment::involute(SegmentName::FlankLeft, left, [rolls[1], rolls[0]]).map_err(no_fit)?);
+        let name = SegmentName::FlankLeft;
+        let flank = match ground {
+            None => Segment::involute(name, left, [rolls[1], rolls[0]]),
+            Some(flank) => Segment::curve(name, flank, [rolls[0], rolls[1]].map(|roll| arc_mm(flank, roll))),
+        };
+        left_half.push(flank.map_err(no_fit)?);
     }
     let mut root_from_rad = start.to_angle();
     let mut base_length_mm = 0.0;
     if start_radius_mm > root_radius_mm + 1e-6 {
-        let inwards = left.normal(start_roll).perp();
         let b = start.dot(inwards);
         let run = -b - (b * b - start_radius_mm * start_radius_mm + root_radius_mm * root_radius_mm).max(0.0).sqrt();
         let end = start + run * inwards;

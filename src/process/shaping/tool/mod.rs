@@ -8,4 +8,5 @@ pub mod cutter;
 pub mod edge_polygon;
 pub mod edge_roughness;
 pub(super) mod edge_rounding;
+pub mod ground_flank;
 pub mod involute_tooth;

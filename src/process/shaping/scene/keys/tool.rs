@@ -4,6 +4,8 @@ use crate::scene::drawn_profile::TOLERANCE;
 use crate::scene::keys::{Default, Group, Key, KeySection, Kind, Range, Role};
 use crate::scene::tool_wear;
 
+/// Section of how flanks are ground.
+pub const GRINDING: &str = "tool.shaper_cutter.grinding";
 /// Section of the edges' roughness.
 pub const EDGE_ROUGHNESS: &str = "tool.shaper_cutter.edge_roughness";
 /// Section of the edges' rounding.
@@ -84,8 +86,9 @@ pub(super) static SECTIONS: &[KeySection] = &[
                 unit: "deg",
                 default: Default::Number(0.0),
                 example: "5.0",
-                teach: "Top rake of the dished rake face: inclines the flanks' edges and changes cutting forces, not \
-                    shapes (the profile is the edge's projection). 0: a flat face square to the stroke.",
+                teach: "Top rake of the dished rake face: inclines the flanks' edges and changes cutting forces; shapes \
+                    only with [tool.shaper_cutter.grinding] (without it the profile is the edge's projection). 0: a \
+                    flat face square to the stroke.",
             },
             Key {
                 name: "runout_um",
@@ -134,6 +137,31 @@ pub(super) static SECTIONS: &[KeySection] = &[
         "Cutter tooth that is drawn or measured: any profile. The gear is judged against what that edge generates. A \
             point where the contour turns by more than 11.5 deg, or lies 20 um beside the chord of its neighbours, is \
             a corner and stays one.",
+    ),
+    KeySection::new(
+        GRINDING,
+        Role::Plain,
+        &[
+            Key::number(
+                "tip_relief_angle_deg",
+                "deg",
+                Range::closed(0.0, 20.0),
+                0.0,
+                "6.0",
+                "Relief of the tip; that of the flanks follows from it. With a rake, edges are no involutes.",
+            ),
+            Key {
+                name: "pressure_angle_deg",
+                kind: Kind::Number(Range::closed(5.0, 45.0)),
+                unit: "deg",
+                default: Default::Derived("corrected for rake and relief"),
+                example: "20.17",
+                teach: "Pressure angle with which the flanks are ground, in the normal section as the gear's, within \
+                    3 deg of it; tan(alpha) / (1 - tan(rake) tan(relief)) is usual.",
+            },
+        ],
+        "How the cutter's flanks are ground: with rake and relief their projected edges deviate from involutes by some \
+            micrometres, and so does every flank that they cut.",
     ),
     tool_wear::section(WEAR),
     KeySection {
