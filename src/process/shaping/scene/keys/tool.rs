@@ -86,9 +86,9 @@ pub(super) static SECTIONS: &[KeySection] = &[
                 unit: "deg",
                 default: Default::Number(0.0),
                 example: "5.0",
-                teach: "Top rake of the dished rake face: inclines the flanks' edges and changes cutting forces; shapes \
-                    only with [tool.shaper_cutter.grinding] (without it the profile is the edge's projection). 0: a \
-                    flat face square to the stroke.",
+                teach: "Top rake of the dished rake face: inclines the flanks' edges and changes cutting forces; \
+                    shapes only with [tool.shaper_cutter.grinding] (without it the profile is the edge's \
+                    projection). 0: a flat face square to the stroke.",
             },
             Key {
                 name: "runout_um",
