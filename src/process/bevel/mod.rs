@@ -42,7 +42,7 @@ use crate::output::text::Sheet;
 use crate::steps::parts::Stages;
 use crate::steps::{Tools, axes};
 use axes_report::BevelAxesReport;
-use gearcut_core::error::Result;
+use gearcut_core::error::{Refusal, Result};
 
 pub use job::BevelJob;
 
@@ -58,9 +58,8 @@ pub static PROCESS: Process = Process {
 impl super::ProcessJob for BevelJob {
     fn cut(&self, tools: &Tools, frames: Option<u32>) -> Result<CutDone> {
         if frames.is_some() {
-            tools
-                .progress
-                .note("no frames are drawn: pictures of the cut as it happens are those of shaping and hobbing");
+            let (problem, way_out) = ("the cut as it happens is drawn of shaping and hobbing alone", "leave it out");
+            return Err(Refusal::new("--frames", problem, way_out).into());
         }
         run::run(self, tools)
     }

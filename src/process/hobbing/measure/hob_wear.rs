@@ -87,6 +87,25 @@ pub struct GearShift {
 /// each thread, `share` is what one gear takes of the life of every place, `room` how many teeth the hob may move to
 /// its entering and to its leaving end before it no longer carries the contact.
 pub fn shifts(threads: &[Range<usize>], share: &OfPlaces, room: [usize; 2]) -> Option<Vec<GearShift>> {
+    let mut found = Vec::new();
+    for (room, sign) in free_teeth(threads, share, room)?.into_iter().zip([1.0, -1.0]).filter(|&(room, _)| room > 0) {
+        for step in [0.25, 0.5].into_iter().chain((1..=room).map(|teeth| teeth as f64)) {
+            found.extend(by_step(threads, share, room, sign * step));
+        }
+    }
+    Some(found)
+}
+
+/// The same shift of a hob that another load wears; `None` where that load leaves no room for it.
+pub fn same_shift(threads: &[Range<usize>], share: &OfPlaces, room: [usize; 2], of: &GearShift) -> Option<GearShift> {
+    let room = free_teeth(threads, share, room)?[usize::from(of.teeth < 0.0)];
+    let has_room = room > 0 && of.teeth.abs() <= room as f64;
+    let both = has_room.then(|| by_step(threads, share, room, of.teeth))?;
+    both.into_iter().find(|shift| shift.then == of.then)
+}
+
+/// How many teeth a hob may move to its entering and to its leaving end with its load.
+fn free_teeth(threads: &[Range<usize>], share: &OfPlaces, room: [usize; 2]) -> Option<[usize; 2]> {
     let largest = share.iter().map(most).fold(0.0, f64::max);
     let works = |tooth: usize| most(&share[tooth]) > IDLE * largest;
     let (mut before, mut behind) = (usize::MAX, usize::MAX);
@@ -96,28 +115,21 @@ pub fn shifts(threads: &[Range<usize>], share: &OfPlaces, room: [usize; 2]) -> O
         before = before.min(first - thread.start);
         behind = behind.min(thread.end - 1 - last);
     }
-    if largest == 0.0 || before == 0 || behind == 0 {
-        return None;
-    }
-    let mut found = Vec::new();
-    for (room, sign) in [(behind.min(room[0]), 1.0), (before.min(room[1]), -1.0)] {
-        if room == 0 {
-            continue;
-        }
-        for step in [0.25, 0.5].into_iter().chain((1..=room).map(|teeth| teeth as f64)) {
-            let places = (room as f64 / step) as usize + 1;
-            let loads: Vec<OfPlaces> = (0..places).map(|i| moved(threads, share, sign * step * i as f64)).collect();
-            for then in ShiftReturn::ALL {
-                let order: Vec<usize> = match then {
-                    ShiftReturn::Repeating => (0..places).collect(),
-                    ShiftReturn::Reciprocating => (0..places).chain((1..places - 1).rev()).collect(),
-                };
-                let gears = gears(&order.iter().map(|&i| &loads[i]).collect::<Vec<_>>());
-                found.push(GearShift { teeth: sign * step, places, then, gears });
-            }
-        }
-    }
-    Some(found)
+    (largest > 0.0 && before > 0 && behind > 0).then(|| [behind.min(room[0]), before.min(room[1])])
+}
+
+/// A shift by so many teeth, with either return at the end of the room.
+fn by_step(threads: &[Range<usize>], share: &OfPlaces, room: usize, teeth: f64) -> [GearShift; 2] {
+    let places = (room as f64 / teeth.abs()) as usize + 1;
+    let loads: Vec<OfPlaces> = (0..places).map(|i| moved(threads, share, teeth * i as f64)).collect();
+    ShiftReturn::ALL.map(|then| {
+        let order: Vec<usize> = match then {
+            ShiftReturn::Repeating => (0..places).collect(),
+            ShiftReturn::Reciprocating => (0..places).chain((1..places - 1).rev()).collect(),
+        };
+        let gears = gears(&order.iter().map(|&i| &loads[i]).collect::<Vec<_>>());
+        GearShift { teeth, places, then, gears }
+    })
 }
 
 /// What a gear costs a hob that has moved by so many teeth; between whole teeth in proportion.

@@ -104,8 +104,7 @@ fn shifted(job: &HobbingJob, wear: &ToolWear, section: Section) -> Section {
     let best = shifts.as_deref().and_then(longest);
     let at_ends: Option<Vec<f64>> = best.and_then(|best| {
         let ends = wear.in_ranges.iter().map(|of| {
-            let shifts = hob_wear::shifts(&threads, &of.share_of_life(), room)?;
-            let same = shifts.into_iter().find(|shift| shift.teeth == best.teeth && shift.then == best.then)?;
+            let same = hob_wear::same_shift(&threads, &of.share_of_life(), room, best)?;
             Some(same.gears as f64)
         });
         ends.collect()
