@@ -164,3 +164,34 @@ fn a_round_gear_has_the_oracles_deviations() {
         assert!(compared == 8 && worst_um < 1e-3, "{name}: {compared} places, {worst_um} um");
     }
 }
+
+/// Cutters whose ground base circle lies outside of the gear's or inside, of few teeth, with rounds and chamfers, for
+/// rings and helical gears: all have an edge without gaps.
+#[test]
+fn edges_of_all_kinds_of_cutters_are_closed() {
+    let tip = "tool.shaper_cutter.tip";
+    let (round, chamfer) =
+        (format!("{tip}.round.radius_mm=0.5"), format!("{tip}.chamfer={{height_mm=0.3, angle_deg=45}}"));
+    let own = |key: &str| format!("tool.shaper_cutter.grinding.{key}");
+    let kinds: [Vec<String>; 7] = [
+        vec![own("pressure_angle_deg=18")],
+        vec![own("pressure_angle_deg=22.9")],
+        vec!["tool.shaper_cutter.rake_angle_deg=-15".to_owned()],
+        vec![round],
+        vec![chamfer],
+        vec!["tool.shaper_cutter.teeth=9".to_owned()],
+        vec!["gear.helix_angle_deg=20".to_owned()],
+    ];
+    for settings in kinds {
+        let job = ShapingJob::new(scene(&settings.iter().map(String::as_str).collect::<Vec<_>>()));
+        let job = job.unwrap_or_else(|error| panic!("{settings:?}: {error}"));
+        let edge = job.cutter.edges().edge_of(0);
+        let ends = edge.segments.iter().map(|segment| {
+            segment.y_range_mm.map(|y| segment.blade_from_segment.point(DVec2::new(segment.x_and_slope(y)[0], y)))
+        });
+        let ends: Vec<[DVec2; 2]> = ends.collect();
+        let widest_mm = ends.windows(2).map(|pair| pair[0][1].distance(pair[1][0])).fold(0.0, f64::max);
+        println!("{settings:?}: {} segments, gaps up to {:.4} nm", edge.segments.len(), 1e6 * widest_mm);
+        assert!(widest_mm < 2e-7, "{settings:?}: {widest_mm:.2e} mm");
+    }
+}

@@ -91,13 +91,13 @@ impl GroundFlank {
         base_mm * (self.taper_rad_per_mm * (radius_mm - self.pitch_radius_mm) - ground + involute)
     }
 
-    /// The parameter of the edge at a radius: the arc of its involute from the base circle, mm.
-    pub(super) fn arc_at_radius_mm(&self, radius_mm: f64) -> f64 {
-        let base_mm = self.base_radius_mm;
-        ((radius_mm * radius_mm - base_mm * base_mm) / (2.0 * base_mm)).max(0.0)
+    /// Roll of its involute at a radius; 0 inside the base circle.
+    pub(super) fn roll_at_radius(&self, radius_mm: f64) -> f64 {
+        ((radius_mm / self.base_radius_mm).powi(2) - 1.0).max(0.0).sqrt()
     }
 }
 
+/// Over the arc of its involute from the base circle, mm.
 impl BladeCurve for GroundFlank {
     fn point_and_rate(&self, arc_mm: f64) -> [DVec2; 2] {
         let base_mm = self.base_radius_mm;

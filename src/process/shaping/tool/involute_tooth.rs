@@ -233,25 +233,31 @@ fn tooth_with(
             "the flank is too long or too sharply curved; use ordinary proportions",
         )
     };
-    // Arc of the ground flank where the involute has a roll.
-    let arc_mm = |flank: &GroundFlank, roll: f64| {
-        let base_mm = flank.base_radius_mm;
-        flank.arc_at_radius_mm(base_radius_mm * roll.hypot(1.0)).max(0.5 * base_mm * least_roll(base_mm).powi(2))
+    // Base circle of the flank that cuts, and its rolls where it ends at the tip corner and where it starts.
+    let (edge_base_mm, [edge_end, edge_start]) = match ground {
+        None => (base_radius_mm, [end_roll, start_roll]),
+        Some(flank) => {
+            let base_mm = flank.base_radius_mm;
+            let [end, start] =
+                [end_roll, start_roll].map(|roll| flank.roll_at_radius(base_radius_mm * roll.hypot(1.0)));
+            (base_mm, [end, start.max(least_roll(base_mm))])
+        }
     };
+    let arc_mm = |roll: f64| 0.5 * edge_base_mm * roll * roll;
     let (start, inwards) = match ground {
         None => (left.point(start_roll), left.normal(start_roll).perp()),
         Some(flank) => {
-            let [point_mm, rate] = flank.point_and_rate(arc_mm(flank, start_roll));
+            let [point_mm, rate] = flank.point_and_rate(arc_mm(edge_start));
             (point_mm, -rate.normalize())
         }
     };
     let start_radius_mm = start.length();
-    let near_base_roll = NEAR_BASE_CURVATURE_MODULES * m / base_radius_mm;
-    let mut flank_rolls = vec![end_roll];
-    if start_roll < 0.5 * near_base_roll && end_roll > 2.0 * near_base_roll {
+    let near_base_roll = NEAR_BASE_CURVATURE_MODULES * m / edge_base_mm;
+    let mut flank_rolls = vec![edge_end];
+    if edge_start < 0.5 * near_base_roll && edge_end > 2.0 * near_base_roll {
         flank_rolls.push(near_base_roll);
     }
-    flank_rolls.push(start_roll);
+    flank_rolls.push(edge_start);
 
     // The left half of the chain, from the tip's middle to the root's middle.
     let mut left_half = Vec::new();
@@ -260,7 +266,7 @@ fn tooth_with(
         let name = SegmentName::FlankLeft;
         let flank = match ground {
             None => Segment::involute(name, left, [rolls[1], rolls[0]]),
-            Some(flank) => Segment::curve(name, flank, [rolls[0], rolls[1]].map(|roll| arc_mm(flank, roll))),
+            Some(flank) => Segment::curve(name, flank, [rolls[0], rolls[1]].map(arc_mm)),
         };
         left_half.push(flank.map_err(no_fit)?);
     }
