@@ -30,11 +30,11 @@ use gearcut_core::passes::sections::swept_sections::EDGE_PLACES;
 /// Teeth with at least this share of the largest wear are called worn: 0.02 mm at a limit of 0.2 mm, about what a
 /// measuring microscope tells from a new edge.
 pub const WORN: f64 = 0.1;
-/// Steps through the range of x. The equivalent lengths are convex in x, and so gears have one maximum: between two
-/// steps they pass the larger one by less than a hundredth of the interval's width.
-const EXPONENT_STEPS: u32 = 16;
 /// Teeth with at least this share are called evenly worn.
 pub const EVEN: f64 = 0.9;
+/// Steps through the range of x. The equivalent lengths are convex in x, so that gears have one maximum: an end of an
+/// interval between two steps is missed by little.
+const EXPONENT_STEPS: u32 = 16;
 
 /// A chip as a place of an edge cuts it.
 #[derive(Debug, Clone, Copy, PartialEq)]

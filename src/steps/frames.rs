@@ -4,7 +4,7 @@
 //! strokes of a shaper cutter, passes of hob teeth. Out: pictures, and an animation of all of them.
 //!
 //! Every frame shows the work after exactly the steps before it, none left out: the section, drawn as a body over the
-//! whole face. Work and tool stand as on the machine: the line of centres stays, the gear and the tool turn. The tool
+//! whole face. Work and tool lie as on the machine: the line of centres stays, the gear and the tool turn. The tool
 //! is drawn above the face; its height is a drawing's, not the tool's.
 
 use super::Tools;
@@ -124,7 +124,7 @@ fn tool(cut: &dyn CutByStep, step: usize) -> Result<Vec<Mesh>> {
     Ok(parts.iter().map(|contours| prism(contours, cut.tool_z_mm())).collect())
 }
 
-/// Turn from the gear frame into the machine, where the tool's axis stands at positive x, as a unit vector.
+/// Turn from the gear frame into the machine, where the tool's axis lies at positive x, as a unit vector.
 fn machine_from_gear(cut: &dyn CutByStep, step: usize) -> DVec2 {
     let along = cut.axis_mm(step).normalize_or(DVec2::X);
     DVec2::new(along.x, -along.y)

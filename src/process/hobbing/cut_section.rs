@@ -3,7 +3,7 @@
 //! In: a cutter with its passes and a number of them. Out: one slice of the blank after exactly these passes, and the
 //! sections of the teeth that point to the work together, which are the generating rack as far as that gash has it.
 //!
-//! A tooth is drawn by its edge, point by point where it stands when it goes through the section (the law of
+//! A tooth is drawn by its edge, point by point where it is when it goes through the section (the law of
 //! [`SweptSections`]): that curve is what the pass takes. Steps are the passes whose tip comes as near to the gear's
 //! axis as the stock reaches; passes between them are cut all the same.
 

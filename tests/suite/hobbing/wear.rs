@@ -65,7 +65,9 @@ fn wear_of_one_tooth_is_that_by_hand() {
         };
         let mut cost = GearCost::nothing(job.hob.teeth.len());
         let in_slices = [chip(of_tooth[0], 0.2), chip(of_tooth[1], 0.05)];
-        hob_wear::add(&mut cost, &law, passes, &operation.linkage, job.hob.tip_radius_mm, &lengths_mm, &in_slices);
+        let tip_radius_mm = job.hob.tip_radius_mm;
+        let speeds = hob_wear::tip_speeds_mm_per_s(passes, &operation.linkage, tip_radius_mm, &in_slices);
+        hob_wear::add(&mut cost, &law, passes, &speeds, &lengths_mm, &in_slices);
         assert_eq!(cost.first(), Some([2, FLANK_PLACES]));
         0.2 * cost.equivalent_mm[2][FLANK_PLACES] / 30e3
     };

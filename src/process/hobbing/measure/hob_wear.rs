@@ -19,24 +19,36 @@ pub const PLACE_NAMES: [&str; EDGE_PLACES] =
 /// Teeth with less than this share count as idle where the hob is shifted.
 const IDLE: f64 = 0.01;
 
-/// Adds an operation of a hob with this tip radius, whose edges' places have these lengths, from what its passes took
-/// slice by slice.
+/// Speed of the tip of a hob in every pass of an operation that took anything, mm/s; none in the others.
+pub fn tip_speeds_mm_per_s(
+    passes: &TurningPasses,
+    linkage: &HobbingLinkage,
+    tip_radius_mm: f64,
+    in_slices: &[PassChip],
+) -> Vec<Option<f64>> {
+    let mut speeds: Vec<Option<f64>> = vec![None; passes.count() as usize];
+    for chip in in_slices {
+        let index = chip.pass - passes.first_pass;
+        speeds[index as usize].get_or_insert_with(|| {
+            let time_s = linkage.time_at_hob_angle(passes.pass(index).tool_angle_rad);
+            tip_radius_mm * linkage.axes::<2>(time_s).hob_rad.derivative(1)
+        });
+    }
+    speeds
+}
+
+/// Adds an operation of a hob whose tip has these speeds and whose edges' places have these lengths, from what its
+/// passes took slice by slice.
 pub fn add(
     cost: &mut GearCost,
     law: &WearLaw,
     passes: &TurningPasses,
-    linkage: &HobbingLinkage,
-    tip_radius_mm: f64,
+    speeds_mm_per_s: &[Option<f64>],
     lengths_mm: &[f64; EDGE_PLACES],
     in_slices: &[PassChip],
 ) {
-    let mut speeds: Vec<Option<f64>> = vec![None; passes.count() as usize];
     for chip in in_slices {
-        let index = chip.pass - passes.first_pass;
-        let speed_mm_per_s = *speeds[index as usize].get_or_insert_with(|| {
-            let time_s = linkage.time_at_hob_angle(passes.pass(index).tool_angle_rad);
-            tip_radius_mm * linkage.axes::<2>(time_s).hob_rad.derivative(1)
-        });
+        let Some(speed_mm_per_s) = speeds_mm_per_s[(chip.pass - passes.first_pass) as usize] else { continue };
         let tooth = passes.blade_of(chip.pass).1 as usize;
         for (place, work) in chip.edge.iter().enumerate().filter(|(_, work)| work.swept_mm2 > 0.0) {
             let length_mm = f64::from(work.swept_mm2) / lengths_mm[place];

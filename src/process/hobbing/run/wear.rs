@@ -21,11 +21,17 @@ pub fn measure(cutter: &HobCutter, blank: &HobbedBlank) -> Option<ToolWear> {
     let job = cutter.job;
     let own_mm_per_s = job.hob.tip_radius_mm * job.finishing().spec.hob_speed_rad_per_s;
     let lengths_mm = edge_place_lengths_mm(job.hob.edges().edge_of(0));
-    Some(ToolWear::new(job.wear?, own_mm_per_s, |law| {
+    let wear = job.wear?;
+    let operations: Vec<_> = cutter.operations.iter().zip(&job.operations).zip(&blank.in_slices).collect();
+    // Once for all laws.
+    let speeds = operations.iter().map(|((passes, operation), in_slices)| {
+        hob_wear::tip_speeds_mm_per_s(passes, &operation.linkage, job.hob.tip_radius_mm, in_slices)
+    });
+    let speeds: Vec<_> = speeds.collect();
+    Some(ToolWear::new(wear, own_mm_per_s, |law| {
         let mut cost = GearCost::nothing(job.hob.teeth.len());
-        for ((passes, operation), in_slices) in cutter.operations.iter().zip(&job.operations).zip(&blank.in_slices) {
-            let tip_radius_mm = job.hob.tip_radius_mm;
-            hob_wear::add(&mut cost, law, passes, &operation.linkage, tip_radius_mm, &lengths_mm, in_slices);
+        for (((passes, _), in_slices), speeds_mm_per_s) in operations.iter().zip(&speeds) {
+            hob_wear::add(&mut cost, law, passes, speeds_mm_per_s, &lengths_mm, in_slices);
         }
         cost
     }))

@@ -81,8 +81,8 @@ impl GroundFlank {
         })
     }
 
-    /// e: how far the edge stands out of the involute of the same thickness on the pitch circle, along its normal, mm;
-    /// outside of both base circles.
+    /// e: how far the edge lies outside of the involute of the same thickness on the pitch circle, along its normal;
+    /// mm, valid outside of both base circles.
     pub fn deviation_mm(&self, radius_mm: f64) -> f64 {
         let base_mm = self.pitch_radius_mm * self.pressure_angle_rad.cos();
         let inv_at = |base_mm: f64| inv((base_mm / radius_mm).min(1.0).acos());
