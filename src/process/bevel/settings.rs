@@ -33,7 +33,7 @@ impl Bevel {
         }
         let inferred = InferredCutter::new(&settings, blank);
         settings.roll.ratio = of.roll_ratio.unwrap_or(inferred.roll_ratio);
-        tilted(&settings)?;
+        tilted(&self.with_errors(&settings))?;
         Ok((settings, inferred))
     }
 

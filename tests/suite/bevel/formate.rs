@@ -323,6 +323,7 @@ fn scenes_and_pages_speak_of_a_plunge() {
         (CASE, "operation.finish.roll_from_deg=40", "remove it, or write another roll_ratio"),
         (CASE, "machine.cradle.modified_roll_c=0.01", "nothing rolls"),
         (CASE, "machine.cradle_errors.roll_ratio=0.001", "nothing rolls"),
+        (CASE, "machine.cradle_errors.tilt_deg=0.1", "nothing rolls"),
         ("scenes/bevel/crown_gear.toml", "operation.finish.infeed_mm_per_revolution=0.5", "the cradle rolls"),
         (
             "scenes/bevel/crown_gear.toml",

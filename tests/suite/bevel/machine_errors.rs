@@ -4,6 +4,7 @@
 use super::jobs::job;
 use crate::fixtures::closed_form;
 use gearcut::cut::cpu::Cpu;
+use gearcut::frame::Rigid3;
 use gearcut::machine_errors::{AxisNoise, NoiseLaw};
 use gearcut::passes::SweepPlan;
 use gearcut::process::bevel::BevelJob;
@@ -22,14 +23,25 @@ struct Place {
     /// Cradle angle of the contact, rad.
     cradle_rad: f64,
     slot: u32,
-    /// Direction of the slide Z, along the head's axis.
-    along_head: DVec3,
+    /// Pose of the head at the contact.
+    gear_from_head: Rigid3,
 }
 
 impl Place {
     /// Height after the head has been turned about the gear's axis, rad.
     fn turned(&self, by_rad: f64) -> f64 {
         (by_rad * DVec3::Z.cross(self.point_mm)).dot(self.normal)
+    }
+
+    /// Direction of the slide Z, along the head's axis.
+    fn along_head(&self) -> DVec3 {
+        self.gear_from_head.direction(DVec3::Z)
+    }
+
+    /// Height per rad of a turn of the head about an axis through the middle of the plane of its tips, head frame.
+    fn leaned(&self, about: DVec3) -> f64 {
+        let arm_mm = self.point_mm - self.gear_from_head.translation_mm;
+        self.gear_from_head.direction(about).cross(arm_mm).dot(self.normal)
     }
 }
 
@@ -51,13 +63,14 @@ fn changes(sound: &BevelJob, faulty: &BevelJob, teeth: &[u32]) -> Vec<(Place, f6
                 let contact = target.row(along_mm).expect("a row").point(target.share_at(arc_mm)).expect("a point");
                 let ray = rays.field.ray(0, row);
                 let turn = DMat3::from_rotation_z(TAU * f64::from(slot) / f64::from(sound.blank.teeth));
-                let axis = sound.finishing().as_set.work_from_tool(contact.cradle_rad).direction(DVec3::Z);
+                let turn = Rigid3 { rotation: turn, translation_mm: DVec3::ZERO };
+                let work_from_head = sound.finishing().as_set.work_from_tool(contact.cradle_rad);
                 let place = Place {
                     point_mm: ray.origin_mm,
                     normal: ray.normal,
                     cradle_rad: contact.cradle_rad,
                     slot,
-                    along_head: turn * sound.gear_from_work.direction(axis),
+                    gear_from_head: turn.after(&sound.gear_from_work).after(&work_from_head),
                 };
                 let index = rays.field.index(0, row);
                 found.push((place, f64::from(after.heights_mm[index]) - f64::from(before.heights_mm[index])));
@@ -109,13 +122,13 @@ fn errors_are_their_closed_forms() {
         &|place| {
             let passed_s = (place.cradle_rad - finishing.course.range[0]) / finishing.course.per_s;
             let time_s = f64::from(place.slot) * finishing.cycle_s() + passed_s;
-            noise.at(time_s, 0) * place.along_head.dot(place.normal)
+            noise.at(time_s, 0) * place.along_head().dot(place.normal)
         },
     );
     case("drift of the slide along the head", &["machine.errors.z.drift_um_per_h=60"], 1.0, &|place| {
         let passed_s = (place.cradle_rad - finishing.course.range[0]) / finishing.course.per_s;
         let time_s = f64::from(place.slot) * finishing.cycle_s() + passed_s;
-        60e-3 / 3600.0 * time_s * place.along_head.dot(place.normal)
+        60e-3 / 3600.0 * time_s * place.along_head().dot(place.normal)
     });
 }
 
@@ -135,6 +148,24 @@ fn errors_of_settings_are_their_closed_forms() {
     // The gear's z axis runs from its back to the apex.
     case("center_to_back_mm", 0.02, 1.0, &|place| place.normal.z);
     case("roll_ratio", 0.0002, 1.0, &|place| place.turned(finishing.as_set.work_angle(place.cradle_rad)[0] / 1.0232));
+    // An upright head that leans towards the line of the radial setting turns about its own y axis.
+    case("tilt_deg", 0.01, 1.0, &|place| place.leaned(DVec3::Y).to_radians());
+}
+
+/// The lean R_z(j) R_y(i) R_z(-j) turns with i about (-sin j, cos j, 0) and with j about z less the head's own axis.
+#[test]
+fn errors_of_tilt_and_swivel_are_their_closed_forms() {
+    const SCENE: &str = "tilted";
+    let sound = job(SCENE, &[]).expect("a gear");
+    let lean = sound.finishing().settings.tilt;
+    let about_tilt = DVec3::new(-lean.swivel_rad.sin(), lean.swivel_rad.cos(), 0.0);
+    let about_swivel = lean.rotation().transpose() * DVec3::Z - DVec3::Z;
+    for (key, size_deg, about) in [("tilt_deg", 0.01, about_tilt), ("swivel_deg", 0.3, about_swivel)] {
+        let error = format!("machine.cradle_errors.{key}={size_deg}");
+        let faulty = job(SCENE, &[&error]).expect("a gear");
+        let expected = |place: &Place| size_deg * place.leaned(about).to_radians();
+        agree(key, &changes(&sound, &faulty, &[1, 17]), 1.0, expected);
+    }
 }
 
 #[test]

@@ -4,9 +4,11 @@ use super::cases::close;
 use super::jobs::job;
 use crate::fixtures::command::gearcut;
 use gearcut::bevel::cradle::{CradleSettings, Roll, Tilt};
+use gearcut::bevel::ease_off::{Setting, ease_off_mm, explain};
 use gearcut::bevel::envelope::Envelope;
 use gearcut::bevel::face_mill::{BladeKind, CuttingSurface};
 use gearcut::bevel::five_axis::{FiveAxisMachine, SixAxes};
+use gearcut::process::bevel::BevelJob;
 use gearcut::process::bevel::axis_program::read;
 use gearcut::process::bevel::gcode;
 use gearcut::process::bevel::motion::SlotMotion;
@@ -143,6 +145,49 @@ fn in_the_meridian_of_its_lean_a_tilted_cone_is_an_upright_one() {
             assert!(a.normal.distance(b.normal) < 1e-11, "{a:?} not {b:?}");
             close("place on the edge", a.edge_mm, b.edge_mm, 1e-9);
         }
+    }
+}
+
+/// What the shipped tilted head is for. Its blades act as those of 20 deg on an upright head at the mean point, but their
+/// cones are curved along the tooth by cos(24 deg) / r and cos(16 deg) / r in place of cos(20 deg) / r: flanks fall off
+/// from the middle by half the difference times the square of the distance along the tooth.
+#[test]
+fn a_tilted_head_crowns_both_flanks_along_the_tooth() {
+    let [tilted, upright] = ["tilted", "spiral_angle"].map(|scene| job(scene, &[]).expect("a gear"));
+    let radius_mm = upright.head.radius_mm;
+    let along_mm: Vec<f64> = (-4..=4).map(|i| 2.5 * f64::from(i)).collect();
+    for kind in BladeKind::BOTH {
+        let [own, lean] = [&upright, &tilted].map(|job| &job.target[kind.index()]);
+        let off_mm = ease_off_mm(own, &lean.envelope, &[0.5], &along_mm).expect("flanks");
+        let cos = |job: &BevelJob| job.head.blade_angles_rad[kind.index()].cos();
+        let curvature_per_mm = (cos(&tilted) - cos(&upright)).abs() / radius_mm;
+        // A slope is a spiral angle that is a little off; the bend is the mean of both ends.
+        for end in 1..=4 {
+            let on_tooth_mm = along_mm[4 + end] / upright.inferred.spiral_angle_rad.cos();
+            let expected_mm = -0.5 * curvature_per_mm * on_tooth_mm * on_tooth_mm;
+            let bend_mm = 0.5 * (off_mm[4 - end] + off_mm[4 + end]);
+            println!("{} {on_tooth_mm:.2} mm: {bend_mm:.5}, expected {expected_mm:.5} mm", kind.name());
+            assert!((bend_mm / expected_mm - 1.0).abs() < 0.15);
+        }
+        assert!(off_mm[0] < -0.01 && off_mm[8] < -0.01, "{off_mm:?}");
+    }
+}
+
+/// Errors of every setting of a tilted head are found again by what they do to flanks.
+#[test]
+fn wrong_settings_of_a_tilted_head_are_named() {
+    let job = job("tilted", &[]).expect("a gear");
+    let (shares, along_mm) = ([0.05, 0.3, 0.5, 0.7, 0.95], [-10.0, -5.0, 0.0, 5.0, 10.0]);
+    let lean = &job.target[0];
+    let settings = lean.envelope.settings;
+    for setting in Setting::ALL.into_iter().filter(|setting| setting.acts_on(&settings)) {
+        let error = if setting == Setting::RollRatio || setting.is_angle() { 4e-4 } else { 0.04 };
+        let off = Envelope { settings: setting.off_by(error, &settings), ..lean.envelope };
+        let measured = ease_off_mm(lean, &off, &shares, &along_mm).expect("flanks");
+        let found = explain(lean, &shares, &along_mm, &measured).expect("flanks");
+        println!("{}: {:?}", setting.name(), &found[..2]);
+        assert_eq!(found[0].setting, setting);
+        assert!((found[0].error / error - 1.0).abs() < 0.02, "{:?}", found[0]);
     }
 }
 

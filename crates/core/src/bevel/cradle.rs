@@ -108,15 +108,15 @@ impl CradleSettings {
     /// and away from it, mm) on the head's side, along the head's axis in the middle of the roll; negative where it
     /// lies beyond.
     pub fn short_of_mm(&self, axial_mm: DVec2) -> f64 {
+        let head = self.machine_from_tool(self.cradle_angle_rad);
+        head.rotation.z_axis.dot(self.machine_from_axial_mm(axial_mm) - head.translation_mm)
+    }
+
+    /// A place of the axial section in the machine, on the head's side of the work.
+    pub(super) fn machine_from_axial_mm(&self, axial_mm: DVec2) -> DVec3 {
         let (sin, cos) = self.root_angle_rad.sin_cos();
         let out_mm = axial_mm.x + self.center_to_back_mm;
-        let along_mm = sin * out_mm - cos * axial_mm.y - self.sliding_base_mm;
-        if self.tilt.is_none() {
-            return along_mm;
-        }
-        let head = self.machine_from_tool(self.cradle_angle_rad);
-        let across_mm = DVec2::new(cos * out_mm + sin * axial_mm.y, 0.0) - head.translation_mm.truncate();
-        head.rotation.z_axis.dot(across_mm.extend(along_mm))
+        DVec3::new(cos * out_mm + sin * axial_mm.y, 0.0, sin * out_mm - cos * axial_mm.y)
     }
 
     /// Work angle A and its rate dA/dq at a cradle angle; A is R_a q where the roll is not modified.

@@ -56,6 +56,10 @@ pub enum Setting {
     RootAngle,
     /// R_a.
     RollRatio,
+    /// Tilt i, rad, towards the swivel's direction.
+    Tilt,
+    /// Swivel j, rad.
+    Swivel,
 }
 
 /// What a setting's error explains of measured deviations.
@@ -71,7 +75,7 @@ pub struct Explained {
 
 impl Setting {
     /// All of them.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 9] = [
         Self::Radial,
         Self::CradleAngle,
         Self::BlankOffset,
@@ -79,14 +83,18 @@ impl Setting {
         Self::CenterToBack,
         Self::RootAngle,
         Self::RollRatio,
+        Self::Tilt,
+        Self::Swivel,
     ];
 
     /// Whether its error changes a flank. Where the roll is even, the head on another place of the cradle cuts the same
-    /// slot at another angle of the work; where nothing rolls there is no ratio.
+    /// slot at another angle of the work; where nothing rolls there is no ratio and no tilt, and an upright head leans
+    /// nowhere.
     pub fn acts_on(self, settings: &CradleSettings) -> bool {
         match self {
             Self::CradleAngle => settings.plunges(),
-            Self::RollRatio => !settings.plunges(),
+            Self::RollRatio | Self::Tilt => !settings.plunges(),
+            Self::Swivel => !settings.tilt.is_none(),
             _ => true,
         }
     }
@@ -101,12 +109,14 @@ impl Setting {
             Self::CenterToBack => "machine centre to back",
             Self::RootAngle => "root angle",
             Self::RollRatio => "ratio of roll",
+            Self::Tilt => "tilt of the head",
+            Self::Swivel => "swivel of the head",
         }
     }
 
     /// Whether it is an angle, rad.
     pub fn is_angle(self) -> bool {
-        matches!(self, Self::CradleAngle | Self::RootAngle)
+        matches!(self, Self::CradleAngle | Self::RootAngle | Self::Tilt | Self::Swivel)
     }
 
     fn step(self) -> f64 {
@@ -128,6 +138,8 @@ impl Setting {
             Self::CenterToBack => off.center_to_back_mm += error,
             Self::RootAngle => off.root_angle_rad += error,
             Self::RollRatio => off.roll.ratio += error,
+            Self::Tilt => off.tilt.tilt_rad += error,
+            Self::Swivel => off.tilt.swivel_rad += error,
         }
         off
     }

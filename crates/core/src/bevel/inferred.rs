@@ -59,7 +59,8 @@ impl InferredCutter {
             let Tilt { tilt_rad, swivel_rad } = settings.tilt;
             let lean = settings.cradle_angle_rad.abs() + hand * swivel_rad;
             let axis = (tilt_rad.sin() * DVec2::from_angle(lean)).extend(tilt_rad.cos());
-            let arm = to_head.extend(0.0).reject_from(axis);
+            let height_mm = settings.sliding_base_mm - settings.machine_from_axial_mm(blank.mean_root_mm()).z;
+            let arm = to_head.extend(height_mm).reject_from(axis);
             to_head = arm.length() * axis.cross(arm).truncate().normalize().perp() * -1.0;
         }
         let tan_spiral = -to_head.x / to_head.y;

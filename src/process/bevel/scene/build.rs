@@ -106,6 +106,8 @@ fn settings(cradle: View<'_>, errors: View<'_>) -> Option<SettingsSpec> {
             (Setting::CenterToBack, errors.number("center_to_back_mm")?),
             (Setting::RootAngle, errors.rad("root_angle_deg")?),
             (Setting::RollRatio, errors.number("roll_ratio")?),
+            (Setting::Tilt, errors.rad("tilt_deg")?),
+            (Setting::Swivel, errors.rad("swivel_deg")?),
         ],
     })
 }

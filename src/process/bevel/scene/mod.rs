@@ -59,6 +59,8 @@ static CRADLE_ERRORS: &[ErrorSource] = &[
     setting("center_to_back_mm", "mm", 0.01, "machine centre to back"),
     setting("root_angle_deg", "deg", 0.01, "root angle"),
     setting("roll_ratio", "1", 0.0002, "ratio of roll"),
+    setting("tilt_deg", "deg", 0.01, "tilt of the head"),
+    setting("swivel_deg", "deg", 0.01, "swivel of the head"),
 ];
 
 /// Spiral bevel gears cut with a face-mill head.
@@ -201,7 +203,12 @@ fn keys_of_the_other_way(found: &mut Found) {
     let mut wrong: Vec<(String, &str)> = (0..found.values.count("operation")).flat_map(in_operation).collect();
     wrong.retain(|(path, key)| found.view(path).number(key).is_some());
     if plunges(found.values) {
-        let of_roll = [("cradle", "modified_roll_c"), ("cradle", "modified_roll_d"), ("cradle_errors", "roll_ratio")];
+        let of_roll = [
+            ("cradle", "modified_roll_c"),
+            ("cradle", "modified_roll_d"),
+            ("cradle_errors", "roll_ratio"),
+            ("cradle_errors", "tilt_deg"),
+        ];
         let of_roll = of_roll.map(|(section, key)| (format!("machine.{section}"), key));
         let is_set = |(path, key): &(String, &str)| found.view(path).number(key).is_some_and(|number| number != 0.0);
         wrong.extend(of_roll.into_iter().filter(is_set));

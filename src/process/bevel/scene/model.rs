@@ -103,7 +103,7 @@ pub struct SettingsSpec {
     /// Ratio of roll, where given.
     pub roll_ratio: Option<f64>,
     /// How far the machine is off, setting by setting: mm, rad or a ratio.
-    pub errors: [(Setting, f64); 7],
+    pub errors: [(Setting, f64); Setting::ALL.len()],
 }
 
 /// One run of the head over all slots.

@@ -142,6 +142,22 @@ pub(super) static SECTIONS: &[KeySection] = &[
             length("center_to_back_mm", "0.02", "Error of machine centre to back."),
             Key::number("root_angle_deg", "deg", Range::closed(-5.0, 5.0), 0.0, "0.02", "Error of the root angle."),
             Key::number("roll_ratio", "", Range::closed(-0.1, 0.1), 0.0, "0.0005", "Error of the ratio of roll."),
+            Key::number(
+                "tilt_deg",
+                "deg",
+                Range::closed(-5.0, 5.0),
+                0.0,
+                "0.02",
+                "Error of the tilt, towards the swivel's direction; an upright head may have one too.",
+            ),
+            Key::number(
+                "swivel_deg",
+                "deg",
+                Range::closed(-5.0, 5.0),
+                0.0,
+                "0.02",
+                "Error of the swivel; an upright head has none.",
+            ),
         ],
         "Errors of a machine that is not set as it should be: it cuts with settings and errors together, and \
             the target is that of the settings alone.",
