@@ -307,8 +307,7 @@ pub struct CutArguments {
     /// (see --only).
     #[arg(long)]
     pub draft: bool,
-    /// Draw N pictures, 2 to 5000, of the cut as it happens, of shaping and hobbing (frames/*.png, and all of them in
-    /// frames/cut.apng).
+    /// Draw N pictures, 2 to 5000, of the cut as it happens (frames/*.png, and all of them in frames/cut.apng).
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=5000))]
     pub frames: Option<u32>,
     /// Print every section of the findings, not only what a screen holds.

@@ -1,18 +1,19 @@
-//! The cut gear as one closed body, from the rays through the whole blank.
+//! The cut gear as one closed body, from the rays through the whole blank; or a few slots of it.
 //!
-//! In: the cut cells ([`super::blank`]). Out: a closed [`Mesh`]: the toothed surface all round, both ends of the face
-//! square to the pitch cone, and a cone under the roots. What the blank has below that the scene does not say: the body
-//! is the toothed ring.
+//! In: the cut cells ([`super::blank`]). Out: a closed [`Mesh`]: the toothed surface, both ends of the face square to
+//! the pitch cone, and a cone under the roots. What the blank has below that the scene does not say: the body is the
+//! toothed ring.
 //!
 //! The columns of all cells follow each other round the axis, so that edges have two triangles by construction. Rows
-//! stand at cone distances, and between two of them the surface runs straight along the slot.
+//! stand at cone distances, and between two of them the surface runs straight along the slot. A body of a few slots
+//! ends in walls along its first and last columns.
 
 use super::blank::{CellGrid, CutCells};
 use super::job::{BevelJob, index};
 use crate::surface::flanks::pass_scalar;
 use crate::surface::mesh::{Mesh, MeshPart};
 use crate::surface::triangles::Triangles;
-use gearcut_core::dexel::NO_PASS;
+use gearcut_core::dexel::{Layer, NO_PASS};
 use gearcut_core::error::Refusal;
 use gearcut_core::terms::Side;
 use glam::DVec3;
@@ -26,17 +27,22 @@ fn kept_columns(job: &BevelJob, grid: &CellGrid, spacing_mm: f64) -> Vec<usize> 
 
 /// Closed body with columns about `spacing_mm` apart, never closer than the rays.
 pub fn body(job: &BevelJob, whole: &CutCells, spacing_mm: f64) -> Mesh {
-    let grid = &whole.grid;
-    let (rows, teeth) = (grid.rows(), job.blank.teeth as usize);
+    let last = |layers: &Vec<Layer>| layers.last().expect("a job has at least one operation").clone();
+    let cells: Vec<(u32, Layer)> = (0..).zip(whole.slots.iter().map(last)).collect();
+    of_cells(job, &whole.grid, &cells, spacing_mm)
+}
+
+/// The same of the cells of slots that follow each other, of all of them or of a few.
+pub fn of_cells(job: &BevelJob, grid: &CellGrid, cells: &[(u32, Layer)], spacing_mm: f64) -> Mesh {
+    let (rows, is_ring) = (grid.rows(), cells.len() == job.blank.teeth as usize);
     let kept = kept_columns(job, grid, spacing_mm);
-    let columns = teeth * kept.len();
+    let columns = cells.len() * kept.len();
     // Toothed surface, then the cone under the roots.
     let mut positions_mm: Vec<DVec3> = Vec::with_capacity(2 * columns * rows);
     let mut passes: Vec<u32> = Vec::with_capacity(2 * columns * rows);
     for under in [false, true] {
-        for (slot, layers) in whole.slots.iter().enumerate() {
-            let turn = index(slot as u32, job.blank.teeth);
-            let layer = layers.last().expect("a job has at least one operation");
+        for (slot, layer) in cells {
+            let turn = index(*slot, job.blank.teeth);
             for &column in &kept {
                 for row in 0..rows {
                     let (ray, _) = grid.ray(job, column, row);
@@ -64,13 +70,15 @@ pub fn body(job: &BevelJob, whole: &CutCells, spacing_mm: f64) -> Mesh {
             quad(if under == 0 { [p, q, s, t] } else { [p, t, s, q] })
         })
     };
-    for slot in 0..teeth {
-        let of_slot = slot * kept.len()..(slot + 1) * kept.len();
+    // After the last column of a few slots comes no other one.
+    let strips = if is_ring { columns } else { columns - 1 };
+    for (place, (slot, _)) in cells.iter().enumerate() {
+        let of_slot = place * kept.len()..((place + 1) * kept.len()).min(strips);
         add(format!("slot_{:02}", slot + 1), of_slot.flat_map(|column| strip(0, column)).collect(), true);
     }
-    add("under_roots".to_owned(), (0..columns).flat_map(|column| strip(1, column)).collect(), false);
+    add("under_roots".to_owned(), (0..strips).flat_map(|column| strip(1, column)).collect(), false);
     let end = |row: usize, outwards: bool| {
-        (0..columns).flat_map(move |column| {
+        (0..strips).flat_map(move |column| {
             let [p, q] = [1, 0].map(|under| at(under, column, row));
             let [t, s] = [1, 0].map(|under| at(under, column + 1, row));
             quad(if outwards { [p, t, s, q] } else { [p, q, s, t] })
@@ -78,6 +86,16 @@ pub fn body(job: &BevelJob, whole: &CutCells, spacing_mm: f64) -> Mesh {
     };
     add("toe".to_owned(), end(0, false).collect(), false);
     add("heel".to_owned(), end(rows - 1, true).collect(), false);
+    if !is_ring {
+        let wall = |column: usize, is_last: bool| {
+            (1..rows).flat_map(move |row| {
+                let [p, q] = [row - 1, row].map(|row| at(1, column, row));
+                let [t, s] = [row - 1, row].map(|row| at(0, column, row));
+                quad(if is_last { [p, t, s, q] } else { [p, q, s, t] })
+            })
+        };
+        add("walls".to_owned(), wall(0, false).chain(wall(columns - 1, true)).collect(), false);
+    }
     mesh.scalars.push(pass_scalar(passes));
     mesh
 }

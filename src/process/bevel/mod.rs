@@ -29,6 +29,7 @@ mod report;
 mod run;
 pub mod scene;
 mod settings;
+pub mod slot_frames;
 pub mod slots;
 mod stage_costs;
 mod surfaces;
@@ -42,7 +43,7 @@ use crate::output::text::Sheet;
 use crate::steps::parts::Stages;
 use crate::steps::{Tools, axes};
 use axes_report::BevelAxesReport;
-use gearcut_core::error::{Refusal, Result};
+use gearcut_core::error::Result;
 
 pub use job::BevelJob;
 
@@ -57,11 +58,7 @@ pub static PROCESS: Process = Process {
 
 impl super::ProcessJob for BevelJob {
     fn cut(&self, tools: &Tools, frames: Option<u32>) -> Result<CutDone> {
-        if frames.is_some() {
-            let (problem, way_out) = ("the cut as it happens is drawn of shaping and hobbing alone", "leave it out");
-            return Err(Refusal::new("--frames", problem, way_out).into());
-        }
-        run::run(self, tools)
+        run::run(self, tools, frames)
     }
 
     fn check(&self, sheet: &mut Sheet) -> Result<Vec<Notice>> {

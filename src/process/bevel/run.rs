@@ -7,6 +7,7 @@ use super::findings::{self, BevelMeasured};
 use super::gear::cut_gear;
 use super::job::BevelJob;
 use super::report;
+use super::slot_frames::SlotFrames;
 use super::stage_costs::STAGE_COSTS;
 use super::{blank, body, chips};
 use crate::findings::Findings;
@@ -14,6 +15,7 @@ use crate::output::atomic::write_bytes_atomically;
 use crate::output::table::write_tables;
 use crate::process::CutDone;
 use crate::steps::attempts::Attempts;
+use crate::steps::frames::draw;
 use crate::steps::meshes::ClosedBodies;
 use crate::steps::parts::Part;
 use crate::steps::report::RunWords;
@@ -22,13 +24,13 @@ use crate::texture;
 use gearcut_core::error::Result;
 use gearcut_core::terms::Side;
 
-/// Cuts a job and writes everything.
+/// Cuts a job and writes everything; `frames` is how many pictures of the cut as it happens are drawn.
 ///
 /// # Errors
 /// Geometry, the backend, files. Ctrl-C is no error once a flank is finished.
-pub(super) fn run(job: &BevelJob, tools: &Tools) -> Result<CutDone> {
+pub(super) fn run(job: &BevelJob, tools: &Tools, frames: Option<u32>) -> Result<CutDone> {
     let Tools { resolved, backend, backend_why, progress, interrupt, folder, parts, stages: wanted, notes } = *tools;
-    progress.plan(stages::plan(job, parts, None, &STAGE_COSTS));
+    progress.plan(stages::plan(job, parts, frames, &STAGE_COSTS));
     let motion = BevelAxesReport::of_job(job);
     let foreseen = findings::foresee(job, &motion, wanted)?;
     let gear = cut_gear(job, backend, progress, interrupt, Some((folder, notes, parts)))?;
@@ -79,6 +81,10 @@ pub(super) fn run(job: &BevelJob, tools: &Tools) -> Result<CutDone> {
         let body = |whole| ClosedBodies { whole: body::body(job, whole, spacing_mm), pictured: None };
         let bodies = || Ok(whole.as_ref().map(body));
         work.interrupted = !write_meshes_and_pictures(job, tools, &mut attempts, (&gear.pictured, &gear.maps), bodies)?;
+        if let Some(count) = frames {
+            let draw = || draw(&mut SlotFrames::new(job)?, &job.scene.name, count, tools);
+            work.interrupted |= attempts.of("frames", draw())? == Some(false);
+        }
     }
     if parts.has(Part::Axes) {
         for operation in &motion {

@@ -8,7 +8,8 @@
 //! axis as the stock reaches; passes between them are cut all the same.
 
 use super::{HobCutter, HobbingJob};
-use crate::steps::frames::CutByStep;
+use crate::steps::frames::place;
+use crate::steps::frames::section::SectionByStep;
 use crate::steps::whole_blank;
 use gearcut_core::cut::Backend as _;
 use gearcut_core::cut::cpu::Cpu;
@@ -57,15 +58,7 @@ impl<'a> HobbedSection<'a> {
 
     /// Operation and place among its own of a pass counted over all operations.
     fn place(&self, step: usize) -> (usize, usize) {
-        let mut rest = step;
-        for (operation, ids) in self.ids.iter().enumerate() {
-            if rest < ids.len() {
-                return (operation, rest);
-            }
-            rest -= ids.len();
-        }
-        let last = self.ids.len() - 1;
-        (last, self.ids[last].len().saturating_sub(1))
+        place(self.ids.iter().map(Vec::len), step)
     }
 
     /// Passes of an operation and the pass of a step.
@@ -76,7 +69,7 @@ impl<'a> HobbedSection<'a> {
     }
 }
 
-impl CutByStep for HobbedSection<'_> {
+impl SectionByStep for HobbedSection<'_> {
     fn steps(&self) -> usize {
         self.ids.iter().map(Vec::len).sum()
     }

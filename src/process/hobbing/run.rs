@@ -20,6 +20,7 @@ use crate::process::hobbing::stage_costs::STAGE_COSTS;
 use crate::process::hobbing::{HobCutter, HobbingJob};
 use crate::steps::attempts::Attempts;
 use crate::steps::frames::draw;
+use crate::steps::frames::section::InSection;
 use crate::steps::inspection::Inspected;
 use crate::steps::meshes::ClosedBodies;
 use crate::steps::parts::Part;
@@ -98,7 +99,7 @@ pub(super) fn run(job: &HobbingJob, tools: &Tools, frames: Option<u32>) -> Resul
         let drawn = write_meshes_and_pictures(&cutter, tools, &mut attempts, (&gear.pictured, &gear.maps), bodies)?;
         gear.work.interrupted = !drawn;
         if let Some(count) = frames {
-            let draw = || draw(&mut HobbedSection::new(&cutter)?, &job.scene.name, count, tools);
+            let draw = || draw(&mut InSection(HobbedSection::new(&cutter)?), &job.scene.name, count, tools);
             gear.work.interrupted |= attempts.of("frames", draw())? == Some(false);
         }
     }

@@ -21,6 +21,7 @@ use crate::process::shaping::stage_costs::STAGE_COSTS;
 use crate::process::shaping::{findings, report};
 use crate::steps::attempts::Attempts;
 use crate::steps::frames::draw;
+use crate::steps::frames::section::InSection;
 use crate::steps::inspection::Inspected;
 use crate::steps::inspection::headline::quality;
 use crate::steps::parts::{Part, Stage};
@@ -95,7 +96,7 @@ pub(super) fn run(job: &ShapingJob, tools: &Tools, frames: Option<u32>) -> Resul
             meshes::gear(job, tools.backend, flanks, roots, progress).map(Some)
         })?;
         if let Some(count) = frames {
-            let draw = || draw(&mut ShapedFrames(job, CutSection::new(job)?), &job.scene.name, count, tools);
+            let draw = || draw(&mut InSection(ShapedFrames(job, CutSection::new(job)?)), &job.scene.name, count, tools);
             interrupted |= attempts.of("frames", draw())? == Some(false);
         }
     }

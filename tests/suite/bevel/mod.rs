@@ -7,6 +7,7 @@ mod contact;
 mod cut;
 mod drawing;
 mod formate;
+mod frames;
 mod gcode;
 mod jobs;
 mod machine_errors;

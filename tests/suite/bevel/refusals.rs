@@ -107,9 +107,4 @@ fn keys_of_cylindrical_gears_are_refused_at_their_place() {
         gearcut(&["check", &scene, "--set", setting]).failed(1, &[words]);
     }
     gearcut(&["mate", &scene, "--teeth", "19"]).failed(1, &["no external mate with 19 teeth", "no pitch curve"]);
-    let folder = tempfile::tempdir().expect("a folder");
-    let out = folder.path().join("frames");
-    let out_word = out.to_str().expect("a path");
-    gearcut(&["cut", &scene, "--frames", "3", "--out", out_word]).failed(1, &["--frames", "shaping and hobbing alone"]);
-    assert!(!out.exists(), "{out_word}");
 }

@@ -148,9 +148,9 @@ fn in_the_meridian_of_its_lean_a_tilted_cone_is_an_upright_one() {
     }
 }
 
-/// What the shipped tilted head is for. Its blades act as those of 20 deg on an upright head at the mean point, but their
-/// cones are curved along the tooth by cos(24 deg) / r and cos(16 deg) / r in place of cos(20 deg) / r: flanks fall off
-/// from the middle by half the difference times the square of the distance along the tooth.
+/// What the shipped tilted head is for. Its blades act as those of 20 deg on an upright head at the mean point, but
+/// their cones are curved along the tooth by cos(24 deg) / r and cos(16 deg) / r in place of cos(20 deg) / r: flanks
+/// fall off from the middle by half the difference times the square of the distance along the tooth.
 #[test]
 fn a_tilted_head_crowns_both_flanks_along_the_tooth() {
     let [tilted, upright] = ["tilted", "spiral_angle"].map(|scene| job(scene, &[]).expect("a gear"));

@@ -5,7 +5,7 @@ use crate::fixtures::command::gearcut;
 use gearcut::cut::cpu::Cpu;
 use gearcut::process::hobbing::cut_section::HobbedSection;
 use gearcut::process::hobbing::{HobCutter, HobbingJob};
-use gearcut::steps::frames::CutByStep;
+use gearcut::steps::frames::section::SectionByStep;
 use gearcut::tool::CuttingTool;
 use glam::DVec2;
 use std::f64::consts::TAU;

@@ -7,7 +7,7 @@ use gearcut::cut::cpu::Cpu;
 use gearcut::process;
 use gearcut::process::shaping::ShapingJob;
 use gearcut::process::shaping::cut::section::{CutSection, cutter_solid};
-use gearcut::steps::frames::section_body;
+use gearcut::steps::frames::section::section_body;
 use gearcut::steps::gear_surfaces::complete;
 use gearcut::surface::gear_solid::gear_solid;
 use gearcut::surface::outline::{BODY_MM, Outline};

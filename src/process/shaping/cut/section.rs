@@ -8,6 +8,7 @@
 //! Chords of the drawn cutter lie within `CHORD_MM` of its edge, far below a pixel.
 
 use crate::process::shaping::ShapingJob;
+use crate::steps::frames::place;
 use crate::steps::whole_blank;
 use crate::surface::mesh::Mesh;
 use crate::surface::prism::prism;
@@ -54,15 +55,7 @@ impl<'a> CutSection<'a> {
 
     /// Operation and stroke of a stroke counted over all operations.
     pub fn operation_and_stroke(job: &ShapingJob, stroke: usize) -> (usize, usize) {
-        let mut rest = stroke;
-        for (index, operation) in job.operations.iter().enumerate() {
-            if rest < operation.strokes.count() {
-                return (index, rest);
-            }
-            rest -= operation.strokes.count();
-        }
-        let last = job.operations.len() - 1;
-        (last, job.operations[last].strokes.count() - 1)
+        place(job.operations.iter().map(|operation| operation.strokes.count()), stroke)
     }
 
     /// Where the cutter stands in the work at a stroke, at the moment when the middle of the face is cut.

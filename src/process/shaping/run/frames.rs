@@ -3,7 +3,7 @@
 
 use crate::process::shaping::ShapingJob;
 use crate::process::shaping::cut::section::{CutSection, cutter_contours};
-use crate::steps::frames::CutByStep;
+use crate::steps::frames::section::SectionByStep;
 use gearcut_core::dexel::BlankField;
 use gearcut_core::error::Result;
 use glam::DVec2;
@@ -14,7 +14,7 @@ const HEIGHT: f64 = 0.6;
 /// A job and its section.
 pub struct ShapedFrames<'a>(pub &'a ShapingJob, pub CutSection<'a>);
 
-impl CutByStep for ShapedFrames<'_> {
+impl SectionByStep for ShapedFrames<'_> {
     fn steps(&self) -> usize {
         CutSection::strokes(self.0)
     }

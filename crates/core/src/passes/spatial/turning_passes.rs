@@ -187,6 +187,12 @@ impl TurningPasses {
         self
     }
 
+    /// The first passes alone, so many of them at most.
+    #[must_use]
+    pub fn first(&self, count: u32) -> Self {
+        Self { count: self.count.min(count), ..self.clone() }
+    }
+
     /// Number of passes.
     pub fn count(&self) -> u32 {
         self.count
