@@ -1,4 +1,4 @@
-//! Frames of bevel gears: blades where the cradle's settings put them, the slot pass by pass against all passes at once.
+//! Frames of bevel gears: blades where the settings put them, the slot pass by pass against all passes at once.
 
 use super::jobs::job;
 use gearcut::cut::cpu::Cpu;
