@@ -1,11 +1,12 @@
-// The cutter over the gear, stroke by stroke, with what every stroke takes.
+// The tool over the gear, stroke by stroke or pass by pass, with what each takes.
 "use strict";
 gearcut.stage.then(({ data, scene, geometry, metal, light, widen, draw }) => {
   const { strokes } = gearcut.description;
   if (!strokes) return;
   const [slider, play, facts] = ["strokes", "strokes-play", "stroke-facts"].map((id) => document.getElementById(id));
-  const columns = new Float32Array(data.bytes, strokes.at, 7 * strokes.count);
-  const of = (stroke) => Array.from({ length: 7 }, (_, column) => columns[column * strokes.count + stroke]);
+  const WIDTH = 13;
+  const columns = new Float32Array(data.bytes, strokes.at, WIDTH * strokes.count);
+  const of = (stroke) => Array.from({ length: WIDTH }, (_, column) => columns[column * strokes.count + stroke]);
 
   const material = new THREE.ShaderMaterial({
     side: THREE.DoubleSide,
@@ -26,41 +27,35 @@ gearcut.stage.then(({ data, scene, geometry, metal, light, widen, draw }) => {
         gl_FragColor = vec4(metal * vec3(0.62, 0.78, 1.0) * (0.45 + 0.55 * light), 0.85);
       }`,
   });
-  const cutter = new THREE.Mesh(geometry(strokes.cutter), material);
-  cutter.visible = false;
-  cutter.geometry.computeBoundingSphere();
-  const reach = cutter.geometry.boundingSphere.radius;
+  const tool = new THREE.Mesh(geometry(strokes.tool), material);
+  tool.visible = false;
+  tool.geometry.computeBoundingSphere();
+  const reach = tool.geometry.boundingSphere.radius;
   let shown = false;
-  scene.add(cutter);
-
-  // Operation and stroke of a stroke counted over all operations.
-  function named(stroke) {
-    let rest = stroke;
-    for (const [name, count] of strokes.operations) {
-      if (rest < count) return [name, rest, count];
-      rest -= count;
-    }
-    return ["", rest, 0];
-  }
+  scene.add(tool);
 
   // Place 0 of the slider is the finished gear alone; the others are the strokes, of very many every second, third ...
   function show() {
     const place = Number(slider.value);
-    cutter.visible = place > 0;
+    tool.visible = place > 0;
     if (place === 0) {
-      facts.textContent = "The finished gear; move to follow the cutter stroke by stroke";
+      facts.textContent = "The finished gear; move to follow the tool " + strokes.noun + " by " + strokes.noun;
       return draw();
     }
     const stroke = place - 1;
-    const [x, y, angle, section, thickness, force, space] = of(stroke);
+    const [operation, own, x, y, z, qx, qy, qz, qw, ...taken] = of(stroke);
     if (!shown) widen(0.75 * (Math.hypot(x, y) + reach));
     shown = true;
-    cutter.position.set(x, y, 0);
-    cutter.rotation.z = angle;
-    const [name, own, count] = named(stroke * strokes.every);
-    const sizes = `chip ${gearcut.number(section)} mm², ${gearcut.number(thickness)} µm thick`;
-    const taken = space === 0 ? "takes nothing" : `${sizes}, ${Math.round(force)} N, space ${space}`;
-    facts.textContent = `${name}: stroke ${own} of ${count - 1}, ${taken}`;
+    tool.position.set(x, y, z);
+    tool.quaternion.set(qx, qy, qz, qw);
+    const [name, count] = strokes.operations[operation];
+    const value = (_, column) => {
+      const it = taken[column];
+      if (column === "3" && strokes.names.length > 0) return strokes.names[it];
+      return Number.isInteger(it) ? it : gearcut.number(it);
+    };
+    const words = taken[0] === 0 ? "takes nothing" : strokes.words.replace(/\{(\d)\}/g, value);
+    facts.textContent = `${name}: ${strokes.noun} ${own} of ${count - 1}, ${words}`;
     draw();
   }
 

@@ -3,6 +3,7 @@
 //! Profiles run counter-clockwise round the gear axis. The material of an external gear lies on their left, that of a
 //! ring on their right, where all triangles turn over.
 
+use super::mesh::Mesh;
 use gearcut_core::dexel::Ray;
 use gearcut_core::gear::GearKind;
 use gearcut_core::units::TURN_RAD;
@@ -43,6 +44,15 @@ impl Triangles {
         self.positions_mm.push(point_mm.as_vec3().to_array());
         self.normals.push(normal.as_vec3().to_array());
         self.positions_mm.len() as u32 - 1
+    }
+
+    /// A mesh as it is, for a viewer that finds its normals.
+    pub fn add_mesh(&mut self, mesh: &Mesh) {
+        let first = self.positions_mm.len() as u32;
+        for &at_mm in &mesh.positions_mm {
+            self.corner(at_mm, DVec3::Z);
+        }
+        self.indices.extend(mesh.triangles.as_flattened().iter().map(|corner| first + corner));
     }
 
     /// Profiles of all sections joined along the tooth; `forward`: they run counter-clockwise round the gear axis with

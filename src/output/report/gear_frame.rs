@@ -39,7 +39,7 @@ pub fn gear_frame(viewer: &Viewer) -> Markup {
                     @if viewer.strokes.is_some() {
                         div class="roll strokes" {
                             button type="button" id="strokes-play" aria-pressed="false" { "Play" }
-                            input id="strokes" type="range" min="0" value="0" step="1" aria-label="Stroke of the cutter"
+                            input id="strokes" type="range" min="0" value="0" step="1" aria-label="Stroke of the tool"
                                 aria-describedby="stroke-facts";
                             output id="stroke-facts" {}
                         }

@@ -14,6 +14,8 @@ use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 use flate2::Compression;
 use flate2::write::ZlibEncoder;
+use gearcut_core::frame::Rigid3;
+use glam::DQuat;
 use serde_json::{Value, json};
 
 use crate::colormap::{ColourScale, tables};
@@ -36,42 +38,48 @@ pub struct Viewer {
     pub body: Triangles,
     /// A gear that rolls with it.
     pub mate: Option<ViewerMate>,
-    /// The cutter that made it, stroke by stroke.
+    /// The tool that made it, stroke by stroke or pass by pass.
     pub strokes: Option<ViewerStrokes>,
 }
 
-/// A cutter and where it stands at every stroke, with what the stroke takes.
+/// A tool and where it is at every stroke, or at every pass of its teeth, with what that takes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ViewerStrokes {
-    /// The cutter in its own frame; normals are the viewer's affair.
-    pub cutter: Triangles,
+    /// The tool in its own frame; normals are the viewer's affair.
+    pub tool: Triangles,
+    /// `stroke` or `pass`.
+    pub noun: &'static str,
     /// Operations in order, with their numbers of strokes.
     pub operations: Vec<(String, usize)>,
-    /// Of all strokes of all operations, counted in order of time, the first one and every so many-th.
-    pub every: usize,
-    /// These strokes.
+    /// What a stroke takes, in words with `{0}` to `{3}` for [`ViewerStroke::taken`].
+    pub words: &'static str,
+    /// Names that the last value is a place of, from 0; empty: it is a number.
+    pub names: Vec<String>,
+    /// Strokes in order of time; very many are thinned.
     pub strokes: Vec<ViewerStroke>,
 }
 
-/// One stroke.
+/// One stroke, or one pass.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ViewerStroke {
-    /// Place of the cutter's axis in the gear frame, mm, and its angle, rad.
-    pub pose: [f32; 3],
-    /// Section of its chips in the transverse plane, mm^2.
-    pub section_mm2: f32,
-    /// Largest uncut chip thickness, um.
-    pub thickness_um: f32,
-    /// Cutting force, N.
-    pub force_n: f32,
-    /// Space of its largest chip; 0: it takes nothing.
-    pub space: u32,
+    /// Operation and number among its own.
+    pub place: [usize; 2],
+    /// Pose of the tool in the gear frame, mm.
+    pub gear_from_tool: Rigid3,
+    /// What it takes; nothing where the first value is 0.
+    pub taken: [f64; 4],
 }
 
+/// Columns of a stroke on the page: place, position, quaternion, what it takes.
+const COLUMNS: usize = 13;
+
 impl ViewerStroke {
-    fn values(&self) -> [f32; 7] {
-        let [x, y, angle] = self.pose;
-        [x, y, angle, self.section_mm2, self.thickness_um, self.force_n, self.space as f32]
+    fn values(&self) -> [f32; COLUMNS] {
+        let place = self.place.map(|place| place as f64);
+        let position = self.gear_from_tool.translation_mm.to_array();
+        let turn = DQuat::from_mat3(&self.gear_from_tool.rotation).to_array();
+        let mut values = place.into_iter().chain(position).chain(turn).chain(self.taken);
+        std::array::from_fn(|_| values.next().unwrap_or_default() as f32)
     }
 }
 
@@ -249,14 +257,16 @@ impl Viewer {
             json!({"mesh": mesh, "axis": mate.axis_mm, "turned": mate.turned_deg})
         });
         let strokes = self.strokes.as_ref().map(|of| {
-            let cutter = triangles(&mut block, &of.cutter);
+            let tool = triangles(&mut block, &of.tool);
             // Column by column: neighbours are alike, which zlib likes.
-            let values: Vec<[f32; 7]> = of.strokes.iter().map(ViewerStroke::values).collect();
-            let columns: Vec<f32> = (0..7).flat_map(|column| values.iter().map(move |row| row[column])).collect();
+            let values: Vec<[f32; COLUMNS]> = of.strokes.iter().map(ViewerStroke::values).collect();
+            let columns: Vec<f32> = (0..COLUMNS).flat_map(|column| values.iter().map(move |row| row[column])).collect();
             json!({
-                "cutter": cutter,
+                "tool": tool,
+                "noun": of.noun,
+                "words": of.words,
+                "names": of.names,
                 "operations": of.operations,
-                "every": of.every,
                 "count": values.len(),
                 "at": block.add_f32(&columns),
             })

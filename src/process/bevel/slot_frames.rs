@@ -11,7 +11,7 @@ use super::body::of_cells;
 use super::job::BevelJob;
 use crate::steps::frames::{CutByStep, SIZE_PX, place};
 use crate::surface::mesh::Mesh;
-use crate::surface::prism::prism;
+use crate::surface::prism::blade;
 use crate::surface::render::Camera;
 use gearcut_core::cut::cpu::Cpu;
 use gearcut_core::cut::{SweptBy, SweptField};
@@ -19,7 +19,6 @@ use gearcut_core::dexel::Layer;
 use gearcut_core::error::Result;
 use gearcut_core::frame::Rigid3;
 use gearcut_core::passes::TurningPasses;
-use gearcut_core::tool::{CuttingTool as _, SpatialTool as _};
 use gearcut_core::units::TURN_RAD;
 use glam::{DMat3, DVec3};
 
@@ -73,13 +72,12 @@ impl<'a> SlotFrames<'a> {
         of_cells(self.job, &self.grid, &cells, self.job.scene.fields.blank_spacing_mm)
     }
 
-    /// Pose in the gear of the head with its blades where they are at a step.
-    fn gear_from_head(&self, step: usize) -> (Rigid3, f64) {
+    /// Pose in the gear of the head with its blades where they are at a step, and the angle that it has turned, rad.
+    fn gear_from_tool(&self, step: usize) -> (Rigid3, f64) {
         let (operation, own) = self.place(step);
         let set = self.job.slots.of(operation, SLOT);
-        let tool_rad = set.pass(own).tool_angle_rad;
-        let turned = Rigid3 { rotation: DMat3::from_rotation_z(set.turn * tool_rad), translation_mm: DVec3::ZERO };
-        (set.motion.head_from_work(tool_rad).inverse().after(&turned), set.turn * tool_rad)
+        let pass = set.pass(own);
+        (set.work_from_tool(&pass), set.turn * pass.tool_angle_rad)
     }
 }
 
@@ -109,7 +107,7 @@ impl CutByStep for SlotFrames<'_> {
     fn tool(&self, step: usize) -> Result<Vec<Mesh>> {
         let head = &self.job.head;
         let tool = head.tool()?;
-        let (gear_from_tool, turned_rad) = self.gear_from_head(step);
+        let (gear_from_tool, turned_rad) = self.gear_from_tool(step);
         let between_rad = TURN_RAD / f64::from(head.blades());
         let behind_mm = THICKNESS * between_rad * head.radius_mm;
         let near_rad = head.half_window_rad + between_rad;
@@ -117,13 +115,12 @@ impl CutByStep for SlotFrames<'_> {
             let from_work = turned_rad + between_rad * f64::from(*blade);
             (from_work - TURN_RAD * (from_work / TURN_RAD).round()).abs() < near_rad
         };
-        let blade = |blade: u32| {
-            let gear_from_blade = gear_from_tool.after(&tool.tool_from_blade(blade));
-            let mut mesh = prism(&[tool.edge_of(blade).points_mm(CHORD_MM)], [-behind_mm, 0.0]);
-            mesh.positions_mm.iter_mut().for_each(|at| *at = gear_from_blade.point(*at));
+        let drawn = |index: u32| {
+            let mut mesh = blade(&tool, index, 1.0, behind_mm, CHORD_MM);
+            mesh.positions_mm.iter_mut().for_each(|at| *at = gear_from_tool.point(*at));
             mesh
         };
-        Ok((0..head.blades()).filter(is_near).map(blade).collect())
+        Ok((0..head.blades()).filter(is_near).map(drawn).collect())
     }
 
     fn camera(&self) -> Result<Camera> {

@@ -22,7 +22,7 @@ pub(crate) mod notices;
 pub mod quantities;
 pub mod rack_generation;
 pub mod rack_root;
-mod report;
+pub mod report;
 pub mod run;
 pub mod scene;
 mod stage_costs;

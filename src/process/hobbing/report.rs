@@ -2,6 +2,7 @@
 //! the work of the hob's teeth.
 
 mod facts;
+pub mod passes;
 
 use crate::findings::quantities::cutting::{LARGEST_FORCE, LINKAGE, OFFSET, THICKEST_CHIP};
 use crate::findings::quantities::tool_wear::TOOL_WEAR;
@@ -13,6 +14,7 @@ use crate::output::folder::OutputFolder;
 use crate::output::line_chart::LineChart;
 use crate::output::report::{Block, Page, PageSection, PageTable, Tone};
 use crate::process::hobbing::axes_report::HobbingAxesReport;
+use crate::process::hobbing::blank::HobbedBlank;
 use crate::process::hobbing::quantities::{
     ACCURACY, ASSUMPTION, AXIAL_FEED, DIFFERENCE, FEED_MARK, FORCE, GENERATING_MARK, KINEMATIC, LAW, LENGTH, LOAD,
     MARKS, PEAK_TO_MEAN, SHIFT, SHIFT_GEARS, SHIFT_GEARS_FROM, SHIFT_GEARS_TO, SHIFT_RETURN, SHIFT_TO, SURFACE,
@@ -40,6 +42,8 @@ pub struct Charts<'a> {
     pub forces: Vec<(String, LineChart)>,
     /// Wear by hob tooth; none where the scene does not say how the hob wears, or nothing was cut.
     pub wear: Option<BarChart>,
+    /// What the passes took, for the hob in the gear's view; none where the run was stopped.
+    pub blank: Option<&'a HobbedBlank>,
     /// Frequencies of errors of the points on five curves; none where nothing spreads.
     pub points: Option<LineChart>,
 }
@@ -88,7 +92,11 @@ pub fn page(
     };
     let words = steps::report::facts::gear_words(&cutter.job.scene.gear);
     let page_gear = PageGear { words, mesh: ViewMesh::new(cutter)? };
-    Ok(steps::report::page(cutter, page_gear, found, &gear.maps, operation, sections))
+    let mut page = steps::report::page(cutter, page_gear, found, &gear.maps, operation, sections);
+    if let Some((viewer, blank)) = page.viewer.as_mut().zip(charts.blank) {
+        viewer.strokes = Some(passes::passes(cutter, blank));
+    }
+    Ok(page)
 }
 
 /// What a gear inspector would find on a hobbed gear.

@@ -120,6 +120,7 @@ pub(super) fn run(job: &HobbingJob, tools: &Tools, frames: Option<u32>) -> Resul
         loads: load_charts,
         forces: force_charts,
         wear: wear_chart.map(|(_, chart)| chart),
+        blank: whole.as_ref().map(|whole| &whole.blank),
         points: points_chart,
     };
     let page = |found: &Findings| report::page(&cutter, &gear, found, charts, &motion, &words, folder);

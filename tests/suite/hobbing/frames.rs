@@ -1,13 +1,14 @@
 //! Frames of hobbing: the hob's teeth in the section against a closed form of their own, the section pass by pass
-//! against all passes at once, and the files of a run.
+//! against all passes at once, the page's hob, and the files of a run.
 
 use crate::fixtures::command::gearcut;
 use gearcut::cut::cpu::Cpu;
 use gearcut::process::hobbing::cut_section::HobbedSection;
+use gearcut::process::hobbing::report::passes::passes;
 use gearcut::process::hobbing::{HobCutter, HobbingJob};
 use gearcut::steps::frames::section::SectionByStep;
-use gearcut::tool::CuttingTool;
-use glam::DVec2;
+use gearcut::tool::{CuttingTool, SpatialTool};
+use glam::{DVec2, DVec3};
 use std::f64::consts::TAU;
 use std::path::Path;
 
@@ -122,6 +123,31 @@ fn frames_leave_what_all_passes_leave() {
         assert_eq!(cutter.operations.len(), operations);
         let [first, last] = [0, steps].map(|until| section.title(until));
         assert!(first.contains(": pass 0 of ") && last.starts_with("finish: pass "), "{first}, {last}");
+    }
+}
+
+/// The page's hob at every pass that takes something: all chips are the blank's, and the tip of the tooth that takes one
+/// is as far from the gear's axis as the numbers of the scene say when it points to the work.
+#[test]
+fn the_pages_hob_points_its_taking_tooth_to_the_work() {
+    let job = job(SCENE, &SMALL);
+    let cutter = HobCutter::new(&job).expect("passes");
+    let field = job.blank_field().expect("rays");
+    let blank = cutter.cut_blank(&Cpu::default(), field, &|| true).expect("cuts").expect("not stopped");
+    let page = passes(&cutter, &blank);
+    let cut = &blank.cut;
+    let removed_mm3: f64 = cut.blank_mm3.iter().zip(&cut.left_mm3[0]).map(|(before, after)| before - after).sum();
+    let taken_mm3: f64 = page.strokes.iter().map(|stroke| stroke.taken[0]).sum();
+    println!("{} passes take {taken_mm3} mm^3", page.strokes.len());
+    assert!((taken_mm3 / (0.5 * removed_mm3) - 1.0).abs() < 1e-9);
+    let lead_rad = (3.0 / 80.0_f64).asin();
+    for stroke in page.strokes.iter().step_by(7) {
+        let tooth = stroke.taken[3] as u32;
+        let tip_mm = job.hob.tip_radius_mm;
+        let at = stroke.gear_from_tool.after(&job.hob.tool_from_blade(tooth)).point(DVec3::new(tip_mm, 0.0, 0.0));
+        let along_mm = TAU * 1.5 / lead_rad.cos() * job.hob.teeth[tooth as usize].passage as f64 / 12.0;
+        let wanted_mm = (24.0 + 40.0 - tip_mm).hypot(along_mm * lead_rad.cos());
+        assert!((at.truncate().length() - wanted_mm).abs() < 1e-6, "{stroke:?}: {wanted_mm} mm");
     }
 }
 

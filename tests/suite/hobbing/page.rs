@@ -37,7 +37,7 @@ fn class_limit_chip_force_and_load_come_first_and_marks_are_folded() {
         assert!(!run.out.contains(folded), "{folded}");
     }
     let page = std::fs::read_to_string(out.join("report.html")).expect("a page");
-    for words in ["Deviation without marks", "Runout of a perfect machine is feed marks"] {
+    for words in ["Deviation without marks", "Runout of a perfect machine is feed marks", "\"noun\":\"pass\""] {
         assert!(page.contains(words), "{words}");
     }
     // A section that is closed has no attribute beside its class.

@@ -8,9 +8,9 @@ use crate::process::shaping::ShapingJob;
 use crate::process::shaping::cut::chips::{ChipLedger, StrokeChips};
 use crate::process::shaping::cut::section::{CutSection, cutter_solid};
 use crate::surface::triangles::Triangles;
-use gearcut_core::frame::Rigid2;
+use gearcut_core::frame::{Rigid2, Rigid3};
 use gearcut_core::units::UM_PER_MM;
-use glam::DVec2;
+use glam::{DMat3, DVec2};
 
 /// More strokes than this are thinned by a whole factor: they take some half a megabyte of the page.
 const MOST_STROKES: usize = 20_000;
@@ -25,19 +25,25 @@ pub fn strokes(job: &ShapingJob, chips: &ChipLedger) -> ViewerStrokes {
         let pose = CutSection::work_from_tool(job, stroke);
         let (operation, own) = CutSection::operation_and_stroke(job, stroke);
         let of: &StrokeChips = &chips.operations[operation].strokes[own];
+        let gear_from_tool = Rigid3 {
+            rotation: DMat3::from_rotation_z(pose.rotation.to_angle()),
+            translation_mm: pose.translation_mm.extend(0.0),
+        };
+        // A stroke of no space takes nothing.
+        let area_mm2 = if of.space == 0 { 0.0 } else { of.area_mm2 };
         ViewerStroke {
-            pose: [pose.translation_mm.x, pose.translation_mm.y, pose.rotation.to_angle()].map(|value| value as f32),
-            section_mm2: of.area_mm2 as f32,
-            thickness_um: (UM_PER_MM * of.thickest_anywhere_mm()) as f32,
-            force_n: of.cutting_n as f32,
-            space: of.space,
+            place: [operation, own],
+            gear_from_tool,
+            taken: [area_mm2, UM_PER_MM * of.thickest_anywhere_mm(), of.cutting_n, f64::from(of.space)],
         }
     };
     let operations = job.operations.iter().map(|operation| (operation.spec.name.clone(), operation.strokes.count()));
     ViewerStrokes {
-        cutter: cutter(job),
+        tool: cutter(job),
+        noun: "stroke",
         operations: operations.collect(),
-        every,
+        words: "chip {0} mm², {1} µm thick, {2} N, space {3}",
+        names: Vec::new(),
         strokes: (0..count).step_by(every).map(stroke).collect(),
     }
 }
@@ -45,10 +51,7 @@ pub fn strokes(job: &ShapingJob, chips: &ChipLedger) -> ViewerStrokes {
 fn cutter(job: &ShapingJob) -> Triangles {
     let face_mm = job.scene.gear.face_width_mm;
     let mesh = cutter_solid(job, ABOVE_FACE.map(|share| (0.5 + share) * face_mm), &Rigid2::new(0.0, DVec2::ZERO));
-    Triangles {
-        normals: vec![[0.0, 0.0, 1.0]; mesh.positions_mm.len()],
-        positions_mm: mesh.positions_mm.iter().map(|p| p.to_array().map(|value| value as f32)).collect(),
-        indices: mesh.triangles.concat(),
-        ..Triangles::default()
-    }
+    let mut triangles = Triangles::default();
+    triangles.add_mesh(&mesh);
+    triangles
 }

@@ -25,7 +25,7 @@ use crate::frame::Rigid3;
 use crate::tool::SpatialTool;
 use crate::tool::blade_edges::BladeEdges;
 use crate::tool::edge::Edge;
-use glam::DVec2;
+use glam::{DMat3, DVec2, DVec3};
 use std::f64::consts::{PI, TAU};
 use std::ops::Range;
 
@@ -211,6 +211,15 @@ impl TurningPasses {
         BladePass { pass: self.first_pass + index, rank, tool_angle_rad }
     }
 
+    /// Pose in the work of the tool, turned as it is when a pass's blade points to the work.
+    pub fn work_from_tool(&self, pass: &BladePass) -> Rigid3 {
+        let turn = DMat3::from_rotation_z(self.turn * pass.tool_angle_rad);
+        self.motion
+            .head_from_work(pass.tool_angle_rad)
+            .inverse()
+            .after(&Rigid3 { rotation: turn, translation_mm: DVec3::ZERO })
+    }
+
     /// Pieces of the motion that a pass's sweep has a part in: more than one where rates jump meanwhile.
     pub fn pieces(&self, pass: &BladePass) -> Range<u32> {
         self.motion.pieces([pass.tool_angle_rad - self.half_window_rad, pass.tool_angle_rad + self.half_window_rad])
@@ -261,7 +270,6 @@ mod tests {
     use super::*;
     use crate::tool::CuttingTool;
     use crate::tool::edge::{Segment, SegmentName};
-    use glam::{DMat3, DVec3};
 
     /// Blades placed one by one.
     struct Placed(Vec<Rigid3>, BladeEdges, f64);
