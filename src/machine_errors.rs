@@ -28,6 +28,7 @@
 mod axis;
 mod backlash;
 mod balance;
+mod chip_force;
 mod compliance;
 mod edge_element;
 mod fast_noise;
@@ -35,12 +36,14 @@ mod layers;
 mod motion;
 mod mounting;
 mod noise;
+mod one_mass;
 mod servo;
 #[cfg(test)]
 mod tests;
 
 pub use axis::{AxisErrors, GearboxCycle, PeriodicError, ThermalDrift};
 pub use balance::{NoBalance, balance};
+pub use chip_force::ChipForce;
 pub use compliance::{Compliance, Deflection, SideCompliance};
 pub use edge_element::EdgeElement;
 pub use fast_noise::{noise_knots_s, refuse_fast_noise};
@@ -48,6 +51,7 @@ pub use layers::ErrorLayer;
 pub use motion::{ActualMotion, Course, MachineMoment};
 pub use mounting::{Guide, ToolMounting, WorkMounting};
 pub use noise::{AxisNoise, NoiseLaw};
+pub use one_mass::{Chatter, OneMass};
 pub use servo::Servo;
 
 /// What is wrong with a machine of N axes and the work in it.

@@ -71,6 +71,7 @@ impl Stage {
             Self::Chips => &[
                 "chips",
                 "deflection",
+                "vibration",
                 "largest_chip_thickness",
                 "largest_cutting_force",
                 "removed_volume",

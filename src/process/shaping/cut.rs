@@ -13,12 +13,13 @@ pub(super) mod stroke_noise;
 mod tearing;
 
 use super::ShapingJob;
+use super::cut::along_helix::beside_each_other;
 use super::sections::GearPart;
 use crate::process::shaping::cut::chips::ploughed_layers;
 use crate::steps::planar::{CutField, PreparedField};
-use gearcut_core::cut::Backend;
-use gearcut_core::dexel::Field;
+use gearcut_core::cut::{Backend, CutStats};
 use gearcut_core::dexel::figures::LinesAt;
+use gearcut_core::dexel::{Field, Layer};
 use gearcut_core::error::Result;
 
 impl ShapingJob {
@@ -62,12 +63,29 @@ impl ShapingJob {
         Ok(PreparedField::Cut(cut))
     }
 
+    /// Cuts every row of a field as its section is cut: a cutter that vibrates stands elsewhere in each.
+    fn cut_in_rows(&self, backend: &dyn Backend, field: Field) -> Result<CutField> {
+        let mut stats = CutStats::default();
+        let mut rows: Vec<(usize, Vec<Layer>)> = Vec::with_capacity(field.rows());
+        for &z_mm in &field.rows_z_mm {
+            let row = Field { columns: field.columns.clone(), rows_z_mm: vec![z_mm] };
+            let cut = self.of_section(z_mm).cut(backend, row)?;
+            stats += cut.stats;
+            rows.push((1, cut.layers));
+        }
+        let layers = beside_each_other(&rows, field.columns.len(), self.operations.len());
+        Ok(CutField { field, layers, figures: None, stats })
+    }
+
     /// Makes those rows of a field ready that differ, or all of them; where `lines` are given, figures of the columns
     /// and these lines are enough.
     ///
     /// # Errors
     /// The backend's.
     pub fn prepare(&self, backend: &dyn Backend, field: Field, lines: Option<LinesAt>) -> Result<PreparedField> {
+        if self.vibrates() {
+            return self.cut_in_rows(backend, field).map(PreparedField::Cut);
+        }
         match &self.cutter_spec.edge_rounding {
             None => self.planar().prepare(backend, field, lines),
             Some(rounding) => {

@@ -18,6 +18,7 @@ use crate::process::shaping::motion::returns::RetractionPlan;
 use crate::process::shaping::motion::returns::facts::ReturnFacts;
 use crate::process::shaping::motion::returns::motion::RamTimes;
 use crate::process::shaping::motion::returns::survey::Survey;
+use crate::process::shaping::motion::vibration::Vibration;
 use crate::process::shaping::scene::model::{self, GcodeDialect, Machine, Operation, Shaping};
 use crate::process::shaping::swing::swing_rad;
 use crate::process::shaping::target::TargetFlank;
@@ -69,6 +70,8 @@ pub struct PreparedOperation {
     pub strokes: StrokeSet,
     /// How the cut displaces the cutter in every stroke; empty on a rigid machine.
     pub deflections: Vec<Deflection>,
+    /// How it vibrates about that, row by row along the tooth; `None`: it does not.
+    pub vibration: Option<Arc<Vibration>>,
     /// Return strokes over a turn, of ideal work and cutter; the same for a machine that yields.
     pub survey: Arc<Survey>,
     /// Which way the cutter is drawn back for the return strokes.
@@ -120,8 +123,8 @@ impl PreparedOperation {
 
 /// Everything known before the first dexel is cut.
 ///
-/// Made from a scene it stands on a rigid machine. On one that yields, strokes are displaced by what they cut, which
-/// [`crate::process::shaping::cut::chips::deflections`] finds and [`Self::deflected`] puts in.
+/// Made from a scene it stands on a rigid machine. On one that yields, strokes are displaced by what they cut:
+/// [`crate::process::shaping::cut::chips::as_cut`] makes that gear.
 #[derive(Debug, Clone)]
 pub struct ShapingJob {
     /// The scene.
@@ -293,6 +296,7 @@ impl ShapingJob {
                 actual,
                 strokes,
                 deflections: Vec::new(),
+                vibration: None,
                 survey,
                 retraction,
                 returns,
@@ -337,6 +341,39 @@ impl ShapingJob {
             operation.deflections = deflections;
         }
         job
+    }
+
+    /// The same gear with a cutter that vibrates, operation by operation.
+    #[must_use]
+    pub fn vibrating(mut self, found: Vec<Vibration>) -> Self {
+        for (operation, vibration) in self.operations.iter_mut().zip(found) {
+            operation.vibration = Some(Arc::new(vibration));
+        }
+        self
+    }
+
+    /// Whether the cutter vibrates: rows along the tooth are then cut differently.
+    pub fn vibrates(&self) -> bool {
+        self.operations.iter().any(|operation| operation.vibration.is_some())
+    }
+
+    /// The same gear as the section at a height is cut, all along the tooth.
+    #[must_use]
+    pub fn of_section(&self, z_mm: f64) -> Self {
+        let mut job = self.clone();
+        for (section, operation) in job.operations.iter_mut().zip(&self.operations) {
+            section.strokes = self.strokes_in_section(operation, z_mm);
+            section.vibration = None;
+        }
+        job
+    }
+
+    /// Strokes of an operation in one section: the cutter as it stands when the ram passes it.
+    pub fn strokes_in_section(&self, operation: &PreparedOperation, z_mm: f64) -> StrokeSet {
+        let set = &operation.strokes;
+        StrokeSet::new(set.first_pass, &self.cutter, StrokeLaw::Frozen, set.count(), |stroke| {
+            self.pose_in_section(operation, stroke as usize, z_mm)
+        })
     }
 
     /// Whether the strokes stand where they cut: a machine that yields displaces them.
@@ -454,6 +491,8 @@ impl ShapingJob {
     pub fn pose_in_section(&self, operation: &PreparedOperation, stroke: usize, z_mm: f64) -> Rigid2 {
         let set = &operation.strokes;
         let pose = set.pose_at(stroke, set.law.tau(z_mm));
+        let vibrating = operation.vibration.as_ref();
+        let pose = vibrating.map_or(pose, |of| of.at(stroke, z_mm).displaced(&pose, -self.eccentricity_mm()));
         self.helix.as_ref().map_or(pose, |helix| helix.guided(&pose, z_mm))
     }
 

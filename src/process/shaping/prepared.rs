@@ -1,7 +1,8 @@
 //! A shaping scene as the commands know it: checked and moved as commanded, cut as the machine yields.
 //!
 //! In: the job of a rigid machine. Out: what commands ask of a process. Where the machine has compliance, the first
-//! command that cuts finds the deflections of all strokes, and the gear that follows from them is kept.
+//! command that cuts finds the deflections of all strokes, and how they vibrate; the gear that follows from them is
+//! kept.
 
 use super::axes_report::OperationAxes;
 use crate::findings::Notice;
@@ -9,7 +10,7 @@ use crate::interrupt::Interrupt;
 use crate::job::GearJob;
 use crate::output::folder::OutputFolder;
 use crate::output::text::Sheet;
-use crate::process::shaping::cut::chips::deflections;
+use crate::process::shaping::cut::chips::as_cut;
 use crate::process::shaping::cut::section::CutSection;
 use crate::process::shaping::findings::foreseen::foresee;
 use crate::process::shaping::findings::warnings;
@@ -41,14 +42,16 @@ impl PreparedShaping {
         if let Some(job) = self.yielding.get() {
             return Ok(job);
         }
-        let found = deflections(&self.rigid, advance)?.ok_or(Error::Interrupted)?;
-        Ok(self.yielding.get_or_init(|| Box::new(self.rigid.deflected(found))))
+        let found = as_cut(&self.rigid, advance)?.ok_or(Error::Interrupted)?;
+        Ok(self.yielding.get_or_init(|| Box::new(found)))
     }
 }
 
 impl ProcessJob for PreparedShaping {
     fn cut(&self, tools: &Tools, frames: Option<u32>) -> Result<CutDone> {
-        let count = if self.rigid.machine.compliance.is_none() { 0 } else { CutSection::strokes(&self.rigid) };
+        let machine = &self.rigid.machine;
+        let times = if machine.compliance.is_none() { 0 } else { 1 + usize::from(machine.vibration.is_some()) };
+        let count = times * CutSection::strokes(&self.rigid);
         let step = (count > 0).then(|| tools.progress.step("deflection", count as u64, "strokes"));
         let job = self.cut_gear(&|| {
             if let Some(step) = &step {

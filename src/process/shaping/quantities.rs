@@ -47,6 +47,7 @@ pub static QUANTITIES: &[&QuantityGroup] = &[
     &STROKES_OF_PROGRAM,
     &strokes::STROKE_CHIPS,
     &strokes::DEFLECTION,
+    &strokes::VIBRATION,
     &axes::AXIS_COLUMNS,
     &axes::RELIEF,
     &axes::RETRACTION,

@@ -336,6 +336,10 @@ fn everything_in_the_template_can_be_switched_on() {
                         // In place of both, and for a known head.
                         whole = whole.replacen("#radius_mm = ", "radius_mm = ", 1);
                     }
+                    if name(key) == "coordinate" || needed(name(key)).contains(&"coordinate") {
+                        // A mass vibrates on a spring.
+                        whole = whole.replacen("#tool_tangential_um_per_kn = ", "tool_tangential_um_per_kn = ", 1);
+                    }
                     if ["sector_deg", "dwell_radius_mm"].contains(&name(key)) {
                         // A sector is cut in one swing at depth.
                         whole = whole.replacen("\n[operation.infeed.spiral]", "\n[operation.infeed.none]", 1);
@@ -374,6 +378,9 @@ fn needed(name: &str) -> &'static [&'static str] {
         "rq_um" => &["correlation_length_um"],
         "correlation_length_um" => &["rq_um"],
         "radius_um" => &["minimum_chip_share"],
+        "coordinate" => &["natural_frequency_hz", "damping_ratio"],
+        "natural_frequency_hz" => &["coordinate", "damping_ratio"],
+        "damping_ratio" => &["coordinate", "natural_frequency_hz"],
         "minimum_chip_share" => &["radius_um"],
         "density_per_mm2"
         | "speeds_m_per_min"

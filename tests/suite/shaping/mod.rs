@@ -44,4 +44,5 @@ mod stroke_noise;
 mod tearing;
 mod tooth_tips;
 mod undercut;
+mod vibration;
 mod wear;

@@ -8,7 +8,6 @@
 
 use crate::process::shaping::ShapingJob;
 use crate::process::shaping::helix::Helix;
-use crate::process::shaping::job::PreparedOperation;
 use crate::process::shaping::sections::GearPart;
 use crate::steps::planar::{CutField, PlanarGear, PlanarOperation};
 use gearcut_core::cut::{Backend, CutStats};
@@ -29,14 +28,6 @@ pub struct HelixBand {
 }
 
 impl ShapingJob {
-    /// Strokes of an operation in one section: the cutter as it stands when the ram passes it.
-    pub fn strokes_in_section(&self, operation: &PreparedOperation, z_mm: f64) -> StrokeSet {
-        let set = &operation.strokes;
-        StrokeSet::new(set.first_pass, &self.cutter, StrokeLaw::Frozen, set.count(), |stroke| {
-            self.pose_in_section(operation, stroke as usize, z_mm)
-        })
-    }
-
     /// The bands of a field.
     ///
     /// # Errors
@@ -115,7 +106,7 @@ impl ShapingJob {
 }
 
 /// Layers of all rows from those of bands.
-fn beside_each_other(bands: &[(usize, Vec<Layer>)], columns: usize, operations: usize) -> Vec<Layer> {
+pub(super) fn beside_each_other(bands: &[(usize, Vec<Layer>)], columns: usize, operations: usize) -> Vec<Layer> {
     let of = |operation: usize| {
         let (mut heights_mm, mut passes) = (Vec::new(), Vec::new());
         for column in 0..columns {

@@ -20,7 +20,6 @@ use crate::random::Draws;
 use crate::steps::planar::CutField;
 use gearcut_core::dexel::{Field, Layer, NO_PASS};
 use gearcut_core::terms::Side;
-use std::f64::consts::PI;
 
 /// Chips are looked up at places of the profile so far apart, mm: a choice, a twentieth of a usual facet. Places do not
 /// hang on the field, and marks that share one ask once.
@@ -79,11 +78,7 @@ impl SeenPlaces {
 impl ShapingJob {
     /// Speed of the ram at a height over the middle of the face in an operation, mm/s; 0 beyond its stroke.
     fn cutting_speed_mm_per_s(&self, operation: usize, z_mm: f64) -> f64 {
-        let machine = &self.machine;
-        let stroke_mm = machine.approach_mm + self.scene.gear.face_width_mm + machine.overrun_mm;
-        let middle_mm = 0.5 * (machine.approach_mm - machine.overrun_mm);
-        let per_s = self.operations[operation].schedule.double_strokes_per_minute() / 60.0;
-        PI * stroke_mm * per_s * (1.0 - (2.0 * (z_mm - middle_mm) / stroke_mm).powi(2)).max(0.0).sqrt()
+        self.ram_speed_mm_per_s(operation) * self.machine.speed_share(self.scene.gear.face_width_mm, z_mm)
     }
 
     /// Marks of all operations that the rays of a field can see, where the cutting speed allows them, in order of their

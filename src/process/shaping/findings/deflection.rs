@@ -1,11 +1,13 @@
-//! How far tool and work give way in an operation, and what that leaves on flanks.
+//! How far tool and work give way in an operation and how they vibrate, and what that leaves on flanks.
 
 use super::chips::stroke_place;
-use crate::findings::{QuantityRow, Section};
+use crate::findings::{Entry, QuantityRow, Section};
 use crate::process::shaping::ShapingJob;
 use crate::process::shaping::cut::chips::ChipLedger;
-use crate::process::shaping::gear::measure::flank_deflection::at_pitch_point_mm;
-use crate::process::shaping::quantities::strokes::{DEFLECTION, IDLE_STROKE};
+use crate::process::shaping::gear::measure::flank_deflection::{at_pitch_point_mm, moved_mm};
+use crate::process::shaping::quantities::strokes::{
+    DEFLECTION, IDLE_STROKE, STABLE_WIDTH, TURNS, UNSTABLE_STROKES, VIBRATION, WAVE_LENGTH,
+};
 use gearcut_core::units::UM_PER_MM;
 
 /// urad in a rad.
@@ -25,20 +27,57 @@ pub fn of_stroke(job: &ShapingJob, operation: usize, stroke: usize) -> [f64; 6] 
     ]
 }
 
-/// Largest and mean of each over the strokes that cut; nothing on a rigid machine.
+/// The first values of [`VIBRATION`], in its order, in a stroke of a machine that vibrates.
+pub fn vibration_of_stroke(job: &ShapingJob, operation: usize, stroke: usize) -> [f64; 3] {
+    let Some(vibration) = &job.operations[operation].vibration else { return [0.0; 3] };
+    let of = vibration.strokes[stroke];
+    let [left_mm, right_mm] = moved_mm(job, operation, stroke, of.rms * vibration.unit());
+    [of.share_of_limit, left_mm.abs() * UM_PER_MM, right_mm.abs() * UM_PER_MM]
+}
+
+/// Deflection in an operation; nothing on a rigid machine.
 pub fn section(job: &ShapingJob, ledger: &ChipLedger, operation: usize) -> Option<Section> {
     if job.operations[operation].deflections.is_empty() {
         return None;
     }
+    let of = |stroke| of_stroke(job, operation, stroke);
+    Some(DEFLECTION.section(largest_and_mean(job, ledger, operation, (DEFLECTION.rows, &of))))
+}
+
+/// Vibration in an operation; nothing where nothing vibrates.
+pub fn vibration(job: &ShapingJob, ledger: &ChipLedger, operation: usize) -> Option<Section> {
+    let machine = job.machine.vibration.filter(|_| job.operations[operation].vibration.is_some())?;
+    let of = |stroke| vibration_of_stroke(job, operation, stroke);
+    let strokes = 0..job.operations[operation].count();
+    let unstable = strokes.filter(|&stroke| of(stroke)[0] > 1.0).count();
+    let is_shift = machine.axis < 2;
+    let limit = machine.mass(&job.machine.compliance).least_limit();
+    let width_mm = is_shift.then(|| limit / job.material.normal_n_per_mm2);
+    let middle_mm_per_s =
+        job.ram_speed_mm_per_s(operation) * job.machine.speed_share(job.scene.gear.face_width_mm, 0.0);
+    let own = [
+        UNSTABLE_STROKES.of(unstable),
+        STABLE_WIDTH.of_or(width_mm, TURNS),
+        WAVE_LENGTH.of(middle_mm_per_s / machine.natural_frequency_hz),
+    ];
+    let of_strokes = largest_and_mean(job, ledger, operation, (&VIBRATION.rows[..3], &of));
+    Some(VIBRATION.section(of_strokes.into_iter().chain(own)))
+}
+
+/// Largest and mean of each value of a stroke over the strokes that cut.
+fn largest_and_mean<const N: usize>(
+    job: &ShapingJob,
+    ledger: &ChipLedger,
+    operation: usize,
+    (rows, of_stroke): (&[&'static QuantityRow], &dyn Fn(usize) -> [f64; N]),
+) -> Vec<Entry> {
     let chips = &ledger.operations[operation];
     // A first stroke at full depth is left out, as where forces are compared.
     let compared = chips.strokes.iter().enumerate().skip(usize::from(chips.enters_at_depth));
-    let strokes: Vec<(usize, [f64; 6])> = compared
-        .filter(|(_, stroke)| !stroke.is_idle())
-        .map(|(stroke, _)| (stroke, of_stroke(job, operation, stroke)))
-        .collect();
+    let strokes: Vec<(usize, [f64; N])> =
+        compared.filter(|(_, stroke)| !stroke.is_idle()).map(|(stroke, _)| (stroke, of_stroke(stroke))).collect();
     let of_kind = |(index, row): (usize, &&'static QuantityRow)| {
-        let larger = |a: &(usize, [f64; 6]), b: &(usize, [f64; 6])| b.1[index].abs() > a.1[index].abs();
+        let larger = |a: &(usize, [f64; N]), b: &(usize, [f64; N])| b.1[index].abs() > a.1[index].abs();
         let largest = strokes.iter().copied().reduce(|best, next| if larger(&best, &next) { next } else { best });
         let sum: f64 = strokes.iter().map(|(_, values)| values[index]).sum();
         let mean = (!strokes.is_empty()).then(|| sum / strokes.len() as f64);
@@ -51,5 +90,5 @@ pub fn section(job: &ShapingJob, ledger: &ChipLedger, operation: usize) -> Optio
             row.of_or(mean, IDLE_STROKE).titled(named("mean").replace('_', " ")).keyed(named("mean")),
         ]
     };
-    Some(DEFLECTION.section(DEFLECTION.rows.iter().enumerate().flat_map(of_kind)))
+    rows.iter().enumerate().flat_map(of_kind).collect()
 }

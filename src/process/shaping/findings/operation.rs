@@ -89,6 +89,7 @@ pub fn operation(
         .parts(returns::section(job, index, other.as_deref())?)
         .part(chips::chips(job, ledger, index).table(strokes::strokes(job, ledger, index)))
         .parts(deflection::section(job, ledger, index))
+        .parts(deflection::vibration(job, ledger, index))
         .part(stock_range("flank_stock", "Stock on all active flanks", &over_flanks, no_stock))
         .part(stock_range(
             "fillet_stock",

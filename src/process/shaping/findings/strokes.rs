@@ -10,7 +10,7 @@ use crate::process::shaping::cut::chips::{ChipLedger, StrokeChips};
 use crate::process::shaping::quantities::strokes::{
     CONTACT_LEFT, CONTACT_RIGHT, CONTACT_TIP, CUTTER_TORQUE_OF_STROKE, CUTTING_TEETH, DEFLECTION, FORCE, LARGEST_CHIP,
     MEAN_THICKNESS, RADIAL_FORCE, RATE, SECTION, SPACE, TANGENTIAL_FORCE, THICKEST_LEFT, THICKEST_RIGHT, THICKEST_TIP,
-    TIME, VOLUME, WORK_ANGLE, WORK_TORQUE_OF_STROKE,
+    TIME, VIBRATION, VOLUME, WORK_ANGLE, WORK_TORQUE_OF_STROKE,
 };
 use crate::process::shaping::quantities::{THREE_FLANK_CHIPS, TWO_FLANK_CHIPS};
 use gearcut_core::units::UM_PER_MM;
@@ -55,6 +55,11 @@ pub fn strokes(job: &ShapingJob, ledger: &ChipLedger, operation: usize) -> Table
     if !prepared.deflections.is_empty() {
         for (index, &row) in DEFLECTION.rows.iter().enumerate() {
             table = table.column(row, |&(stroke, _)| deflection::of_stroke(job, operation, stroke)[index]);
+        }
+    }
+    if prepared.vibration.is_some() {
+        for (index, &row) in VIBRATION.rows[..3].iter().enumerate() {
+            table = table.column(row, |&(stroke, _)| deflection::vibration_of_stroke(job, operation, stroke)[index]);
         }
     }
     table.rows_in_file(&format!("chips_{}", prepared.spec.name))

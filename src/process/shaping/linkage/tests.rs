@@ -48,6 +48,7 @@ fn machine() -> Machine {
         guide_hand: None,
         errors: MachineErrors::default(),
         compliance: Compliance::default(),
+        vibration: None,
         limits: AxisLimits {
             work_speed_rad_per_s: Some(0.1),
             cutter_speed_rad_per_s: Some(0.2),

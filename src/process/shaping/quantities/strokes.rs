@@ -54,3 +54,37 @@ rows! {
         "material left on right flanks at the stroke's pitch point, along their normal"
         => titled("right flanks"), or(&[IDLE_STROKE]);
 }
+
+/// A turn has no width of a chip.
+pub const TURNS: &str = "a spindle vibrates: its limit depends on where the chip lies";
+
+rows! {
+    /// Vibration in a stroke, in the order of the columns; then what holds for the whole operation.
+    VIBRATION: "vibration", "Vibration of cutter and work",
+        "operations.<operation>.vibration, of the first three keys after largest and mean (over the strokes that cut); \
+         these are columns of operations.<operation>.chips.strokes";
+
+    LIMIT_SHARE: "share_of_stability_limit", "1",
+        "stiffness of the stroke's chips (force for a thickness) along the coordinate that vibrates, over the least \
+         limit of stability 2 ζ (1 + ζ) / C: above 1 waves grow from stroke to stroke"
+        => titled("share of the stability limit"), source("Tobias 1965; Altintas 2012, section 4.2"),
+           or(&[IDLE_STROKE]);
+    LEFT_VIBRATION: "left_flank_vibration", "um",
+        "displacement about the deflection, normal to left flanks at the stroke's pitch point, root mean square along \
+         the face"
+        => titled("vibration on left flanks"), or(&[IDLE_STROKE]);
+    RIGHT_VIBRATION: "right_flank_vibration", "um",
+        "displacement about the deflection, normal to right flanks at the stroke's pitch point, root mean square along \
+         the face"
+        => titled("vibration on right flanks"), or(&[IDLE_STROKE]);
+    UNSTABLE_STROKES: "unstable_strokes", "strokes", "strokes whose chips are beyond the least limit of stability"
+        => titled("strokes beyond the stability limit");
+    STABLE_WIDTH: "stable_chip_width", "mm",
+        "widest chip square to the coordinate that vibrates with which no wave grows, 2 ζ (1 + ζ) / (C K_n), the same \
+         at every speed of the ram"
+        => titled("widest stable chip"), symbol("b_lim"), source("Tobias 1965; Altintas 2012, section 4.2"),
+           or(&[TURNS]);
+    WAVE_LENGTH: "wave_length", "mm",
+        "distance of waves along the tooth in the middle of the face: speed of the ram over the natural frequency"
+        => titled("length of waves");
+}

@@ -6,7 +6,7 @@ use crate::findings::quantities::cutting::LARGEST_FORCE;
 use crate::output::report::{Block, PageSection, Tone};
 use crate::process::shaping::ShapingJob;
 use crate::process::shaping::cut::chips::ChipLedger;
-use crate::process::shaping::quantities::strokes::DEFLECTION;
+use crate::process::shaping::quantities::strokes::{DEFLECTION, VIBRATION};
 use crate::process::shaping::quantities::{CHIPS, LARGEST_SECTION};
 use crate::process::shaping::report::chip_charts::charts;
 use crate::steps::report::{headline_words, quantities};
@@ -27,6 +27,10 @@ pub fn section(job: &ShapingJob, ledger: &ChipLedger, found: &Findings) -> PageS
             blocks.push(Block::Heading(format!("{}: deflection of cutter and work", operation.key)));
             blocks.extend(charts);
             blocks.push(Block::Table(quantities::table(deflection)));
+        }
+        if let Some(vibration) = operation.group(&VIBRATION) {
+            blocks.push(Block::Heading(format!("{}: vibration of cutter and work", operation.key)));
+            blocks.push(Block::Table(quantities::table(vibration)));
         }
         Some(blocks)
     });

@@ -1,10 +1,12 @@
 //! Checked values of a shaping scene to the model.
 
-use super::keys::{AXES, BUILT_UP_EDGE, CMM, EDGE_ROUGHNESS, EDGE_ROUNDING, GRINDING, PROFILE, WEAR};
+use super::keys::{
+    AXES, BUILT_UP_EDGE, CMM, EDGE_ROUGHNESS, EDGE_ROUNDING, GRINDING, PROFILE, VIBRATION_KEYS, VIBRATION_PATH, WEAR,
+};
 use super::model::{
     AxisLimits, BuiltUpEdge, CmmSpec, CutterSpec, EdgeRoughness, EdgeRounding, Feed, GcodeDialect, Grinding, Infeed,
-    Linkage, Machine, NormalReading, Operation, Retraction, Shaping, StockScatter, StrokeSpacing, Tip,
-    TraditionalDirection,
+    Linkage, Machine, MachineVibration, NormalReading, Operation, Retraction, Shaping, StockScatter, StrokeSpacing,
+    Tip, TraditionalDirection,
 };
 use crate::machine_errors::{Compliance, SideCompliance};
 use crate::material::EdgeForce;
@@ -166,6 +168,7 @@ fn machine(values: &Values) -> Option<Machine> {
         guide_hand: machine.hand("guide_hand"),
         errors: machine_errors(values, &AXES)?,
         compliance: compliance(values),
+        vibration: vibration(values),
         limits: AxisLimits {
             work_speed_rad_per_s: limits.rad("work_speed_deg_per_s"),
             cutter_speed_rad_per_s: limits.rad("cutter_speed_deg_per_s"),
@@ -189,6 +192,16 @@ fn compliance(values: &Values) -> Compliance {
         }
     };
     Compliance { tool: side("tool"), work: side("work") }
+}
+
+fn vibration(values: &Values) -> Option<MachineVibration> {
+    let view = values.view(VIBRATION_PATH);
+    let word = view.text(VIBRATION_KEYS[0])?;
+    Some(MachineVibration {
+        axis: MachineVibration::AXES.iter().position(|&axis| axis == word)?,
+        natural_frequency_hz: view.number(VIBRATION_KEYS[1])?,
+        damping_ratio: view.number(VIBRATION_KEYS[2])?,
+    })
 }
 
 fn operation(values: &Values, index: usize, base_dir: &Path, pressure_angle_rad: f64) -> Option<Operation> {

@@ -2,7 +2,8 @@
 
 use super::defaults::reach_mm;
 use super::keys::{
-    AXES, BUILT_UP_EDGE, BUILT_UP_EDGE_KEYS, CMM, EDGE_ROUGHNESS, EDGE_ROUNDING, GRINDING, PROFILE, WEAR,
+    AXES, BUILT_UP_EDGE, BUILT_UP_EDGE_KEYS, CMM, EDGE_ROUGHNESS, EDGE_ROUNDING, GRINDING, PROFILE, VIBRATION_KEYS,
+    VIBRATION_PATH, WEAR,
 };
 use super::model::guide_hand;
 use crate::scene::build::{sector_deg, stock_or_offset_mm};
@@ -37,6 +38,8 @@ pub(super) fn check(found: &mut Found<'_, '_, '_>) {
     let measures_nothing = found.values.has_section(CMM) && found.values.count("operation") == 1;
     let message = || format!("`{CMM}` measures allowances between operations, and the scene has one alone");
     found.blame(measures_nothing, CMM, message, "remove it, or write an operation that roughs before");
+    together(found, VIBRATION_PATH, &VIBRATION_KEYS);
+    vibration(found);
     drawn_tooth(found);
     sector(found);
     let _: Option<()> = helix(found);
@@ -136,10 +139,28 @@ fn yields(found: &Found) -> bool {
     ["tool", "work"].iter().flat_map(|side| of(side)).any(|name| compliance.number(&name).is_some_and(|of| of > 0.0))
 }
 
+/// A mass vibrates on a spring.
+fn vibration(found: &mut Found) {
+    let Some(coordinate) = found.view(VIBRATION_PATH).text(VIBRATION_KEYS[0]) else { return };
+    let compliance = found.view("machine.compliance");
+    let unit = if coordinate.ends_with("torsional") { "urad_per_nm" } else { "um_per_kn" };
+    // A turn has a side of its own.
+    let names = match coordinate {
+        "radial" | "tangential" => ["tool", "work"].map(|side| format!("{side}_{coordinate}_{unit}")).to_vec(),
+        _ => vec![format!("{coordinate}_{unit}")],
+    };
+    let is_rigid = !names.iter().any(|name| compliance.number(name).is_some_and(|of| of > 0.0));
+    let key = join(VIBRATION_PATH, VIBRATION_KEYS[0]);
+    let message = || format!("`{key}`: {coordinate} has no compliance, and a mass without a spring does not vibrate");
+    let way_out = format!("write {} under [machine.compliance], or remove [{VIBRATION_PATH}]", names.join(" or "));
+    found.blame(is_rigid, &key, message, &way_out);
+}
+
 /// Each of some keys says nothing without the others: a root mean square without a length, a radius without a share.
 fn together(found: &mut Found, section: &str, names: &[&'static str]) {
     let view = found.view(section);
-    let is_there = |name: &&&str| view.number(name).is_some() || view.numbers(name).is_some();
+    let is_there =
+        |name: &&&str| view.number(name).is_some() || view.numbers(name).is_some() || view.text(name).is_some();
     let (Some(there), Some(missing)) = (names.iter().find(is_there), names.iter().find(|name| !is_there(name))) else {
         return;
     };

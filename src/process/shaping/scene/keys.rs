@@ -12,7 +12,7 @@ use crate::scene::keys::{Addition, HELIX, KeySection};
 
 pub(super) use chips::LARGEST_CHIP_SPACING_MM;
 pub(super) use cmm::CMM;
-pub(super) use machine::AXES;
+pub(super) use machine::{AXES, VIBRATION_KEYS, VIBRATION_PATH};
 pub(in crate::process::shaping) use tool::PROFILE;
 pub(super) use tool::{BUILT_UP_EDGE, BUILT_UP_EDGE_KEYS, EDGE_ROUGHNESS, EDGE_ROUNDING, GRINDING, WEAR};
 

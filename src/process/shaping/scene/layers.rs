@@ -3,7 +3,7 @@
 //! In: a scene's model. Out: the table [`OWN`], from which `gearcut scatter` switches and the findings tell. What all
 //! machines have is in [`crate::machine_errors`].
 
-use super::model::{BuiltUpEdge, EdgeRoughness, EdgeRounding, Grinding, Shaping};
+use super::model::{BuiltUpEdge, EdgeRoughness, EdgeRounding, Grinding, MachineVibration, Shaping};
 use crate::machine_errors::{Compliance, ErrorLayer};
 use crate::number_text::{plain, size, um};
 use gearcut_core::units::UM_PER_MM;
@@ -80,8 +80,15 @@ pub static OWN: [OwnLayer; 6] = [
     },
     OwnLayer {
         layer: ErrorLayer::Deflection,
-        words: |model, _| compliance_words(&model.machine.compliance),
-        off: |model| model.machine.compliance = Compliance::default(),
+        words: |model, _| {
+            let compliance = compliance_words(&model.machine.compliance);
+            let vibration = model.machine.vibration.map(|of| vibration_words(&of));
+            [Some(compliance), vibration].into_iter().flatten().collect::<Vec<_>>().join(", ")
+        },
+        off: |model| {
+            model.machine.compliance = Compliance::default();
+            model.machine.vibration = None;
+        },
     },
 ];
 
@@ -137,6 +144,12 @@ pub fn built_up_words(edge: &BuiltUpEdge) -> String {
 /// mm/N as um/kN, rad/(N mm) as urad/(N m).
 const UM_PER_KN: f64 = 1e6;
 const URAD_PER_NM: f64 = 1e9;
+
+fn vibration_words(vibration: &MachineVibration) -> String {
+    let MachineVibration { axis, natural_frequency_hz, damping_ratio } = vibration;
+    let name = MachineVibration::AXES[*axis].replace('_', ", ");
+    format!("vibration ({name}) of {} Hz, damping ratio {}", plain(*natural_frequency_hz), plain(*damping_ratio))
+}
 
 fn compliance_words(compliance: &Compliance) -> String {
     let sides = [("cutter", compliance.tool), ("work", compliance.work)].map(|(name, side)| {

@@ -1,6 +1,6 @@
 //! Checked values of shaping scenes: cutter, machine, operations; mm, rad, s.
 
-use crate::machine_errors::{Compliance, MachineErrors};
+use crate::machine_errors::{Compliance, MachineErrors, OneMass};
 use crate::material::EdgeForce;
 use crate::random::Draws;
 use crate::scene::Scene;
@@ -9,6 +9,7 @@ use crate::scene::tool_wear::WearSpec;
 use gearcut_core::gear::GearKind;
 use gearcut_core::passes::planar::strokes::StrokeLaw;
 use gearcut_core::terms::Hand;
+use std::f64::consts::TAU;
 use std::path::PathBuf;
 
 /// Shaping: tool, machine and operations.
@@ -207,6 +208,31 @@ pub enum Tip {
     },
 }
 
+/// One coordinate of the machine as a mass on a spring.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MachineVibration {
+    /// Which coordinate of a [`crate::machine_errors::Deflection`].
+    pub axis: usize,
+    /// Undamped.
+    pub natural_frequency_hz: f64,
+    /// Over the critical damping.
+    pub damping_ratio: f64,
+}
+
+impl MachineVibration {
+    /// Words for the coordinates, in their order.
+    pub const AXES: [&str; 4] = ["radial", "tangential", "tool_torsional", "work_torsional"];
+
+    /// The mass on the spring of a machine's compliance.
+    pub fn mass(&self, compliance: &Compliance) -> OneMass {
+        OneMass {
+            compliance: compliance.diagonal()[self.axis],
+            natural_rad_per_s: TAU * self.natural_frequency_hz,
+            damping_ratio: self.damping_ratio,
+        }
+    }
+}
+
 /// The machine around the cut.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Machine {
@@ -228,6 +254,8 @@ pub struct Machine {
     pub errors: MachineErrors<3>,
     /// How far cutter and work give way to the forces of the cut.
     pub compliance: Compliance,
+    /// How they vibrate; `None`: they do not.
+    pub vibration: Option<MachineVibration>,
     /// Limits of the axes, where known.
     pub limits: AxisLimits,
 }
@@ -236,6 +264,13 @@ impl Machine {
     /// How the ram passes a face of this width, mm.
     pub fn crank(&self, face_width_mm: f64) -> StrokeLaw {
         StrokeLaw::crank(face_width_mm, self.approach_mm, self.overrun_mm)
+    }
+
+    /// Speed of the ram at a height over the middle of the face, over its largest; 0 beyond its stroke.
+    pub fn speed_share(&self, face_width_mm: f64, z_mm: f64) -> f64 {
+        let stroke_mm = self.approach_mm + face_width_mm + self.overrun_mm;
+        let middle_mm = 0.5 * (self.approach_mm - self.overrun_mm);
+        (1.0 - (2.0 * (z_mm - middle_mm) / stroke_mm).powi(2)).max(0.0).sqrt()
     }
 }
 

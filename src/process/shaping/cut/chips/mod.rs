@@ -32,7 +32,10 @@ mod segments;
 mod shared_segment;
 mod space;
 pub mod stroke;
+mod stroke_looks;
+mod vibration;
 
+#[cfg(feature = "testing")]
 pub use deflection::deflections;
 pub use entry::entries;
 #[cfg(feature = "testing")]
@@ -41,3 +44,4 @@ pub(in crate::process::shaping) use flank::{last_chips_at, last_chips_on_map};
 pub use ledger::{ChipLedger, OperationChips, ThicknessMap};
 pub(in crate::process::shaping) use ploughing::layers as ploughed_layers;
 pub use stroke::StrokeChips;
+pub use vibration::as_cut;

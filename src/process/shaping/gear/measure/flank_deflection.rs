@@ -7,19 +7,22 @@
 
 use crate::machine_errors::Deflection;
 use crate::process::shaping::ShapingJob;
-use glam::DVec2;
+use glam::{DVec2, DVec4};
 
 /// Material left on left and right flanks at the pitch point of a stroke, mm; negative where more is taken.
 pub fn at_pitch_point_mm(job: &ShapingJob, operation: usize, stroke: usize) -> [f64; 2] {
+    let deflections = &job.operations[operation].deflections;
+    deflections.get(stroke).map_or([0.0; 2], |of| moved_mm(job, operation, stroke, of.coordinates()))
+}
+
+/// How far coordinates of a deflection move the edge out of left and right flanks at the pitch point of a stroke, mm.
+pub fn moved_mm(job: &ShapingJob, operation: usize, stroke: usize, coordinates: DVec4) -> [f64; 2] {
     let operation = &job.operations[operation];
-    let Some(deflection) = operation.deflections.get(stroke) else { return [0.0; 2] };
     let frame = job.curve.frame(operation.schedule.phi_rad(stroke as f64));
     let to_tip = job.blank.towards_tip(&frame);
     let (sin, cos) = job.scene.gear.pressure_angle_rad.sin_cos();
     let work_axis_mm = -job.eccentricity_mm();
     let tool_axis_mm = operation.pose(stroke as f64).center_mm + work_axis_mm;
-    let along = |normal: DVec2| {
-        Deflection::moves(frame.point_mm, normal, work_axis_mm, tool_axis_mm).dot(deflection.coordinates())
-    };
+    let along = |normal: DVec2| Deflection::moves(frame.point_mm, normal, work_axis_mm, tool_axis_mm).dot(coordinates);
     [1.0, -1.0].map(|side| along(sin * to_tip + side * cos * frame.tangent))
 }

@@ -1,6 +1,7 @@
 //! Keys of the machine around the cut: ram, limits of the axes, errors of each.
 
 use crate::machine::AxisKind;
+use crate::process::shaping::scene::model::MachineVibration;
 use crate::scene::keys::machine_errors::{GUIDE, WORK, linear, rotary};
 use crate::scene::keys::{Addition, Default, Key, KeySection, Kind, Range, Role};
 
@@ -79,7 +80,7 @@ pub(super) static ADDED: Addition = Addition {
 };
 
 /// What is inside `[machine]`.
-pub(super) static SECTIONS: &[KeySection] = &[LIMITS, COMPLIANCE, WORK, CUTTER, CENTER_DISTANCE, GUIDE];
+pub(super) static SECTIONS: &[KeySection] = &[LIMITS, COMPLIANCE, VIBRATION, WORK, CUTTER, CENTER_DISTANCE, GUIDE];
 
 const CUTTER: KeySection = rotary("machine.errors.cutter", "Errors of the cutter spindle.");
 const CENTER_DISTANCE: KeySection =
@@ -113,6 +114,44 @@ const COMPLIANCE: KeySection = KeySection::new(
     ],
     "How far cutter and work give way to the forces of the cut, stroke by stroke: deflected strokes leave \
         other flanks. No compliance has a default: measure it, one side fixed and the other one pushed.",
+);
+
+/// Section of the mass that vibrates.
+pub const VIBRATION_PATH: &str = "machine.vibration";
+/// Its keys: each of them says nothing without the others.
+pub const VIBRATION_KEYS: [&str; 3] = ["coordinate", "natural_frequency_hz", "damping_ratio"];
+
+const VIBRATION: KeySection = KeySection::new(
+    VIBRATION_PATH,
+    Role::Plain,
+    &[
+        Key {
+            name: VIBRATION_KEYS[0],
+            kind: Kind::Word(&MachineVibration::AXES),
+            unit: "",
+            default: Default::LeftOut("nothing vibrates"),
+            example: "\"tangential\"",
+            teach: "Which compliance of cutter and work, both together, is the spring of the mass.",
+        },
+        Key::optional(
+            VIBRATION_KEYS[1],
+            "Hz",
+            Range::closed(5.0, 5000.0),
+            "nothing vibrates",
+            "180.0",
+            "Natural frequency of that mass, without damping: tap the machine and count.",
+        ),
+        Key::optional(
+            VIBRATION_KEYS[2],
+            "",
+            Range::closed(1e-4, 0.9),
+            "nothing vibrates",
+            "0.03",
+            "Its damping over the critical damping: the logarithmic decrement over 2 pi, where that is small.",
+        ),
+    ],
+    "Chatter: cutter and work vibrate as one mass on a spring, under the force of the chips that they cut, from the \
+        waves of one stroke to those of the next. Off unless all three keys are written; none has a default.",
 );
 
 const LIMITS: KeySection = KeySection::new(
