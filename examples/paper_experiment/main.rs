@@ -2,7 +2,8 @@
 //! asked for the others. The table in docs/experiment.md.
 //!
 //! `cargo run --release --example paper_experiment -- [FOLDER [HYPOTHESIS]]` writes `paper_experiment.csv` into FOLDER
-//! (default `out/paper_experiment`) and prints the table: some eight minutes of processor time.
+//! (default `out/paper_experiment`) and prints the table: some eight minutes of processor time, and fifteen for chatter
+//! (H10), whose masses are tried and their compliance fitted.
 //!
 //! Law: each hypothesis has one parameter. It is fitted by bisection so that the mean Sa of six windows (both flanks of
 //! teeth 3, 7 and 11) of the normally roughed gear is the measured 1.26 um; what is random is cut with four seeds. The
@@ -22,8 +23,9 @@ use gearcut::findings::{QuantityRow, Table};
 use gearcut::measure::topography::Form;
 use gearcut::output::table::write_table;
 use gearcut::process::shaping::ShapingJob;
-use gearcut::process::shaping::cut::chips::deflections;
+use gearcut::process::shaping::cut::chips::as_cut;
 use gearcut::process::shaping::gear::measure::unevenness::{CrossedSurface, allowances, crossings, summarise};
+use gearcut::process::shaping::scene::model::Shaping;
 use gearcut::scene::Scene;
 use gearcut::scene::model::{TextureFilters, TextureWindow, WindowSides};
 use gearcut::texture::{cut_window, windows};
@@ -81,13 +83,13 @@ angle_deg = 30.0
 ";
 
 /// One cause with one parameter.
-struct Hypothesis {
-    name: &'static str,
-    parameter: &'static str,
+struct Hypothesis<'a> {
+    name: &'a str,
+    parameter: &'a str,
     /// Where the parameter is looked for.
     range: [f64; 2],
     /// Keys of the scene that it sets.
-    settings: fn(f64) -> Vec<String>,
+    settings: &'a dyn Fn(f64) -> Vec<String>,
     random: bool,
 }
 
@@ -95,12 +97,17 @@ fn set(keys: &[&str], value: f64) -> Vec<String> {
     keys.iter().map(|key| format!("{key}={value}")).collect()
 }
 
-const HYPOTHESES: [Hypothesis; 9] = [
+/// Masses that vibrate (H10): the coordinate, natural frequencies, Hz, and damping ratios.
+const COORDINATES: [&str; 2] = ["radial", "tangential"];
+const FREQUENCIES_HZ: [f64; 3] = [20.0, 200.0, 2000.0];
+const DAMPING_RATIOS: [f64; 2] = [0.01, 0.1];
+
+const HYPOTHESES: [Hypothesis<'static>; 9] = [
     Hypothesis {
         name: "H1 deflection, shifts",
         parameter: "radial and tangential compliance, um/kN",
         range: [1.0, 400.0],
-        settings: |c| {
+        settings: &|c| {
             set(&["machine.compliance.tool_radial_um_per_kn", "machine.compliance.tool_tangential_um_per_kn"], c)
         },
         random: false,
@@ -109,35 +116,35 @@ const HYPOTHESES: [Hypothesis; 9] = [
         name: "H2 deflection, turn of the work",
         parameter: "torsional compliance of the work spindle, urad/(N m)",
         range: [0.1, 200.0],
-        settings: |c| set(&["machine.compliance.work_torsional_urad_per_nm"], c),
+        settings: &|c| set(&["machine.compliance.work_torsional_urad_per_nm"], c),
         random: false,
     },
     Hypothesis {
         name: "H3a radial axis, stroke to stroke",
         parameter: "noise of the centre distance, um",
         range: [0.5, 200.0],
-        settings: |sigma| set(&["machine.errors.center_distance.noise_um"], sigma),
+        settings: &|sigma| set(&["machine.errors.center_distance.noise_um"], sigma),
         random: true,
     },
     Hypothesis {
         name: "H3b work spindle, stroke to stroke",
         parameter: "noise of the work angle, arcsec",
         range: [0.5, 200.0],
-        settings: |sigma| set(&["machine.errors.work.noise_arcsec"], sigma),
+        settings: &|sigma| set(&["machine.errors.work.noise_arcsec"], sigma),
         random: true,
     },
     Hypothesis {
         name: "H4 infeed of both operations, stroke to stroke",
         parameter: "scatter of the stock on flanks, um",
         range: [0.2, 100.0],
-        settings: |sigma| set(&["operation.rough.stock_scatter_um", "operation.finish.stock_scatter_um"], sigma),
+        settings: &|sigma| set(&["operation.rough.stock_scatter_um", "operation.finish.stock_scatter_um"], sigma),
         random: true,
     },
     Hypothesis {
         name: "H5 cutting edge",
         parameter: "Rq of the edge (correlation length 50 um), um",
         range: [0.1, 5.0],
-        settings: |rq| {
+        settings: &|rq| {
             let length = "tool.shaper_cutter.edge_roughness.correlation_length_um=50".to_owned();
             [set(&["tool.shaper_cutter.edge_roughness.rq_um"], rq), vec![length]].concat()
         },
@@ -147,7 +154,7 @@ const HYPOTHESES: [Hypothesis; 9] = [
         name: "H6 fewer strokes",
         parameter: "circular feed of finishing, mm per stroke",
         range: [0.1, 4.0],
-        settings: |feed_mm| {
+        settings: &|feed_mm| {
             let strokes = (std::f64::consts::PI * 3.0 * 42.0 / feed_mm).round();
             set(&["operation.finish.strokes_per_revolution"], strokes)
         },
@@ -157,7 +164,7 @@ const HYPOTHESES: [Hypothesis; 9] = [
         name: "H7 ploughing",
         parameter: "thinnest chip (0.3 of the edge's radius), um",
         range: [0.2, 30.0],
-        settings: |chip_um| {
+        settings: &|chip_um| {
             let share = 0.3;
             let section = "tool.shaper_cutter.edge_rounding";
             vec![format!("{section}.radius_um={}", chip_um / share), format!("{section}.minimum_chip_share={share}")]
@@ -168,7 +175,7 @@ const HYPOTHESES: [Hypothesis; 9] = [
         name: "H8 tearing",
         parameter: "mean depth of marks (200 to a mm2 behind chips of 0.2 um and more), um",
         range: [0.1, 50.0],
-        settings: |depth_um| {
+        settings: &|depth_um| {
             let others = [
                 "density_per_mm2=200",
                 "speeds_m_per_min=[0,1000]",
@@ -217,6 +224,8 @@ fn scene(linkage: &str, settings: &[String]) -> Found<Scene> {
 /// Cuts one gear.
 fn cut(linkage: &str, settings: &[String]) -> Found<Gear> {
     let mut scene = scene(linkage, settings)?;
+    // Waves run along the tooth, marks straight.
+    let waves = Shaping::of(&scene).is_some_and(|own| own.machine.vibration.is_some());
     scene.textures = LENGTHS_MM
         .into_iter()
         .flat_map(|length_mm| TEETH.map(|tooth| (length_mm, tooth)))
@@ -229,17 +238,13 @@ fn cut(linkage: &str, settings: &[String]) -> Found<Gear> {
             length_profile_mm: Some(length_mm),
             length_lead_mm: Some(1.0),
             profile_spacing_mm: Some(0.0025),
-            lead_spacing_mm: Some(0.25),
+            lead_spacing_mm: Some(if waves { 0.05 } else { 0.25 }),
             form: Form::Poly2,
             filters: TextureFilters::default(),
             measured: None,
         })
         .collect();
-    let mut job = ShapingJob::new(scene)?;
-    if !job.machine.compliance.is_none() {
-        let displaced = deflections(&job, &|| true)?.expect("nothing stops it");
-        job = job.deflected(displaced);
-    }
+    let job = as_cut(&ShapingJob::new(scene)?, &|| true)?.expect("nothing stops it");
     let all = windows(&job)?;
     let windows_um = all
         .par_iter()
@@ -334,25 +339,44 @@ fn row(name: &str, window_mm: f64, parameter: &str, normal: &Gear, traditional: 
     .collect()
 }
 
+/// A row for each size of window: fitted, and predicted with that.
+fn rows_of(hypothesis: &Hypothesis) -> Result<Vec<Vec<String>>, Box<dyn Error>> {
+    let of_size = |(size, &length_mm): (usize, &f64)| match fitted(hypothesis, size) {
+        Ok(value) => {
+            let both = ["normal", "traditional"].map(|linkage| gears(hypothesis, value, linkage));
+            let [normal, traditional] = both.map(|gear| gear.map_err(|why| why.to_string()));
+            let parameter = format!("{}: {value:.3}", hypothesis.parameter);
+            Ok(row(hypothesis.name, length_mm, &parameter, &normal?, &traditional?, size))
+        }
+        Err(why) => {
+            let cells = [hypothesis.name, &length_mm.to_string(), hypothesis.parameter, &why];
+            let rest = std::iter::repeat_n("", COLUMNS.len() - cells.len());
+            Ok(cells.into_iter().chain(rest).map(str::to_owned).collect())
+        }
+    };
+    LENGTHS_MM.iter().enumerate().map(of_size).collect()
+}
+
+const COLUMNS: [&str; 10] = [
+    "hypothesis",
+    "window mm",
+    "parameter, fitted",
+    "Sa normal, fitted, um: mean (smallest to largest)",
+    "Sa traditional, predicted, um",
+    "unevenness normal, predicted, %: mean (largest)",
+    "unevenness traditional, predicted, %",
+    "Sk normal / traditional, predicted",
+    "Spk normal / traditional, predicted",
+    "Svk normal / traditional, predicted",
+];
+
 /// Cells are words: a mean stands with its range.
 static CELL: QuantityRow = QuantityRow::new("cell", "", "what the head of the column says");
 
 fn main() -> Result<(), Box<dyn Error>> {
     let folder = std::env::args().nth(1).map_or_else(|| PathBuf::from("out/paper_experiment"), PathBuf::from);
     std::fs::create_dir_all(&folder)?;
-    let columns = [
-        "hypothesis",
-        "window mm",
-        "parameter, fitted",
-        "Sa normal, fitted, um: mean (smallest to largest)",
-        "Sa traditional, predicted, um",
-        "unevenness normal, predicted, %: mean (largest)",
-        "unevenness traditional, predicted, %",
-        "Sk normal / traditional, predicted",
-        "Spk normal / traditional, predicted",
-        "Svk normal / traditional, predicted",
-    ];
-    println!("| {} |\n|{}", columns.join(" | "), " --- |".repeat(columns.len()));
+    println!("| {} |\n|{}", COLUMNS.join(" | "), " --- |".repeat(COLUMNS.len()));
     let mut rows: Vec<Vec<String>> = Vec::new();
     let mut add = |row: Vec<String>| {
         println!("| {} |", row.join(" | "));
@@ -366,23 +390,32 @@ fn main() -> Result<(), Box<dyn Error>> {
     }
     let wanted = std::env::args().nth(2).unwrap_or_default();
     for hypothesis in HYPOTHESES.iter().filter(|hypothesis| hypothesis.name.starts_with(&wanted)) {
-        for (size, &length_mm) in LENGTHS_MM.iter().enumerate() {
-            match fitted(hypothesis, size) {
-                Ok(value) => {
-                    let both = ["normal", "traditional"].map(|linkage| gears(hypothesis, value, linkage));
-                    let [normal, traditional] = both.map(|gear| gear.map_err(|why| why.to_string()));
-                    let parameter = format!("{}: {value:.3}", hypothesis.parameter);
-                    add(row(hypothesis.name, length_mm, &parameter, &normal?, &traditional?, size));
-                }
-                Err(why) => {
-                    let cells = [hypothesis.name, &length_mm.to_string(), hypothesis.parameter, &why];
-                    let rest = std::iter::repeat_n("", columns.len() - cells.len());
-                    add(cells.into_iter().chain(rest).map(str::to_owned).collect());
+        rows_of(hypothesis)?.into_iter().for_each(&mut add);
+    }
+    for coordinate in COORDINATES {
+        for hz in FREQUENCIES_HZ {
+            for ratio in DAMPING_RATIOS {
+                let name = format!("H10 chatter, {coordinate}, {hz} Hz, damping ratio {ratio}");
+                let settings = |c: f64| {
+                    let mass = ["machine.vibration.natural_frequency_hz", "machine.vibration.damping_ratio"];
+                    let keys = [set(&mass[..1], hz), set(&mass[1..], ratio)].concat();
+                    let spring = format!("machine.compliance.tool_{coordinate}_um_per_kn={c}");
+                    [keys, vec![spring, format!("machine.vibration.coordinate=\"{coordinate}\"")]].concat()
+                };
+                let hypothesis = Hypothesis {
+                    name: &name,
+                    parameter: "compliance, um/kN",
+                    range: [0.5, 400.0],
+                    settings: &settings,
+                    random: false,
+                };
+                if name.starts_with(&wanted) {
+                    rows_of(&hypothesis)?.into_iter().for_each(&mut add);
                 }
             }
         }
     }
-    let table = columns.iter().enumerate().fold(Table::over("paper", "Hypotheses", &rows), |table, (place, name)| {
+    let table = COLUMNS.iter().enumerate().fold(Table::over("paper", "Hypotheses", &rows), |table, (place, name)| {
         table.column(CELL.as_column().keyed(*name), move |row| row[place].as_str())
     });
     write_table(&folder.join("paper_experiment.csv"), &table.into())?;
