@@ -50,11 +50,6 @@ impl<'a> SlotFrames<'a> {
         Ok(Self { job, grid, layer })
     }
 
-    /// What is left of the slot's cell.
-    pub fn layer(&self) -> &Layer {
-        &self.layer
-    }
-
     fn sets(&self) -> impl Iterator<Item = &TurningPasses> {
         (0..self.job.operations.len()).map(|operation| self.job.slots.of(operation, SLOT))
     }

@@ -3,6 +3,7 @@
 use super::jobs::job;
 use gearcut::cut::cpu::Cpu;
 use gearcut::process::bevel::blank::CellGrid;
+use gearcut::process::bevel::body::of_cells;
 use gearcut::process::bevel::slot_frames::SlotFrames;
 use gearcut::steps::frames::CutByStep;
 use glam::{DVec2, DVec3};
@@ -45,17 +46,15 @@ fn frames_leave_what_all_passes_of_the_slot_leave() {
     let steps = frames.steps();
     let volumes_mm3 = [0, steps / 4, steps / 2, steps].map(|until| {
         frames.advance(until).expect("cuts");
-        grid.volume_mm3(&job, &frames.layer().heights_mm)
+        let body = frames.work(0).expect("a body");
+        assert!(body.is_closed());
+        body.volume_mm3()
     });
     assert!(volumes_mm3.windows(2).all(|pair| pair[0] > pair[1]), "{volumes_mm3:?}");
     let (layers, _) = job.cut_cell(&Cpu::default(), &grid, 0, false).expect("cuts");
-    assert_eq!(Some(frames.layer()), layers.last());
-    // The body of three slots is closed: every edge has two triangles, in opposite directions.
-    let body = frames.work(0).expect("a body");
-    let sides = |[a, b, c]: &[u32; 3]| [[*a, *b], [*b, *c], [*c, *a]];
-    let edges: std::collections::HashSet<[u32; 2]> = body.triangles.iter().flat_map(sides).collect();
-    assert_eq!(edges.len(), 3 * body.triangles.len());
-    assert!(edges.iter().all(|[a, b]| edges.contains(&[*b, *a])));
+    let (cut, uncut) = (layers.last().expect("a layer"), grid.field(&job, 0).blank_layer());
+    let cells = [(job.blank.teeth - 1, uncut.clone()), (0, cut.clone()), (1, uncut)];
+    assert!(frames.work(0).expect("a body") == of_cells(&job, &grid, &cells, job.scene.fields.blank_spacing_mm));
     let [first, last] = [0, steps].map(|until| frames.title(until));
     assert!(first.starts_with("finish: pass 0 of ") && last == first.replace("pass 0", &format!("pass {steps}")));
 }
