@@ -4,7 +4,7 @@
 //! intervals, how much they explain, sources that explain the same, and what is left over.
 //!
 //! **Law.** Measured deviations are those of a gear that is cut with the errors, plus a turn of the gear on the
-//! measuring machine, plus noise of one known standard deviation. About a gear with known errors they are linear:
+//! measuring machine, plus noise that is known ([`Noise`]). About a gear with known errors they are linear:
 //! influences times sizes. Sources are chosen and their sizes fitted by least squares (`selection`); then the gear is
 //! cut with them, and the fit begins again from there, until it moves no more (`refit`).
 //!
@@ -30,6 +30,7 @@ mod cuts;
 mod findings;
 mod fit;
 mod model;
+mod noise;
 mod page;
 mod refit;
 mod selection;
@@ -41,6 +42,7 @@ use fit::LinearFit;
 pub use cuts::MeasuredCuts;
 pub use findings::{findings, sheet};
 pub use model::ErrorModel;
+pub use noise::Noise;
 pub use page::write;
 pub use refit::diagnose;
 pub use shapes::StandingShape;
@@ -124,13 +126,13 @@ impl FittedSize {
 }
 
 impl Diagnosis {
-    /// Explains measured deviations, um, at the model's places, as if all errors were linear about the model's gear;
-    /// `noise_um` is their standard deviation, from place to place on its own.
+    /// Explains measured deviations, um, at the model's places, as if all errors were linear about the model's gear,
+    /// with their noise.
     ///
     /// # Errors
     /// Fewer places than parameters.
     #[cfg(feature = "testing")]
-    pub fn new(model: &ErrorModel, measured_um: &[f64], noise_um: f64) -> gearcut_core::Result<Self> {
-        LinearFit::new(model, measured_um, noise_um, &Without::default()).diagnosis()
+    pub fn new(model: &ErrorModel, measured_um: &[f64], noise: &Noise) -> gearcut_core::Result<Self> {
+        LinearFit::new(model, measured_um, noise, &Without::default()).diagnosis()
     }
 }

@@ -1,6 +1,6 @@
 //! A diagnosis as findings, and for the terminal.
 
-use super::{Diagnosis, ErrorModel, FittedSize, NamedSource, StandingShape};
+use super::{Diagnosis, ErrorModel, FittedSize, NamedSource, Noise, StandingShape};
 use crate::findings::quantities::teeth::{FLANK, TOOTH};
 use crate::findings::{Findings, Notice, QuantityRow, Table};
 use crate::influence::measured::MeasuredPoint;
@@ -10,9 +10,9 @@ use crate::influence::notices::{
 };
 use crate::influence::quantities::budget::{U, V};
 use crate::influence::quantities::diagnosis::{
-    ALONE, BENT, CHANCE, DIAGNOSIS, EXPLAINED, FREEDOM, HALF_IF_RIGHT, HIGH, KIND_OF_SHAPE, LEFT, LOW, MEASURED, NAMED,
-    NO_INTERVAL, NO_TURN, NOISE, NOTHING_DEVIATES, OF_SCENE, ON_LEFT, ON_RIGHT, POINTS, RESIDUAL, RESIDUALS, ROUNDS,
-    SAME_AS, SHAPE, SIZE, SOURCES, STANDING_OUT, SURE, TURN, TURN_HIGH, TURN_LOW, UNEXPLAINED,
+    ALONE, BENT, CHANCE, DIAGNOSIS, EXPLAINED, FLANK_NOISE, FREEDOM, HALF_IF_RIGHT, HIGH, KIND_OF_SHAPE, LEFT, LOW,
+    MEASURED, NAMED, NO_INTERVAL, NO_TURN, NOISE, NOTHING_DEVIATES, OF_SCENE, ON_LEFT, ON_RIGHT, POINTS, RESIDUAL,
+    RESIDUALS, ROUNDS, SAME_AS, SHAPE, SIZE, SOURCES, STANDING_OUT, SURE, TURN, TURN_HIGH, TURN_LOW, UNEXPLAINED,
 };
 use crate::influence::quantities::{ERROR, KIND, PARAMETER, UNIT};
 use crate::number_text::significant;
@@ -28,7 +28,7 @@ pub fn findings(
     scene: &Scene,
     model: &ErrorModel,
     points: &[MeasuredPoint],
-    noise_um: f64,
+    noise: &Noise,
     found: &Diagnosis,
 ) -> Findings {
     let headline = [
@@ -44,7 +44,8 @@ pub fn findings(
     let section = DIAGNOSIS
         .section([
             POINTS.of(points.len()),
-            NOISE.of(noise_um),
+            NOISE.of(noise.value_um),
+            FLANK_NOISE.of(noise.flank_um),
             turn(&TURN, |turn| turn.size),
             turn_end(&TURN_LOW, |turn| turn.interval[0]),
             turn_end(&TURN_HIGH, |turn| turn.interval[1]),

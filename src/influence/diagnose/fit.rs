@@ -4,7 +4,7 @@
 
 use super::averaging::{Averaging, FitColumn};
 use super::selection::{Selection, chi_square_quantile};
-use super::{Diagnosis, ErrorModel, FittedSize, NamedSource, Without};
+use super::{Diagnosis, ErrorModel, FittedSize, NamedSource, Noise, Without};
 use crate::influence::interval::interval;
 use gearcut_core::error::{Refusal, Result};
 use gearcut_core::math::column_basis::{ColumnBasis, norm};
@@ -20,6 +20,8 @@ pub(super) struct LinearFit<'a> {
     model: &'a ErrorModel,
     without: &'a Without,
     noise_um: f64,
+    /// Which places the fit takes.
+    taken: Vec<bool>,
     /// Columns of each source at the places that the fit takes.
     columns: Vec<Vec<Vec<f64>>>,
     /// The turn, and the columns of what stands out.
@@ -32,22 +34,21 @@ pub(super) struct LinearFit<'a> {
 }
 
 impl<'a> LinearFit<'a> {
-    /// Takes values over their standard deviation.
-    pub fn new(model: &'a ErrorModel, measured_um: &[f64], noise_um: f64, without: &'a Without) -> Self {
+    /// Takes values over their noise.
+    pub fn new(model: &'a ErrorModel, measured_um: &[f64], noise: &Noise, without: &'a Without) -> Self {
         let mut taken = vec![true; measured_um.len()];
         without.places.iter().for_each(|&place| taken[place] = false);
-        let whitened = |values: &[f64]| {
-            let kept = values.iter().zip(&taken).filter(|(_, taken)| **taken);
-            kept.map(|(value, _)| value / noise_um).collect::<Vec<f64>>()
-        };
+        let whitened = |values: &[f64]| noise.over(values, |place| taken[place]);
         let less = |other_um: &[f64]| measured_um.iter().zip(other_um).map(|(a, b)| a - b).collect::<Vec<f64>>();
         let of_source = model.sources.iter().map(|source| source.um_per_unit.iter().map(|of| whitened(of)).collect());
         let columns = of_source.collect();
         let always: Vec<Vec<f64>> = model.always().map(whitened).collect();
         let off_um = less(&model.without_errors_um());
         let off = whitened(&off_um);
-        let mut fit = Self { model, without, noise_um, columns, always, off, off_um, whole: 0.0 };
-        fit.whole = fit.selection().basis(&[]).left_of(&whitened(&less(&model.before_um)));
+        let before = whitened(&less(&model.before_um));
+        let mut fit =
+            Self { model, without, noise_um: noise.value_um, taken, columns, always, off, off_um, whole: 0.0 };
+        fit.whole = fit.selection().basis(&[]).left_of(&before);
         fit
     }
 
@@ -72,7 +73,7 @@ impl<'a> LinearFit<'a> {
     /// # Errors
     /// Fewer places than parameters.
     pub fn diagnosis(&self) -> Result<Diagnosis> {
-        let Self { model, noise_um, columns, always, off, whole, .. } = self;
+        let Self { model, noise_um, taken, columns, always, off, whole, .. } = self;
         let fit = self.selection();
         let (candidates, hidden) = self.candidates_and_hidden();
         let chosen = fit.select(&candidates);
@@ -133,6 +134,8 @@ impl<'a> LinearFit<'a> {
             });
         }
         named.sort_by(|a, b| b.alone.total_cmp(&a.alone));
+        let there = residuals_um.iter().zip(taken).filter(|(_, taken)| **taken).map(|(um, _)| um * um);
+        let residual_um = (there.sum::<f64>() / off.len() as f64).sqrt();
         let noise = ChiSquared::new(solution.freedom as f64).expect("freedom is above 0");
         let chance = noise.sf(solution.chi_square);
         let beyond = (solution.chi_square / solution.freedom as f64 - 1.0).max(0.0);
@@ -141,7 +144,7 @@ impl<'a> LinearFit<'a> {
             turn_arcsec,
             standing_out_um: always_fitted,
             explained: (*whole > 0.0).then(|| 1.0 - solution.chi_square / whole),
-            residual_um: noise_um * (solution.chi_square / off.len() as f64).sqrt(),
+            residual_um,
             unexplained_um: if chance < UNEXPLAINED_BY_CHANCE { noise_um * beyond.sqrt() } else { 0.0 },
             chance,
             freedom: solution.freedom,

@@ -19,7 +19,7 @@
 //! Road not taken: a damped step as calibrations have it. The choice of sources is no smooth function of the sizes, and
 //! rounds that do not settle are said to the reader.
 
-use super::{Diagnosis, ErrorModel, LinearFit, MeasuredCuts, Without, standing_out};
+use super::{Diagnosis, ErrorModel, LinearFit, MeasuredCuts, Noise, Without, standing_out};
 use crate::interrupt::Interrupt;
 use crate::progress::Progress;
 use gearcut_core::error::{Error, Result};
@@ -29,15 +29,15 @@ const MOST_ROUNDS: usize = 12;
 /// Sizes have settled where a round moves them by less than this share of half the interval of the named set.
 const SETTLED: f64 = 0.1;
 
-/// Explains measured deviations, um, at the places of `cuts`, by the errors with these names (all, if none is given);
-/// `noise_um` is their standard deviation, from place to place on its own.
+/// Explains measured deviations, um, at the places of `cuts`, by the errors with these names (all, if none is given),
+/// with their noise.
 ///
 /// # Errors
 /// Those of [`ErrorModel::new`]; fewer places than parameters.
 pub fn diagnose(
     cuts: &MeasuredCuts,
     measured_um: &[f64],
-    noise_um: f64,
+    noise: &Noise,
     names: &[String],
     progress: &Progress,
     interrupt: &Interrupt,
@@ -45,7 +45,7 @@ pub fn diagnose(
     let scene = ErrorModel::new(cuts, names, progress, interrupt)?;
     let explain = |scene: &ErrorModel| {
         let step = progress.step("fit", MOST_ROUNDS as u64, "rounds at most");
-        let found = scene.explain(cuts, measured_um, noise_um, interrupt, &|| step.advance(1));
+        let found = scene.explain(cuts, measured_um, noise, interrupt, &|| step.advance(1));
         step.finish();
         found
     };
@@ -53,7 +53,7 @@ pub fn diagnose(
     if found.unexplained_um == 0.0 || !model.complete {
         return Ok((model, found));
     }
-    let standing_out = standing_out::find(&scene, cuts.points, measured_um, noise_um);
+    let standing_out = standing_out::find(&scene, cuts.points, measured_um, noise);
     if standing_out.is_empty() {
         return Ok((model, found));
     }
@@ -70,18 +70,18 @@ impl ErrorModel {
         &self,
         cuts: &MeasuredCuts,
         measured_um: &[f64],
-        noise_um: f64,
+        noise: &Noise,
         interrupt: &Interrupt,
         round_done: &dyn Fn(),
     ) -> Result<(Self, Diagnosis)> {
-        let mut bent = self.bent_places(noise_um);
+        let mut bent = self.bent_places(noise.value_um);
         if 2 * bent.len() > measured_um.len() {
             bent.clear();
         }
         let first = bent.len();
         let mut without = Without { sources: Vec::new(), places: bent };
         let mut model = self.clone();
-        let mut found = LinearFit::new(&model, measured_um, noise_um, &without).diagnosis()?;
+        let mut found = LinearFit::new(&model, measured_um, noise, &without).diagnosis()?;
         for round in 1..=MOST_ROUNDS {
             let sizes = found.sizes(&model);
             match self.moved_to(cuts, &sizes, interrupt) {
@@ -106,7 +106,7 @@ impl ErrorModel {
                 Err(other) => return Err(other),
             }
             let last = found;
-            found = LinearFit::new(&model, measured_um, noise_um, &without).diagnosis()?;
+            found = LinearFit::new(&model, measured_um, noise, &without).diagnosis()?;
             found.rounds = round;
             found.bent = first;
             found.settled = without.places.is_empty() && found.is_as(&last, &model);

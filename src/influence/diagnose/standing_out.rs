@@ -12,7 +12,7 @@
 use super::fit::LinearFit;
 use super::selection::Selection;
 use super::shapes::{StandingOut, StandingShape};
-use super::{ErrorModel, Without};
+use super::{ErrorModel, Noise, Without};
 use crate::influence::gear_grid::evenly;
 use crate::influence::measured::MeasuredPoint;
 use gearcut_core::terms::Side;
@@ -86,15 +86,15 @@ pub(super) fn find(
     model: &ErrorModel,
     points: &[MeasuredPoint],
     measured_um: &[f64],
-    noise_um: f64,
+    noise: &Noise,
 ) -> Vec<StandingOut> {
     let without = Without::default();
-    let fit = LinearFit::new(model, measured_um, noise_um, &without);
+    let fit = LinearFit::new(model, measured_um, noise, &without);
     let ends_mm = ends_mm(points);
     let all: Vec<StandingOut> = shapes(points).into_iter().map(|shape| laid(shape, points, &ends_mm)).collect();
     let own = fit.selection();
     let (sources, _) = fit.candidates_and_hidden();
-    let over_noise = |um: &Vec<f64>| um.iter().map(|um| um / noise_um).collect::<Vec<f64>>();
+    let over_noise = |um: &Vec<f64>| noise.over(um, |_| true);
     let shaped = all.iter().map(|of| of.um_per_um.iter().map(over_noise).collect());
     let columns: Vec<Vec<Vec<f64>>> = own.columns.iter().cloned().chain(shaped).collect();
     let selection = Selection { columns: &columns, ..own };
@@ -104,7 +104,7 @@ pub(super) fn find(
     let chosen = selection.select(&candidates);
     let basis = selection.basis(&chosen);
     let solution = basis.solve(selection.off);
-    let left_um = noise_um * (solution.chi_square / solution.freedom.max(1) as f64).sqrt();
+    let left_um = noise.value_um * (solution.chi_square / solution.freedom.max(1) as f64).sqrt();
     let is_tooth = |i: usize| matches!(all[i - first].shape, StandingShape::Tooth(_));
     let own: Vec<usize> = chosen.iter().copied().filter(|&i| i >= first).collect();
     let teeth: BTreeSet<u32> = points.iter().map(|point| point.tooth).collect();
@@ -115,7 +115,7 @@ pub(super) fn find(
         // What nothing else explains of it, root mean square over its own places.
         let gain = selection.left(&others) - solution.chi_square;
         let places = all[i - first].um_per_um.iter().flatten().filter(|um| **um != 0.0).count();
-        noise_um * (gain / places as f64).sqrt() > STANDS_OUT * left_um && (are_single || !is_tooth(i))
+        noise.value_um * (gain / places as f64).sqrt() > STANDS_OUT * left_um && (are_single || !is_tooth(i))
     };
     let mut kept: Vec<usize> = own.into_iter().filter(|&i| stands_out(i)).collect();
     kept.sort_unstable();

@@ -26,7 +26,9 @@ rows! {
         "fitted: root mean square of what is left beyond the stated noise; 0 where noise makes as much in more than 1 \
          of 1000 gears";
     POINTS: "points", "places", "measured places";
-    NOISE: "noise", "um", "stated standard deviation of every measured value";
+    NOISE: "noise", "um", "stated standard deviation of every measured value on its own";
+    FLANK_NOISE: "flank_noise", "um",
+        "stated standard deviation by which whole flanks are off at random, beside the noise of each value";
     TURN: "turn", "arcsec", "fitted: turn of the gear on the measuring machine, counter-clockwise" => or(&[NO_TURN]);
     TURN_LOW: "turn_low", "arcsec", "fitted: lower end of the turn's 95 % interval" => or(&[NO_TURN, NO_INTERVAL]);
     TURN_HIGH: "turn_high", "arcsec", "fitted: upper end of the turn's 95 % interval" => or(&[NO_TURN, NO_INTERVAL]);

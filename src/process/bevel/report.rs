@@ -11,8 +11,8 @@ use super::job::BevelJob;
 use super::measure::BevelReport;
 use super::net;
 use super::quantities::{
-    BLADES, BODY, CHIPS, FLANK_BLADES, FORM, IDLE_SHARE, LAW, MARK_HEIGHT, MARK_SPACING, MARKS, POSITION, SETTINGS,
-    SLOT_DEPTH, SLOT_WIDTH,
+    BLADES, BODY, CHIPS, ERRORS, FLANK_BLADES, FORM, IDLE_SHARE, LAW, MARK_HEIGHT, MARK_SPACING, MARKS, POSITION,
+    SETTINGS, SLOT_DEPTH, SLOT_WIDTH,
 };
 use crate::findings::quantities::blank::{BLANK_VOLUME, LEFT_VOLUME};
 use crate::findings::quantities::cutting::{CYCLE_TIME, LINKAGE, OFFSET};
@@ -25,7 +25,7 @@ use crate::output::report::{Block, Page, PageSection, PageTable, Tone};
 use crate::steps;
 use crate::steps::axes;
 use crate::steps::report::facts::table;
-use crate::steps::report::quantities::value_and_unit;
+use crate::steps::report::quantities::{self, value_and_unit};
 use crate::steps::report::{PageGear, RunWords, files, headline_words, machine_errors, record, texture};
 use crate::steps::view_mesh::{ViewFlank, ViewMesh};
 use gearcut_core::error::Result;
@@ -121,6 +121,7 @@ fn deviations(job: &BevelJob, gear: &BevelGear, found: &Findings) -> PageSection
         blocks.push(Block::Lines(traces(worst, &words)));
     }
     blocks.insert(0, Block::Table(positions(found)));
+    blocks.extend(found.group(&ERRORS).map(|errors| Block::Table(quantities::table(errors))));
     blocks.push(Block::Note(
         "Deviations along the target's normal, positive where material is left; dashed the target. All flanks with \
         points, normals and deviations are in tables/grid.csv."

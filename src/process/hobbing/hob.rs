@@ -147,6 +147,11 @@ impl HobTooth {
 }
 
 impl Hob {
+    /// Numbers of the teeth, in blade order.
+    pub fn labels(&self) -> Vec<String> {
+        self.teeth.iter().map(|tooth| tooth.label(self.starts)).collect()
+    }
+
     /// Hob of a scene for a gear with this normal module and pressure angle.
     ///
     /// # Errors

@@ -167,6 +167,12 @@ notices! {
          tooth: between four places of the face they leave it by {apart} of its standard deviation, up to {most_hz} Hz \
          by {most_apart} at most; helices are smoother than it";
         "Trust no helix form of this axis's noise, or lower its bandwidth."
+    /// Waves grow from stroke to stroke: flanks get marks, and the edge and the machine suffer.
+    Chatter: Warning "machine.chatter", "deflection.md", (operation, strokes, times, left_um, right_um),
+        "operation {operation}: {strokes} are beyond the limit of stability, by {times} times at most: the cutter \
+         chatters, by up to {left_um} um on left flanks and {right_um} um on right ones (root mean square along the \
+         face): "
+        + "take thinner chips or a narrower face, or make the machine stiffer or better damped"
     /// A step on the last flank counts as a form and pitch deviation.
     ClosingStep: Warning "measure.closing_step", "errors.md", (operation, tooth, side, step_um, way),
         "operation {operation}: where its end meets its beginning, on tooth {tooth} {side}, the later strokes lie \

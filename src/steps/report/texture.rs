@@ -55,9 +55,9 @@ pub fn section(found: &Findings, folder: &OutputFolder) -> Result<Option<PageSec
         "texture",
         "Surface texture",
         format!(
-            "Areal parameters by ISO 25178-2 of windows on flanks after {}: marks of the tool's motion. Chips, wear \
-            and vibration of a real cut come on top. The window with the largest Sa is shown in full. All parameters \
-            are in results.json, the surfaces as X3P beside it.",
+            "Areal parameters by ISO 25178-2 of windows on flanks after {}: marks of the tool's motion, with what the \
+            scene says of machine and edge. What it does not say of a real cut comes on top. The window with the \
+            largest Sa is shown in full. All parameters are in results.json, the surfaces as X3P beside it.",
             last.key
         ),
         blocks,

@@ -324,6 +324,7 @@ fn scenes_and_pages_speak_of_a_plunge() {
         (CASE, "machine.cradle.modified_roll_c=0.01", "nothing rolls"),
         (CASE, "machine.cradle_errors.roll_ratio=0.001", "nothing rolls"),
         (CASE, "machine.cradle_errors.tilt_deg=0.1", "nothing rolls"),
+        ("scenes/bevel/crown_gear.toml", "machine.cradle_errors.swivel_deg=0.1", "an upright head leans nowhere"),
         ("scenes/bevel/crown_gear.toml", "operation.finish.infeed_mm_per_revolution=0.5", "the cradle rolls"),
         (
             "scenes/bevel/crown_gear.toml",

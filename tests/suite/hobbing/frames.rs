@@ -126,7 +126,7 @@ fn frames_leave_what_all_passes_leave() {
     }
 }
 
-/// The page's hob at every pass that takes something: all chips are the blank's, and the tip of the tooth that takes one
+/// The page's hob at every pass that takes something: all chips are the blank's, and the tip of the tooth that takes it
 /// is as far from the gear's axis as the numbers of the scene say when it points to the work.
 #[test]
 fn the_pages_hob_points_its_taking_tooth_to_the_work() {

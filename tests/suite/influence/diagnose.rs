@@ -3,13 +3,14 @@
 use super::cut_gears::{GEARS, KnownErrors, NAMED_AT_LEAST, NOISE_UM, Random, SEEN, TEETH, Tally, coarse, places};
 use super::round::{backend, grid, loaded};
 use gearcut::influence::budget::chosen;
-use gearcut::influence::diagnose::{Diagnosis, ErrorModel, FittedSize, MeasuredCuts, findings};
+use gearcut::influence::diagnose::{Diagnosis, ErrorModel, FittedSize, MeasuredCuts, Noise, findings};
 use gearcut::influence::known_cuts::KnownCuts;
 use gearcut::influence::measured::MeasuredPoint;
 use gearcut::interrupt::Interrupt;
 use gearcut::progress::{Progress, ProgressMode};
 use gearcut::scene::LoadedScene;
 use gearcut::terms::Side;
+use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
 /// Influences of errors by their names, of all where there is none.
@@ -19,7 +20,7 @@ fn model(cuts: &MeasuredCuts, names: &[&str]) -> ErrorModel {
 }
 
 fn explain(model: &ErrorModel, cuts: &MeasuredCuts, measured_um: &[f64]) -> (ErrorModel, Diagnosis) {
-    model.explain(cuts, measured_um, NOISE_UM, &Interrupt::default(), &|| ()).expect("many places")
+    model.explain(cuts, measured_um, &Noise::of_values(NOISE_UM), &Interrupt::default(), &|| ()).expect("many places")
 }
 
 fn keys(model: &ErrorModel, sources: impl IntoIterator<Item = usize>) -> Vec<&str> {
@@ -92,7 +93,7 @@ fn a_cut_that_ends_over_its_beginning_is_not_blamed_on_other_errors() {
         assert!((of.size - size).abs() < 1.5 * half && half < 0.3, "{}: {} +- {half} um", parameter.id, of.size);
     }
     // The linear fit cannot explain the gear.
-    let linear = Diagnosis::new(&scene, &measured_um, NOISE_UM).expect("many places");
+    let linear = Diagnosis::new(&scene, &measured_um, &Noise::of_values(NOISE_UM)).expect("many places");
     assert!(linear.unexplained_um > 0.0 || named(&scene, &linear).len() > 1, "{:?}", named(&scene, &linear));
     // Hidden are those that turn all teeth alike or move the gear along its axis.
     let seen = (0..scene.sources.len()).filter(|source| !found.hidden.contains(source));
@@ -169,7 +170,7 @@ mod slow {
             let off = (turn.size - turned_arcsec).abs();
             assert!(off < 2.0 * turn.half_if_right, "gear {gear}: {turn:?} for {turned_arcsec} arcsec");
             assert!(found.explained.is_some_and(|share| share > 0.5), "gear {gear}: {:?}", found.explained);
-            let of_scene = Diagnosis::new(&scene, &measured_um, NOISE_UM).expect("places");
+            let of_scene = Diagnosis::new(&scene, &measured_um, &Noise::of_values(NOISE_UM)).expect("places");
             count(&mut linear, &scene, &of_scene, &errors, FittedSize::holds);
         }
         println!("{tally:?}; half as wide {halved:?}; by the named sources alone {alone:?}; not cut again {linear:?}");
@@ -179,6 +180,38 @@ mod slow {
         assert!(!halved.holds() && alone.held < tally.held, "{halved:?}, {alone:?}");
         // Planted: the same gears by influences alone, without a cut of what was found.
         assert!(linear.named < NAMED_AT_LEAST && !linear.holds() && linear.blamed > 1, "{linear:?}");
+    }
+
+    /// Flanks that are off at random as a whole, as by a drive that wanders from tooth to tooth: with that noise stated
+    /// intervals hold and sources are named; planted: as if it were noise of each value.
+    #[test]
+    fn flanks_that_are_off_at_random_are_noise_of_their_own() {
+        const FLANK_UM: f64 = 0.6;
+        let (loaded, cpu, known) = (coarse(), backend(), KnownCuts::default());
+        let points = places(&loaded);
+        let cuts = MeasuredCuts::new(&loaded, &points, &cpu, &known).expect("places");
+        let scene = model(&cuts, &[]);
+        let mut random = Random(20_261_128);
+        let noises =
+            [Noise::of_values(NOISE_UM).and_flanks(FLANK_UM, &points), Noise::of_values(NOISE_UM.hypot(FLANK_UM))];
+        let mut tallies = [Tally::default(); 2];
+        for _ in 0..24 {
+            let errors = KnownErrors::draw(&loaded, &mut random);
+            let mut measured_um = measured_um(&cuts, &scene, &errors, 0.0, &mut random);
+            let mut off_um = BTreeMap::new();
+            for (point, um) in points.iter().zip(&mut measured_um) {
+                let flank = (point.tooth, point.side.name());
+                *um += *off_um.entry(flank).or_insert_with(|| FLANK_UM * random.normal());
+            }
+            for (noise, tally) in noises.iter().zip(&mut tallies) {
+                let (there, found) =
+                    scene.explain(&cuts, &measured_um, noise, &Interrupt::default(), &|| ()).expect("many places");
+                count(tally, &there, &found, &errors, FittedSize::holds);
+            }
+        }
+        println!("{tallies:?}");
+        let [stated, alone] = tallies;
+        assert!(stated.holds() && !alone.holds() && stated.named > alone.named, "{tallies:?}");
     }
 
     /// What no error of the scene makes, on a gear that has two of them as well: profiles of one tooth hollow by 4 um.
@@ -199,7 +232,7 @@ mod slow {
         for (measured_um, is_told) in [(hollow.collect(), true), (sound_um.clone(), false)] {
             let (there, found) = explain(&scene, &cuts, &measured_um);
             assert_eq!(found.unexplained_um > 0.5, is_told, "{} um, chance {}", found.unexplained_um, found.chance);
-            let tree = findings(&loaded.scene, &there, &points, NOISE_UM, &found);
+            let tree = findings(&loaded.scene, &there, &points, &Noise::of_values(NOISE_UM), &found);
             let told = tree.warnings.iter().any(|warning| warning.text.starts_with("unexplained"));
             assert_eq!(told, is_told, "{:?}", tree.warnings);
         }

@@ -2,7 +2,7 @@
 
 use super::cut_gears::{NOISE_UM, Random, TEETH, coarse};
 use super::round::backend;
-use gearcut::influence::diagnose::{Diagnosis, ErrorModel, MeasuredCuts, diagnose, findings, sheet};
+use gearcut::influence::diagnose::{Diagnosis, ErrorModel, MeasuredCuts, Noise, diagnose, findings, sheet};
 use gearcut::influence::gear_grid::evenly;
 use gearcut::influence::known_cuts::KnownCuts;
 use gearcut::influence::measured::MeasuredPoint;
@@ -61,8 +61,9 @@ impl Room {
             self.points.iter().zip(&cut_um).map(|(at, um)| um + add_um(at) + NOISE_UM * random.normal()).collect();
         let names = ["mounting.eccentricity_um", "machine.errors.work"].map(str::to_owned);
         let (quiet, go_on) = (Progress::new(ProgressMode::Quiet), Interrupt::default());
-        let (model, found) = diagnose(&cuts, &measured_um, NOISE_UM, &names, &quiet, &go_on).expect("a diagnosis");
-        let tree = findings(&self.loaded.scene, &model, &self.points, NOISE_UM, &found);
+        let (model, found) =
+            diagnose(&cuts, &measured_um, &Noise::of_values(NOISE_UM), &names, &quiet, &go_on).expect("a diagnosis");
+        let tree = findings(&self.loaded.scene, &model, &self.points, &Noise::of_values(NOISE_UM), &found);
         let mut printed = Sheet::default();
         sheet(&model, &found, &tree, &mut printed);
         let warnings = tree.warnings.iter().map(|warning| warning.text.clone()).collect();
@@ -129,7 +130,7 @@ fn nothing_is_sure_while_deviations_are_unexplained() {
     assert!(!found.named.is_empty(), "the eccentricity is there");
     assert!(warnings[0].starts_with("unexplained"), "{warnings:?}");
     assert!(printed.contains("no interval holds") && !printed.contains(" to "), "{printed}");
-    let tree = findings(&room.loaded.scene, &model, &room.points, NOISE_UM, &found);
+    let tree = findings(&room.loaded.scene, &model, &room.points, &Noise::of_values(NOISE_UM), &found);
     let table = tree.at_path("diagnosis").and_then(|section| section.table_at("sources")).expect("a table");
     for column in ["low", "high", "half_if_right", "sure"] {
         assert!(table.numbers(column).all(|cell| cell.is_none()), "{column} is withheld");

@@ -8,6 +8,7 @@ use gearcut::cut::cpu::Cpu;
 use gearcut::machine_errors::Deflection;
 use gearcut::process::shaping::ShapingJob;
 use gearcut::process::shaping::cut::chips::as_cut;
+use gearcut::process::shaping::findings::deflection::chatter;
 use gearcut::terms::Side;
 use glam::DVec2;
 
@@ -99,7 +100,13 @@ fn waves_grow_beyond_the_limit_and_die_below_it() {
     assert!(deflected_um > 2.0 && (entry_um / deflected_um - 1.0).abs() < 1e-3, "the cutter enters undeflected");
     assert!(middle_um < 1e-3 * deflected_um, "{middle_um} um");
     assert_eq!(largest(&calm).1, 0.0, "no stroke beyond the limit");
-    let [quiet, loud] = [0.5, 0.02].map(|ratio| largest(&both(&mass(400.0, ratio, 2.0), &coarse)[1]));
+    let jobs = [0.5, 0.02].map(|ratio| both(&mass(400.0, ratio, 2.0), &coarse)[1].clone());
+    let [quiet, loud] = [0, 1].map(|i| largest(&jobs[i]));
+    // The run says so, with the strokes and the size.
+    let [none, said] = jobs.each_ref().map(chatter);
+    let strokes = jobs[1].operations[0].vibration.as_ref().expect("it vibrates").strokes.iter();
+    let beyond = format!("operation finish: {} of ", strokes.filter(|of| of.share_of_limit > 1.0).count());
+    assert!(none.is_empty() && said.len() == 1 && said[0].text.starts_with(&beyond), "{none:?} {said:?}");
     println!("damping 0.5: {quiet:?}; 0.02: {loud:?}");
     assert!(quiet.1 == 0.0 && loud.1 > 0.1, "{quiet:?} {loud:?}");
     assert!(loud.0 > 2.0 * quiet.0, "{quiet:?} {loud:?}");

@@ -141,6 +141,7 @@ fn check(found: &mut Found<'_, '_, '_>) {
     rolls(found);
     spiral_angle(found);
     keys_of_the_other_way(found);
+    swivel_of_an_upright_head(found);
     machine_errors::check(found, &keys::AXES);
     machine_errors::check_noise_in_time(found, &keys::AXES, "a face-mill head");
 }
@@ -185,6 +186,16 @@ fn spiral_angle(found: &mut Found) {
         let way_out = "remove it, or write radial_setting_mm and cradle_angle_deg in place of spiral_angle_deg";
         found.blame(true, &key, message, way_out);
     }
+}
+
+/// An upright head leans nowhere: an error of its swivel does nothing.
+fn swivel_of_an_upright_head(found: &mut Found) {
+    let is_set = |section: &str, key: &str| found.view(section).number(key).is_some_and(|number| number != 0.0);
+    let leans = ["machine.cradle", "machine.cradle_errors"].iter().any(|section| is_set(section, "tilt_deg"));
+    let path = "machine.cradle_errors.swivel_deg";
+    let wrong = is_set("machine.cradle_errors", "swivel_deg") && !leans;
+    let message = || format!("`{path}` does nothing: machine.cradle.tilt_deg is 0, and an upright head leans nowhere");
+    found.blame(wrong, path, message, "remove it, or give the head a tilt");
 }
 
 /// Keys of the roll where nothing rolls, and keys of the plunge where the cradle rolls.

@@ -7,7 +7,6 @@
 use crate::output::report::viewer::{ViewerStroke, ViewerStrokes};
 use crate::process::hobbing::HobCutter;
 use crate::process::hobbing::blank::HobbedBlank;
-use crate::process::hobbing::run::load::labels;
 use crate::surface::prism::blade;
 use crate::surface::triangles::Triangles;
 use gearcut_core::cut::sweep_chips::PassChip;
@@ -52,7 +51,7 @@ pub fn passes(cutter: &HobCutter, blank: &HobbedBlank) -> ViewerStrokes {
         noun: "pass",
         operations: operations.map(|(of, set)| (of.spec.name.clone(), set.count() as usize)).collect(),
         words: "chip {0} mm³, {1} µm thick, {2} mm long, hob tooth {3}",
-        names: labels(job),
+        names: job.hob.labels(),
         strokes: strokes.collect(),
     }
 }

@@ -1,7 +1,6 @@
 //! Cutting forces of the hob's teeth in a run: charts by tooth and over time, findings with `tables/hob_force.csv` and
 //! `tables/hob_force_over_time.csv`.
 
-use super::load::labels;
 use crate::findings::quantities::blank::OPERATION;
 use crate::findings::quantities::cutting::{FORCE_PER_AREA, FORCE_PER_LENGTH, IDLE, LARGEST_FORCE};
 use crate::findings::{Place, QuantityRow, Section, Table};
@@ -49,7 +48,7 @@ pub fn bars(job: &HobbingJob, forces: &[OperationForce]) -> Vec<(String, BarChar
         limits: Vec::new(),
         title: format!("{}, {name}: cutting force by hob tooth", job.scene.name),
         category_name: "hob tooth, from the entering end".into(),
-        categories: labels(job),
+        categories: job.hob.labels(),
         value_name: "cutting force, referred to the tip".into(),
         unit: "N".into(),
         series: vec![
@@ -70,7 +69,7 @@ pub fn bars(job: &HobbingJob, forces: &[OperationForce]) -> Vec<(String, BarChar
 /// Force over time with the names of the files, operation by operation that cuts anything: the largest of any tooth in
 /// every turn of the hob, and the teeth with the largest forces.
 pub fn over_time(job: &HobbingJob, forces: &[OperationForce]) -> Vec<(String, LineChart)> {
-    let labels = labels(job);
+    let labels = job.hob.labels();
     let panel = |value_name: &str, series| Panel {
         value_name: value_name.to_owned(),
         unit: "N".to_owned(),
@@ -126,7 +125,7 @@ pub fn findings(job: &HobbingJob, forces: &[OperationForce]) -> Option<Section> 
 }
 
 fn of_operation(job: &HobbingJob, name: &str, force: &OperationForce) -> Section {
-    let labels = labels(job);
+    let labels = job.hob.labels();
     let largest = |row: &QuantityRow, value: fn(&PassForce) -> f64| {
         let Some(pass) = force.peak(value) else { return row.none(NOTHING) };
         let place = Place::default()
@@ -153,7 +152,7 @@ fn of_operation(job: &HobbingJob, name: &str, force: &OperationForce) -> Section
 
 /// All operations, tooth by tooth.
 fn by_tooth(job: &HobbingJob, forces: &[OperationForce]) -> Table {
-    let labels = labels(job);
+    let labels = job.hob.labels();
     let teeth = job.operations.iter().zip(forces).flat_map(|(operation, force)| {
         force.teeth.iter().zip(&labels).map(|(tooth, label)| (operation.spec.name.as_str(), label.as_str(), tooth))
     });
@@ -172,7 +171,7 @@ fn by_tooth(job: &HobbingJob, forces: &[OperationForce]) -> Table {
 
 /// All operations, pass by pass: thousands of rows, in the file alone.
 fn by_pass(job: &HobbingJob, forces: &[OperationForce]) -> Table {
-    let labels = labels(job);
+    let labels = job.hob.labels();
     let passes = job
         .operations
         .iter()

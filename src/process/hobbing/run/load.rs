@@ -42,7 +42,7 @@ pub fn charts(job: &HobbingJob, loads: &[OperationLoad]) -> Vec<(String, BarChar
                 limits: Vec::new(),
                 title: format!("{}, {name}: {what} by hob tooth", job.scene.name),
                 category_name: "hob tooth, from the entering end".into(),
-                categories: labels(job),
+                categories: job.hob.labels(),
                 value_name: what.into(),
                 unit: unit.into(),
                 series: vec![BarSeries {
@@ -55,14 +55,9 @@ pub fn charts(job: &HobbingJob, loads: &[OperationLoad]) -> Vec<(String, BarChar
         .collect()
 }
 
-/// Numbers of the hob's teeth.
-pub fn labels(job: &HobbingJob) -> Vec<String> {
-    job.hob.teeth.iter().map(|tooth| tooth.label(job.hob.starts)).collect()
-}
-
 /// All operations in one table, its rows in the file alone: the operations' own tables have most of it.
 fn table(job: &HobbingJob, loads: &[OperationLoad]) -> Table {
-    let labels = labels(job);
+    let labels = job.hob.labels();
     let teeth = job.operations.iter().zip(loads).flat_map(|(operation, of)| {
         of.teeth.iter().enumerate().map(move |(index, tooth)| (operation.spec.name.as_str(), of, index, tooth))
     });
@@ -89,7 +84,7 @@ pub fn findings(job: &HobbingJob, loads: &[OperationLoad]) -> Section {
 }
 
 fn of_operation(job: &HobbingJob, of: &OperationLoad, index: usize) -> Section {
-    let labels = labels(job);
+    let labels = job.hob.labels();
     let hardest = of.peak(|load| load.volume_mm3);
     let thickest = of.peak(|load| load.thickness_mm);
     let name = &job.operations[index].spec.name;

@@ -1,6 +1,5 @@
 //! The hob's wear in a run ([`crate::steps::tool_wear`]), and its shift between gears: `tables/hob_shift.csv`.
 
-use super::load::labels;
 use crate::findings::quantities::tool_wear::NO_RANGE;
 use crate::findings::{Section, Table};
 use crate::measure::tool_wear::{GearCost, ToolWear};
@@ -43,7 +42,7 @@ fn worn_tool(job: &HobbingJob) -> WornTool {
         name: "hob",
         tooth: &HOB_TOOTH,
         numbering: "from the entering end",
-        labels: labels(job),
+        labels: job.hob.labels(),
         places: PLACE_NAMES,
         flanks: ["flank to the entering end", "flank to the leaving end"],
         more: Some((&AXIAL, job.hob.teeth.iter().map(|tooth| tooth.axial_mm).collect())),

@@ -1,13 +1,16 @@
 //! How far tool and work give way in an operation and how they vibrate, and what that leaves on flanks.
 
 use super::chips::stroke_place;
-use crate::findings::{Entry, QuantityRow, Section};
-use crate::process::shaping::ShapingJob;
+use crate::findings::{Entry, Notice, QuantityRow, Section};
+use crate::number_text::significant;
 use crate::process::shaping::cut::chips::ChipLedger;
 use crate::process::shaping::gear::measure::flank_deflection::{at_pitch_point_mm, moved_mm};
+use crate::process::shaping::notices::Chatter;
 use crate::process::shaping::quantities::strokes::{
     DEFLECTION, IDLE_STROKE, STABLE_WIDTH, TURNS, UNSTABLE_STROKES, VIBRATION, WAVE_LENGTH,
 };
+use crate::process::shaping::scene::model::MachineVibration;
+use crate::process::shaping::{PreparedOperation, ShapingJob};
 use gearcut_core::units::UM_PER_MM;
 
 /// urad in a rad.
@@ -53,15 +56,37 @@ pub fn vibration(job: &ShapingJob, ledger: &ChipLedger, operation: usize) -> Opt
     let is_shift = machine.axis < 2;
     let limit = machine.mass(&job.machine.compliance).least_limit();
     let width_mm = is_shift.then(|| limit / job.material.normal_n_per_mm2);
-    let middle_mm_per_s =
-        job.ram_speed_mm_per_s(operation) * job.machine.speed_share(job.scene.gear.face_width_mm, 0.0);
     let own = [
         UNSTABLE_STROKES.of(unstable),
         STABLE_WIDTH.of_or(width_mm, TURNS),
-        WAVE_LENGTH.of(middle_mm_per_s / machine.natural_frequency_hz),
+        WAVE_LENGTH.of(wave_length_mm(job, operation, &machine)),
     ];
     let of_strokes = largest_and_mean(job, ledger, operation, (&VIBRATION.rows[..3], &of));
     Some(VIBRATION.section(of_strokes.into_iter().chain(own)))
+}
+
+/// Operations with strokes beyond the limit, where a wave finds room on the face.
+pub fn chatter(job: &ShapingJob) -> Vec<Notice> {
+    let Some(machine) = job.machine.vibration else { return Vec::new() };
+    let width_mm = job.scene.gear.face_width_mm;
+    let of_operation = |(index, operation): (usize, &PreparedOperation)| {
+        let has_room = wave_length_mm(job, index, &machine) < width_mm;
+        let unstable = operation.vibration.as_ref().filter(|_| has_room)?.strokes.iter().enumerate();
+        let unstable = unstable.filter(|(_, of)| of.share_of_limit > 1.0);
+        let values: Vec<[f64; 3]> = unstable.map(|(stroke, _)| vibration_of_stroke(job, index, stroke)).collect();
+        let largest = |place: usize| significant(values.iter().map(|of| of[place]).fold(0.0, f64::max), 3);
+        let strokes = format!("{} of {} strokes", values.len(), operation.count());
+        let [times, left_um, right_um] = [0, 1, 2].map(largest);
+        let chatter = Chatter { operation: &operation.spec.name, strokes, times, left_um, right_um };
+        (!values.is_empty()).then(|| chatter.notice())
+    };
+    job.operations.iter().enumerate().filter_map(of_operation).collect()
+}
+
+/// Length along the tooth of a wave of the natural frequency, in the middle of the face.
+fn wave_length_mm(job: &ShapingJob, operation: usize, machine: &MachineVibration) -> f64 {
+    let middle = job.machine.speed_share(job.scene.gear.face_width_mm, 0.0);
+    job.ram_speed_mm_per_s(operation) * middle / machine.natural_frequency_hz
 }
 
 /// Largest and mean of each value of a stroke over the strokes that cut.

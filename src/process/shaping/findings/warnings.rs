@@ -119,6 +119,7 @@ pub fn after(
     warnings.extend(unsettled(report));
     warnings.extend(uncut(report));
     warnings.extend(closing::warnings(job, report));
+    warnings.extend(super::deflection::chatter(job));
     warnings.extend(work.warnings());
     if let Some(blank) = blank {
         warnings.extend(blank_findings::warnings(&job.planar(), blank, depth_mm));

@@ -10,7 +10,6 @@ use crate::process::hobbing::measure::hoffmeister;
 use crate::process::hobbing::quantities::{
     DRAWN_TOOTH, FEED_MARK, GENERATING_MARK, HOFFMEISTER, NOTHING, PEAK_TO_MEAN, SHIFT_RANGE, SHIFT_ROOM,
 };
-use crate::process::hobbing::run::load::labels;
 use crate::process::hobbing::{HobbedGear, HobbingJob};
 use crate::steps::axes;
 use crate::steps::inspection::headline::{self, Cutting, Placed, quality};
@@ -19,7 +18,7 @@ use gearcut_core::units::UM_PER_MM;
 
 /// What to look at first.
 pub(super) fn headline(job: &HobbingJob, gear: &HobbedGear, measured: &Measured) -> Vec<Entry> {
-    let labels = labels(job);
+    let labels = job.hob.labels();
     let at = |operation: usize, tooth: usize| {
         Place::default()
             .and("operation", job.operations[operation].spec.name.clone())
