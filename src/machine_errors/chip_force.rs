@@ -1,6 +1,6 @@
-//! The force of a stroke's chips along one coordinate, as it depends on how far the tool stands from its path.
+//! The force of a stroke's chips along one coordinate, as it depends on how far the tool is from its path.
 //!
-//! In: the elements of the edge in contact ([`EdgeElement`]), each with its chip where the tool stands at rest. Out:
+//! In: the elements of the edge in contact ([`EdgeElement`]), each with its chip where the tool is at rest. Out:
 //! the force on the tool F(d), d the displacement of the tool less that of the surface which it finds. Law: an
 //! element's chip is h = h_0 + m d, its force f(h) in straight pieces, so that F = -sum of f m is a broken line. Forces
 //! along inclined edges go with the thickness of all chips.
@@ -83,7 +83,7 @@ impl ChipForce {
         [corner[1] + slope * (d - corner[0]), slope]
     }
 
-    /// Where the surface lies behind a tool that stands at `d`: with it while it cuts.
+    /// Where the surface lies behind a tool that is at `d`: with it while it cuts.
     pub fn surface(&self, d: f64) -> f64 {
         if self.lifts { d.min(self.lost) } else { d.max(self.lost) }
     }

@@ -20,8 +20,6 @@ pub(super) struct LinearFit<'a> {
     model: &'a ErrorModel,
     without: &'a Without,
     noise_um: f64,
-    /// Which places the fit takes.
-    taken: Vec<bool>,
     /// Columns of each source at the places that the fit takes.
     columns: Vec<Vec<Vec<f64>>>,
     /// The turn, and the columns of what stands out.
@@ -46,8 +44,7 @@ impl<'a> LinearFit<'a> {
         let off_um = less(&model.without_errors_um());
         let off = whitened(&off_um);
         let before = whitened(&less(&model.before_um));
-        let mut fit =
-            Self { model, without, noise_um: noise.value_um, taken, columns, always, off, off_um, whole: 0.0 };
+        let mut fit = Self { model, without, noise_um: noise.value_um, columns, always, off, off_um, whole: 0.0 };
         fit.whole = fit.selection().basis(&[]).left_of(&before);
         fit
     }
@@ -73,7 +70,7 @@ impl<'a> LinearFit<'a> {
     /// # Errors
     /// Fewer places than parameters.
     pub fn diagnosis(&self) -> Result<Diagnosis> {
-        let Self { model, noise_um, taken, columns, always, off, whole, .. } = self;
+        let Self { model, noise_um, columns, always, off, whole, .. } = self;
         let fit = self.selection();
         let (candidates, hidden) = self.candidates_and_hidden();
         let chosen = fit.select(&candidates);
@@ -134,7 +131,8 @@ impl<'a> LinearFit<'a> {
             });
         }
         named.sort_by(|a, b| b.alone.total_cmp(&a.alone));
-        let there = residuals_um.iter().zip(taken).filter(|(_, taken)| **taken).map(|(um, _)| um * um);
+        let there = residuals_um.iter().enumerate().filter(|(place, _)| !self.without.places.contains(place));
+        let there = there.map(|(_, um)| um * um);
         let residual_um = (there.sum::<f64>() / off.len() as f64).sqrt();
         let noise = ChiSquared::new(solution.freedom as f64).expect("freedom is above 0");
         let chance = noise.sf(solution.chi_square);

@@ -6,7 +6,7 @@
 //! flanks are off at random, and each value has sigma^2 of its own beside it. Values over their noise are Sigma^(-1/2)
 //! times the values; of n values of a flank with the mean m that is (x - c m) / sigma, c = 1 - (1 + n tau^2 /
 //! sigma^2)^(-1/2). Without tau a flank with many measured places weighs as much as all of them: a drive that wanders
-//! from tooth to tooth is then explained by whatever error fits these few flanks.
+//! from tooth to tooth is then explained by an error that happens to fit these few flanks.
 //!
 //! Road not taken: tau from the residuals. Sources that are chosen without it fit the flanks with many places as they
 //! are, and leave nothing there to see it by.

@@ -5,7 +5,7 @@
 //! toothed ring.
 //!
 //! The columns of all cells follow each other round the axis, so that edges have two triangles by construction. Rows
-//! stand at cone distances, and between two of them the surface runs straight along the slot. A body of a few slots
+//! lie at cone distances, and between two of them the surface runs straight along the slot. A body of a few slots
 //! ends in walls along its first and last columns.
 
 use super::blank::{CellGrid, CutCells};

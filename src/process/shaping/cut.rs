@@ -63,7 +63,7 @@ impl ShapingJob {
         Ok(PreparedField::Cut(cut))
     }
 
-    /// Cuts every row of a field as its section is cut: a cutter that vibrates stands elsewhere in each.
+    /// Cuts every row of a field as its section is cut: a cutter that vibrates is elsewhere in each.
     fn cut_in_rows(&self, backend: &dyn Backend, field: Field) -> Result<CutField> {
         let mut stats = CutStats::default();
         let mut rows: Vec<(usize, Vec<Layer>)> = Vec::with_capacity(field.rows());

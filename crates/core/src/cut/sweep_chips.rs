@@ -42,6 +42,13 @@ pub struct PassChip {
     pub edge: [EdgeWork; EDGE_PLACES],
 }
 
+impl PassChip {
+    /// Volume, the mean of both families, mm3.
+    pub fn volume_mm3(&self) -> f64 {
+        0.5 * (self.removed_mm3[0] + self.removed_mm3[1])
+    }
+}
+
 /// What a place of the edge did.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct EdgeWork {

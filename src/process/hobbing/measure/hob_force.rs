@@ -125,7 +125,7 @@ impl OperationForce {
                     speed_mm_per_s,
                 }
             });
-            let volume_mm3 = 0.5 * (chip.removed_mm3[0] + chip.removed_mm3[1]);
+            let volume_mm3 = chip.volume_mm3();
             let work_nmm = material.on_chip(volume_mm3, chip.swept_mm2);
             of_pass.peak_n = of_pass.peak_n.max(work_nmm / chip.travel_mm);
             of_pass.section_mm2 = of_pass.section_mm2.max(volume_mm3 / chip.travel_mm);

@@ -49,7 +49,7 @@ impl OperationLoad {
         let mut teeth = vec![ToothLoad::default(); passes.places.len()];
         for chip in chips {
             let load = &mut teeth[passes.blade_of(chip.pass).1 as usize];
-            load.volume_mm3 += 0.5 * (chip.removed_mm3[0] + chip.removed_mm3[1]);
+            load.volume_mm3 += chip.volume_mm3();
             load.thickness_mm = load.thickness_mm.max(chip.thickness_mm);
             load.travel_mm += chip.travel_mm;
             load.passes += 1;

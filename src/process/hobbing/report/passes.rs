@@ -24,7 +24,7 @@ const CHORD_MM: f64 = 0.05;
 pub fn passes(cutter: &HobCutter, blank: &HobbedBlank) -> ViewerStrokes {
     let job = cutter.job;
     let taking = cutter.operations.iter().zip(&blank.chips).enumerate().flat_map(|(operation, (set, chips))| {
-        let mut taking: Vec<&PassChip> = chips.iter().filter(|chip| volume_mm3(chip) > 0.0).collect();
+        let mut taking: Vec<&PassChip> = chips.iter().filter(|chip| chip.volume_mm3() > 0.0).collect();
         taking.sort_by_key(|chip| chip.pass);
         taking.into_iter().map(move |chip| (operation, set, chip))
     });
@@ -37,7 +37,7 @@ pub fn passes(cutter: &HobCutter, blank: &HobbedBlank) -> ViewerStrokes {
         ViewerStroke {
             place: [*operation, own as usize],
             gear_from_tool: set.work_from_tool(&set.pass(own)),
-            taken: [volume_mm3(chip), UM_PER_MM * chip.thickness_mm, chip.travel_mm, tooth],
+            taken: [chip.volume_mm3(), UM_PER_MM * chip.thickness_mm, chip.travel_mm, tooth],
         }
     });
     let behind_mm = THICKNESS * TURN_RAD / f64::from(job.hob.gashes) * job.hob.pitch_radius_mm;
@@ -54,8 +54,4 @@ pub fn passes(cutter: &HobCutter, blank: &HobbedBlank) -> ViewerStrokes {
         names: job.hob.labels(),
         strokes: strokes.collect(),
     }
-}
-
-fn volume_mm3(chip: &PassChip) -> f64 {
-    0.5 * (chip.removed_mm3[0] + chip.removed_mm3[1])
 }

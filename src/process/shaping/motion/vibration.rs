@@ -1,4 +1,4 @@
-//! Where a cutter that vibrates stands in the strokes of an operation, along the tooth.
+//! Where a cutter that vibrates is in the strokes of an operation, along the tooth.
 //!
 //! In: displacements moment by moment while the ram passes the face, stroke by stroke. Out: the displacement of a
 //! stroke at a place of the face, and what is said of the stroke. The ram's law is the crank's

@@ -158,12 +158,11 @@ fn vibration(found: &mut Found) {
 
 /// Each of some keys says nothing without the others: a root mean square without a length, a radius without a share.
 fn together(found: &mut Found, section: &str, names: &[&'static str]) {
-    let view = found.view(section);
-    let is_there =
-        |name: &&&str| view.number(name).is_some() || view.numbers(name).is_some() || view.text(name).is_some();
-    let (Some(there), Some(missing)) = (names.iter().find(is_there), names.iter().find(|name| !is_there(name))) else {
-        return;
-    };
+    // One with a wrong value is written, and is blamed for that.
+    let (there, missing): (Vec<&str>, Vec<&str>) =
+        names.iter().partition(|name| found.values.is_written(section, name));
+    let (Some(there), false) = (there.first(), missing.is_empty()) else { return };
+    let missing = missing.join(" and ");
     let key = join(section, there);
     let message = || format!("`{key}` says nothing without {missing}");
     found.blame(true, &key, message, &format!("write {missing} as well, or remove it"));

@@ -17,17 +17,17 @@ use glam::{DVec2, DVec4};
 use rayon::prelude::*;
 use std::ops::Range;
 
-/// Goes through the strokes of all operations. `stand` gives what is wanted of a stroke and the pose in which its chips
+/// Goes through the strokes of all operations. `judge` gives what is wanted of a stroke and the pose in which its chips
 /// are taken away, at most `room_mm` from where the job has it; `advance` is called after every stroke and says whether
 /// to go on. `None`: stopped.
 ///
 /// # Errors
-/// Those of `stand`.
+/// Those of `judge`.
 pub(super) fn through_time<T>(
     job: &ShapingJob,
     room_mm: f64,
     advance: &(dyn Fn() -> bool + Sync),
-    mut stand: impl FnMut(&Teeth, &mut [&mut SpaceInWork], usize, usize) -> Result<(T, Rigid2), Refusal>,
+    mut judge: impl FnMut(&Teeth, &mut [&mut SpaceInWork], usize, usize) -> Result<(T, Rigid2), Refusal>,
 ) -> Result<Option<Vec<Vec<T>>>, Refusal> {
     let polygon = EdgePolygon::new(job.cutter.edge(), job.chip_spacing_mm);
     let teeth = Teeth {
@@ -56,7 +56,7 @@ pub(super) fn through_time<T>(
         for stroke in 0..job.operations[operation].count() {
             let mut cut: Vec<&mut SpaceInWork> =
                 spaces.iter_mut().filter_map(|space| space.begin(operation, stroke)).collect();
-            let (wanted, pose) = stand(&teeth, &mut cut, operation, stroke)?;
+            let (wanted, pose) = judge(&teeth, &mut cut, operation, stroke)?;
             cut.par_iter_mut().for_each(|space| space.take_away(&pose, &teeth));
             of_strokes.push(wanted);
             if !advance() {

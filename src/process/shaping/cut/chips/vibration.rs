@@ -1,6 +1,6 @@
 //! Chatter of the cutter: how it vibrates in every stroke under the force of its own chips.
 //!
-//! In: a job whose strokes stand where they are deflected, and the mass ([`crate::machine_errors::OneMass`]). Out: a
+//! In: a job whose strokes are where they are deflected to, and the mass ([`crate::machine_errors::OneMass`]). Out: a
 //! [`Vibration`] for every operation; a job with it has flanks that follow, row by row.
 //!
 //! Law: the strokes are followed in order of time, each from the entry into the face to its end; then the mass rings
