@@ -42,6 +42,10 @@ pub trait GearJob: Sync {
     /// Passes of all operations.
     fn passes(&self) -> u32;
 
+    /// When a pass is made, s from the beginning of the first operation: a stroke begins, or a blade points to the
+    /// work.
+    fn pass_time_s(&self, pass: u32) -> f64;
+
     /// What of the machine's errors the passes do not follow.
     fn unfollowed_errors(&self) -> Vec<Notice> {
         Vec::new()

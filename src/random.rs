@@ -26,6 +26,12 @@ impl Draws {
         Self { seed, source }
     }
 
+    /// Numbers of the same source in another gear.
+    #[must_use]
+    pub fn of_gear(self, number: u32) -> Self {
+        Self { seed: self.seed.wrapping_add(number), ..self }
+    }
+
     /// Numbers spread evenly above 0 and up to 1, one after the other.
     pub fn even(self, which: [i64; 2]) -> impl FnMut() -> f64 + use<> {
         let mut key = [0; 32];

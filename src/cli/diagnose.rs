@@ -21,14 +21,8 @@ pub fn run(arguments: &DiagnoseArguments) -> Result<(), Failure> {
         let problem = format!("{noise_um} um is no standard deviation");
         return Err(Refusal::new("--noise-um", problem, "give a number above 0").into());
     }
-    let flank_noise_um = arguments.flank_noise_um;
-    if !(flank_noise_um.is_finite() && flank_noise_um >= 0.0) {
-        let problem = format!("{flank_noise_um} um is no standard deviation");
-        return Err(Refusal::new("--flank-noise-um", problem, "give 0 or more").into());
-    }
     let loaded = process::load(&arguments.scene.scene, &arguments.scene.settings)?;
     let points = measured::read(&arguments.measured)?;
-    let noise = Noise::of_values(noise_um).and_flanks(flank_noise_um, &points);
     let name = &loaded.scene.name;
     let out = arguments.out.clone().unwrap_or_else(|| PathBuf::from("out").join(format!("{name}_diagnosis")));
     let (choice, progress) = backend::of_few_places(&arguments.run.compute, false, &loaded.scene)?;
@@ -36,13 +30,13 @@ pub fn run(arguments: &DiagnoseArguments) -> Result<(), Failure> {
     let filled = folder::fill_partly(&out, "diagnose", |folder, interrupt, known| {
         let cuts = MeasuredCuts::new(&loaded, &points, choice.backend.as_ref(), known)?;
         let measured_um: Vec<f64> = points.iter().map(|point| point.deviation_um).collect();
+        let noise = Noise::of_values(noise_um).and_axes(&cuts, &progress)?;
         let (model, found) = diagnose::diagnose(&cuts, &measured_um, &noise, names, &progress, interrupt)?;
         let tree = diagnose::findings(&loaded.scene, &model, &points, &noise, &found);
         diagnose::write(&loaded, &choice.backend.name_in_files(), (&model, &found), &tree, folder)?;
         let mut record = vec![
             ("measured", json!(arguments.measured)),
             ("noise_um", json!(noise_um)),
-            ("flank_noise_um", json!(flank_noise_um)),
             ("parameters", json!(names)),
             ("scene", json!(loaded.resolved_toml())),
         ];

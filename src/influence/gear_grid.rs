@@ -67,12 +67,24 @@ impl FlankGrid {
     /// # Errors
     /// The tool generates no flank there; the backend's.
     pub fn heights_um(&self, gear: &dyn GearJob, backend: &dyn Backend) -> Result<Vec<f64>> {
+        self.finished(gear, backend, |height_mm, _| UM_PER_MM * f64::from(height_mm))
+    }
+
+    /// When the passes that leave these heights are made, s from the beginning of the first operation; NaN where no
+    /// pass came.
+    ///
+    /// # Errors
+    /// The tool generates no flank there; the backend's.
+    pub fn times_s(&self, gear: &dyn GearJob, backend: &dyn Backend) -> Result<Vec<f64>> {
+        self.finished(gear, backend, |_, pass| gear.pass_time_s(pass))
+    }
+
+    /// What height, mm, and pass of the last operation say at every place.
+    fn finished(&self, gear: &dyn GearJob, backend: &dyn Backend, of: impl Fn(f32, u32) -> f64) -> Result<Vec<f64>> {
         let layers = gear.cut_flank(backend, self.tooth, self.side, &self.arcs_mm, &self.faces_mm)?;
         let finished = layers.last().expect("a job has an operation");
-        let um = |(&height_mm, &pass): (&f32, &u32)| {
-            if pass == NO_PASS { f64::NAN } else { UM_PER_MM * f64::from(height_mm) }
-        };
-        Ok(finished.heights_mm.iter().zip(&finished.passes).map(um).collect())
+        let at = |(&height_mm, &pass): (&f32, &u32)| if pass == NO_PASS { f64::NAN } else { of(height_mm, pass) };
+        Ok(finished.heights_mm.iter().zip(&finished.passes).map(at).collect())
     }
 
     /// How many places it has.
@@ -156,14 +168,29 @@ impl GearGrid {
     /// # Errors
     /// Geometry that cannot be cut; the backend's.
     pub fn heights_of_um(&self, job: &dyn ProcessJob, backend: &dyn Backend) -> Result<Vec<f64>> {
-        let mut heights = Vec::new();
+        self.of_flanks(job, |flank, gear| flank.heights_um(gear, backend))
+    }
+
+    /// When the passes that leave these heights are made, s; NaN where no pass came.
+    ///
+    /// # Errors
+    /// As for [`Self::heights_of_um`].
+    pub fn times_s(&self, job: &dyn ProcessJob, backend: &dyn Backend) -> Result<Vec<f64>> {
+        self.of_flanks(job, |flank, gear| flank.times_s(gear, backend))
+    }
+
+    fn of_flanks(
+        &self,
+        job: &dyn ProcessJob,
+        of: impl Fn(&FlankGrid, &dyn GearJob) -> Result<Vec<f64>> + Sync,
+    ) -> Result<Vec<f64>> {
+        let mut values = Vec::new();
         job.with_gear(&mut |gear| {
-            let heights_um = |flank: &FlankGrid| flank.heights_um(gear, backend);
-            let flanks: Result<Vec<Vec<f64>>> = self.flanks.par_iter().map(heights_um).collect();
-            heights = flanks?.concat();
+            let flanks: Result<Vec<Vec<f64>>> = self.flanks.par_iter().map(|flank| of(flank, gear)).collect();
+            values = flanks?.concat();
             Ok(())
         })?;
-        Ok(heights)
+        Ok(values)
     }
 }
 

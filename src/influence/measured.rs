@@ -185,6 +185,13 @@ impl MeasuredPlaces {
         Ok(Self { grid: GearGrid { teeth, flanks: grids }, around })
     }
 
+    /// Values at those places of the grid that weigh most.
+    pub fn nearest(&self, values: &[f64]) -> Vec<f64> {
+        let nearest =
+            |around: &[(usize, f64); 4]| around.iter().fold((0, 0.0), |a, b| if b.1 > a.1 { *b } else { a }).0;
+        self.around.iter().map(|around| values[nearest(around)]).collect()
+    }
+
     /// Values at the grid's places, taken to the measured ones.
     pub fn at_points(&self, values: &[f64]) -> Vec<f64> {
         let mean = |around: &[(usize, f64); 4]| {

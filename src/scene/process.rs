@@ -11,7 +11,7 @@ use super::keys::{Addition, KeySection};
 use super::problems::Found;
 use super::values::Values;
 use crate::machine::AxisKind;
-use crate::machine_errors::ErrorLayer;
+use crate::machine_errors::{AxisErrors, ErrorLayer};
 use std::any::Any;
 use std::fmt::Debug;
 use std::ops::Deref;
@@ -111,6 +111,9 @@ pub trait ProcessPart: Copied + Any + Debug + Send + Sync {
     /// Switches all layers of errors off but these.
     fn keep_layers(&mut self, kept: &[ErrorLayer]);
 
+    /// What is wrong with each axis of the machine, in the order of [`SceneProcess::axes`].
+    fn axis_errors_mut(&mut self) -> &mut [AxisErrors];
+
     /// Distances of rays that only this process has: path of the key, distance and the largest one allowed, mm.
     fn ray_spacings(&self) -> Vec<(&'static str, [f64; 2])> {
         Vec::new()
@@ -153,7 +156,12 @@ impl ScenePart {
         self.0.keep_layers(kept);
     }
 
-    /// The same, to try other values.
+    /// What is wrong with each axis of the machine.
+    pub fn axis_errors_mut(&mut self) -> &mut [AxisErrors] {
+        self.0.axis_errors_mut()
+    }
+
+    /// The part if it is of this type, to try other values.
     pub fn get_mut<T: ProcessPart>(&mut self) -> Option<&mut T> {
         let part: &mut dyn Any = self.0.as_mut();
         part.downcast_mut()

@@ -6,7 +6,7 @@ use super::{
     FINISH_ALONE, KeyTable, ProcessPart, ScenePart, SceneProcess, Senseless, StandardOperation, load, parse, reference,
     schema, template,
 };
-use crate::machine_errors::ErrorLayer;
+use crate::machine_errors::{AxisErrors, ErrorLayer};
 use std::path::Path;
 
 /// Sawing: no linkage, keys in shared sections, one that is derived, one with a word more, one check.
@@ -114,6 +114,10 @@ impl ProcessPart for Sawing {
     }
 
     fn keep_layers(&mut self, _: &[ErrorLayer]) {}
+
+    fn axis_errors_mut(&mut self) -> &mut [AxisErrors] {
+        &mut []
+    }
 
     fn operation_names(&self) -> Vec<&str> {
         self.cuts.iter().map(|(name, _)| name.as_str()).collect()

@@ -126,13 +126,10 @@ pub struct DiagnoseArguments {
     /// Measured deviations (CSV).
     #[arg(long, value_name = "FILE")]
     pub measured: PathBuf,
-    /// Standard deviation of the noise in each measured value, marks of strokes included.
+    /// Standard deviation of the noise in each measured value, marks of strokes included; the noise of axes that the
+    /// scene has comes beside it.
     #[arg(long, value_name = "UM")]
     pub noise_um: f64,
-    /// Standard deviation by which whole flanks are off at random beside that: drives and indexes that wander from
-    /// tooth to tooth.
-    #[arg(long, value_name = "UM", default_value_t = 0.0)]
-    pub flank_noise_um: f64,
     /// Folder to write [default: out/<scene>_diagnosis].
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,

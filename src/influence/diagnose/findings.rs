@@ -10,7 +10,7 @@ use crate::influence::notices::{
 };
 use crate::influence::quantities::budget::{U, V};
 use crate::influence::quantities::diagnosis::{
-    ALONE, BENT, CHANCE, DIAGNOSIS, EXPLAINED, FLANK_NOISE, FREEDOM, HALF_IF_RIGHT, HIGH, KIND_OF_SHAPE, LEFT, LOW,
+    ALONE, AXES_NOISE, BENT, CHANCE, DIAGNOSIS, EXPLAINED, FREEDOM, HALF_IF_RIGHT, HIGH, KIND_OF_SHAPE, LEFT, LOW,
     MEASURED, NAMED, NO_INTERVAL, NO_TURN, NOISE, NOTHING_DEVIATES, OF_SCENE, ON_LEFT, ON_RIGHT, POINTS, RESIDUAL,
     RESIDUALS, ROUNDS, SAME_AS, SHAPE, SIZE, SOURCES, STANDING_OUT, SURE, TURN, TURN_HIGH, TURN_LOW, UNEXPLAINED,
 };
@@ -45,7 +45,7 @@ pub fn findings(
         .section([
             POINTS.of(points.len()),
             NOISE.of(noise.value_um),
-            FLANK_NOISE.of(noise.flank_um),
+            AXES_NOISE.of(noise.axes_um()),
             turn(&TURN, |turn| turn.size),
             turn_end(&TURN_LOW, |turn| turn.interval[0]),
             turn_end(&TURN_HIGH, |turn| turn.interval[1]),

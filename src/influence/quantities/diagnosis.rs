@@ -27,8 +27,8 @@ rows! {
          of 1000 gears";
     POINTS: "points", "places", "measured places";
     NOISE: "noise", "um", "stated standard deviation of every measured value on its own";
-    FLANK_NOISE: "flank_noise", "um",
-        "stated standard deviation by which whole flanks are off at random, beside the noise of each value";
+    AXES_NOISE: "axes_noise", "um",
+        "standard deviation of what the scene's noise of its axes does at the measured places, root mean square";
     TURN: "turn", "arcsec", "fitted: turn of the gear on the measuring machine, counter-clockwise" => or(&[NO_TURN]);
     TURN_LOW: "turn_low", "arcsec", "fitted: lower end of the turn's 95 % interval" => or(&[NO_TURN, NO_INTERVAL]);
     TURN_HIGH: "turn_high", "arcsec", "fitted: upper end of the turn's 95 % interval" => or(&[NO_TURN, NO_INTERVAL]);

@@ -142,15 +142,13 @@ pub fn measure(
 
 /// A pass that has taken nothing yet.
 fn of_pass(job: &BevelJob, slot: u32, chip: &RowChip) -> SlotPass {
-    let set = job.slots.of(chip.operation, slot);
     let operation = &job.operations[chip.operation];
-    let begins_rad = set.motion.range_rad()[0] + set.half_window_rad;
-    let turned_rad = set.pass(chip.pass - set.first_pass).tool_angle_rad - begins_rad;
+    let turned_rad = job.slots.turned_in_slot_rad(chip.operation, slot, chip.pass);
     let time_s = turned_rad / operation.spec.head_speed_rad_per_s;
     SlotPass {
         operation: chip.operation,
         pass: chip.pass,
-        blade: set.blade_of(chip.pass).1,
+        blade: job.slots.blade_of(chip.pass),
         revolution: (turned_rad / TURN_RAD).max(0.0) as u32,
         moment: operation.course.at(time_s)[0],
         volume_mm3: 0.0,

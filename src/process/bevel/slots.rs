@@ -104,7 +104,20 @@ impl Slots {
 
     /// Blade behind a pass.
     pub fn blade_of(&self, pass: u32) -> u32 {
+        let [operation, slot] = self.operation_and_slot(pass);
+        self.of(operation, slot as u32).blade_of(pass).1
+    }
+
+    /// Operation and slot of a pass.
+    pub fn operation_and_slot(&self, pass: u32) -> [usize; 2] {
         let at = self.sets.partition_point(|set| set.end_pass() <= pass);
-        self.sets[at].blade_of(pass).1
+        [at / self.slots, at % self.slots]
+    }
+
+    /// Angle by which the head has turned since a slot began when the blade of a pass points to the work, rad.
+    pub fn turned_in_slot_rad(&self, operation: usize, slot: u32, pass: u32) -> f64 {
+        let set = self.of(operation, slot);
+        let begins_rad = set.motion.range_rad()[0] + set.half_window_rad;
+        set.pass(pass - set.first_pass).tool_angle_rad - begins_rad
     }
 }

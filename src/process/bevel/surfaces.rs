@@ -146,6 +146,13 @@ impl GearJob for BevelJob {
         self.slots.count()
     }
 
+    fn pass_time_s(&self, pass: u32) -> f64 {
+        let [operation, slot] = self.slots.operation_and_slot(pass);
+        let turned_rad = self.slots.turned_in_slot_rad(operation, slot as u32, pass);
+        let operation = &self.operations[operation];
+        operation.start_s + operation.cycle_s() * slot as f64 + turned_rad / operation.spec.head_speed_rad_per_s
+    }
+
     /// Marks of blades lean across the flank; a head that plunges leaves none.
     fn marks_follow(&self, operation: usize) -> [bool; 2] {
         [!self.operations[operation].settings.plunges(); 2]

@@ -72,6 +72,11 @@ impl ActualHobbing {
         })
     }
 
+    /// When the operation begins, s after the first one.
+    pub fn start_s(&self) -> f64 {
+        self.start_s
+    }
+
     /// Pose of the work in the hob's head when the hob has been told to turn to `hob_rad`.
     pub fn head_from_work(&self, commanded: HobbingCommand, hob_rad: f64) -> Rigid3 {
         let linkage = commanded.linkage;

@@ -51,6 +51,13 @@ impl GearJob for HobCutter<'_> {
         self.operations.last().map_or(0, gearcut_core::passes::TurningPasses::end_pass)
     }
 
+    fn pass_time_s(&self, pass: u32) -> f64 {
+        let at = self.operations.partition_point(|set| set.end_pass() <= pass);
+        let (set, operation) = (&self.operations[at], &self.job.operations[at]);
+        let hob_rad = set.pass(pass - set.first_pass).tool_angle_rad;
+        operation.actual.start_s() + operation.commanded().time_at_hob_angle(hob_rad)
+    }
+
     fn marks_follow(&self, _operation: usize) -> [bool; 2] {
         [true; 2] // every hob tooth cuts a facet that ends along the tooth, too
     }

@@ -47,8 +47,13 @@ pub const SEEN: [&str; 14] = [
 
 /// The scene.
 pub fn coarse() -> LoadedScene {
+    coarse_with(&[])
+}
+
+/// The scene with other settings.
+pub fn coarse_with(others: &[String]) -> LoadedScene {
     let settings = [format!("gear.teeth={TEETH}"), format!("operation.finish.strokes_per_revolution={STROKES}")];
-    process::parse(SCENE, "round.toml", Path::new(""), &settings).expect("a scene")
+    process::parse(SCENE, "round.toml", Path::new(""), &[&settings[..], others].concat()).expect("a scene")
 }
 
 /// Places on both flanks of every tooth: of four teeth 9 x 3, of all others the middle.

@@ -130,6 +130,10 @@ impl GearJob for ConicalJob {
         self.passes.end_pass()
     }
 
+    fn pass_time_s(&self, pass: u32) -> f64 {
+        self.passes.pass(pass).tool_angle_rad
+    }
+
     fn marks_follow(&self, _operation: usize) -> [bool; 2] {
         [false, true]
     }

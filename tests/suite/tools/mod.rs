@@ -2,5 +2,6 @@
 
 mod conical_gear;
 mod face_mill;
+mod pass_times;
 mod planar_edges;
 pub mod spatial_edges;

@@ -4,7 +4,7 @@ mod build;
 mod keys;
 pub mod model;
 
-use crate::machine_errors::{ErrorLayer, ToolMounting};
+use crate::machine_errors::{AxisErrors, ErrorLayer, ToolMounting};
 use crate::scene::error_sources::{self, ErrorSource, KeyForm};
 use crate::scene::keys::join;
 use crate::scene::machine_errors;
@@ -258,6 +258,10 @@ impl ProcessPart for Bevel {
         if !kept.contains(&ErrorLayer::Axes) {
             self.settings.errors.iter_mut().for_each(|(_, error)| *error = 0.0);
         }
+    }
+
+    fn axis_errors_mut(&mut self) -> &mut [AxisErrors] {
+        &mut self.errors.axes
     }
 
     fn operation_names(&self) -> Vec<&str> {

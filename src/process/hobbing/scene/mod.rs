@@ -5,7 +5,7 @@ mod keys;
 pub mod model;
 mod standard_hob;
 
-use crate::machine_errors::{ErrorLayer, ToolMounting};
+use crate::machine_errors::{AxisErrors, ErrorLayer, ToolMounting};
 use crate::scene::drawn_profile;
 use crate::scene::error_sources::{self, ErrorSource, KeyForm};
 use crate::scene::machine_errors;
@@ -179,6 +179,10 @@ impl ProcessPart for Hobbing {
             self.tool.mounting = ToolMounting::default();
             self.tool.pitch_errors_mm.clear();
         }
+    }
+
+    fn axis_errors_mut(&mut self) -> &mut [AxisErrors] {
+        &mut self.errors.axes
     }
 
     fn operation_names(&self) -> Vec<&str> {

@@ -10,7 +10,7 @@ use crate::measure::thickness::Thickness;
 use crate::process::shaping::cut::section::{CutSection, cutter_outline};
 use crate::process::shaping::cut::stroke_noise;
 use crate::process::shaping::gear::measure::flank_report;
-use crate::process::shaping::job::ShapingJob;
+use crate::process::shaping::job::{PreparedOperation, ShapingJob};
 use crate::process::shaping::sections::GearPart;
 use crate::scene::Scene;
 use crate::surface::SurfaceGrid;
@@ -40,6 +40,13 @@ impl GearJob for ShapingJob {
 
     fn passes(&self) -> u32 {
         self.operations.last().map_or(0, |operation| operation.strokes.end_pass())
+    }
+
+    fn pass_time_s(&self, pass: u32) -> f64 {
+        let at = self.operations.partition_point(|operation| operation.strokes.end_pass() <= pass);
+        let PreparedOperation { strokes, schedule, actual, .. } = &self.operations[at];
+        let (stroke, _) = strokes.stroke_and_blade(pass);
+        actual.start_s() + schedule.time_s(stroke as f64)
     }
 
     fn unfollowed_errors(&self) -> Vec<Notice> {

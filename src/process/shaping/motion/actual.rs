@@ -129,6 +129,11 @@ impl ActualStrokes {
         }
     }
 
+    /// When the operation begins, s after the first one.
+    pub fn start_s(&self) -> f64 {
+        self.start_s
+    }
+
     /// Whether sections at different places along the tooth are cut differently while the axes rest.
     pub fn differs_along_tooth(&self) -> bool {
         !self.guide.is_none() || self.mounting.wobble_rad != 0.0 || self.noise_at_rest

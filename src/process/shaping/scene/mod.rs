@@ -7,7 +7,7 @@ mod keys;
 pub mod layers;
 pub mod model;
 
-use crate::machine_errors::ErrorLayer;
+use crate::machine_errors::{AxisErrors, ErrorLayer};
 use crate::scene::error_sources::{self, ErrorSource, KeyForm, Tried};
 use crate::scene::{ProcessPart, SceneProcess, StandardOperation};
 pub(in crate::process::shaping) use keys::PROFILE;
@@ -121,6 +121,10 @@ impl ProcessPart for Shaping {
         for own in layers::OWN.iter().filter(|own| !kept.contains(&own.layer)) {
             (own.off)(self);
         }
+    }
+
+    fn axis_errors_mut(&mut self) -> &mut [AxisErrors] {
+        &mut self.machine.errors.axes
     }
 
     fn operation_names(&self) -> Vec<&str> {
