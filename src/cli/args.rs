@@ -126,14 +126,15 @@ pub enum Command {
         are the driver's. Prints the scene, or writes it with --out and prints a; an existing file is never \
         replaced.")]
     Mate(MateArguments),
-    /// Write a gear for other programs: its section as DXF, a STEP solid, wire erosion, points with normals; its tool.
+    /// Write a gear for other programs: its section as DXF, a STEP solid, wire erosion, points as CSV or QIF; its tool.
     #[command(after_help = "Example:\n  \
         gearcut export scenes/shaping/elliptical_normal.toml --dxf gear.dxf\n  \
         gearcut export scenes/shaping/elliptical_normal.toml --dxf tooth.dxf --teeth 3..4 --as-cut\n  \
         gearcut export scenes/hobbing/circular_spur.toml --tool-dxf hob.dxf --tolerance-um 0.5\n  \
         gearcut export scenes/shaping/elliptical_normal.toml --step gear.step\n  \
         gearcut export scenes/shaping/circular_m3_z24.toml --wire gear.ngc --wire-diameter-um 200\n  \
-        gearcut export scenes/hobbing/circular_helical.toml --points nominal.csv --teeth 1..4 --grid 9x5\n\n\
+        gearcut export scenes/hobbing/circular_helical.toml --points nominal.csv --teeth 1..4 --grid 9x5\n  \
+        gearcut export scenes/hobbing/circular_helical.toml --qif cut.qif --teeth 1..4 --as-cut\n\n\
         The section of a cylindrical gear, external or a ring, round or not: the profile with its fillets as one \
         closed polyline of arcs and lines, the pitch curve, the stock, bore or rim, each on a layer of its name. The \
         target is the tool's envelope under continuous motion; as cut has every mark. Corners stay corners. Lengths \
@@ -142,7 +143,8 @@ pub enum Command {
         rim; spur and helical. As cut it is the section with its marks, swept straight.\n\n\
         A program of wire erosion is read back and judged before it is written; a profile that the wire cannot follow \
         is refused. Points are tooth, flank, u and v (arc along the profile from the form point, place along the \
-        tooth), x y z and normal, as cut with the deviation in um. See docs/exchange.md.")]
+        tooth), x y z and normal, as cut with the deviation in um; a QIF document has the same points as features and, \
+        as cut, as results. See docs/exchange.md.")]
     Export(ExportArguments),
     /// Roll two gears on each other without load: ratio, transmission error, backlash, contact, interference.
     #[command(after_help = "Example:\n  \

@@ -7,6 +7,7 @@ use crate::export::drawing::Drawing;
 use crate::export::dxf::dxf;
 use crate::export::flank_faces::FlankFaces;
 use crate::export::points::{self, PointsWish};
+use crate::export::qif;
 use crate::export::section::{GearSection, ProfileSource, SectionCurve, SectionWish, profile_mm};
 use crate::export::solid::GearSolid;
 use crate::export::step::{self, StepFile, StepWords};
@@ -42,6 +43,7 @@ pub fn run(arguments: &ExportArguments) -> Result<(), Failure> {
         ("--tool-dxf", &arguments.tool_dxf, "dxf"),
         ("--step", &arguments.step, "step"),
         ("--points", &arguments.points, "csv"),
+        ("--qif", &arguments.qif, "qif"),
         ("--wire", &arguments.wire, "ngc"),
     ] {
         let Some(path) = path else { continue };
@@ -81,12 +83,12 @@ impl Exporter<'_> {
         let cylinder = gear.cylindrical();
         let wants_cylinder = [&arguments.dxf, &arguments.tool_dxf, &arguments.wire].into_iter().any(Option::is_some);
         if wants_cylinder && cylinder.is_none() {
-            let way_out = "export a shaped or hobbed gear; of a bevel gear there are --step, --points, and mesh/ of \
-                           `gearcut cut`";
+            let way_out = "export a shaped or hobbed gear; of a bevel gear there are --step, --points, --qif, and \
+                           mesh/ of `gearcut cut`";
             return Err(Refusal::new("gear", "a bevel gear has no transverse section", way_out).into());
         }
-        if let Some(path) = &arguments.points {
-            self.points(gear, path)?;
+        if arguments.points.is_some() || arguments.qif.is_some() {
+            self.points(gear)?;
         }
         if let Some(path) = &arguments.step {
             self.step(gear, path)?;
@@ -125,17 +127,29 @@ impl Exporter<'_> {
         self.wish.teeth.unwrap_or([1, gear.scene().gear.teeth])
     }
 
-    fn points(&mut self, gear: &dyn GearJob, path: &Path) -> Result<()> {
-        let teeth = self.teeth(gear);
-        let wish = PointsWish { source: self.wish.source, teeth, grid: self.arguments.grid.0 };
-        let flanks = 2 * (teeth[1] + 1 - teeth[0]) as usize;
-        let stage = self.watch.stage("points", flanks, "flanks")?;
-        let text = points::csv(gear, self.choice.backend.as_ref(), &wish, unit(self.arguments), &stage)?;
+    /// The same points as a table and as a QIF document.
+    fn points(&mut self, gear: &dyn GearJob) -> Result<()> {
+        let (arguments, unit) = (self.arguments, unit(self.arguments));
+        let wish = PointsWish { source: self.wish.source, teeth: self.teeth(gear), grid: arguments.grid.0 };
+        if arguments.qif.is_some() {
+            qif::refuse_many(wish.points())?;
+        }
+        let stage = self.watch.stage("points", wish.flanks(), "flanks")?;
+        let flanks = points::flank_points(gear, self.choice.backend.as_ref(), &wish, &stage)?;
         stage.finish();
-        write_bytes_atomically(path, text.as_bytes())?;
         let [profile, lead] = wish.grid;
-        self.sheet.heading(&path.display().to_string());
-        self.sheet.line("points", format!("{} on {flanks} flanks, {profile} x {lead} each", flanks * profile * lead));
+        let words = format!("{} on {} flanks, {profile} x {lead} each", wish.points(), wish.flanks());
+        if let Some(path) = &arguments.points {
+            write_bytes_atomically(path, points::csv(&flanks, unit).as_bytes())?;
+            self.sheet.heading(&path.display().to_string());
+            self.sheet.line("points", words.clone());
+        }
+        if let Some(path) = &arguments.qif {
+            let text = qif::qif(gear, &flanks, wish.grid, unit);
+            write_bytes_atomically(path, text.as_bytes())?;
+            self.sheet.heading(&path.display().to_string());
+            self.sheet.line("points", format!("{words}, {} kB", text.len().div_ceil(1000)));
+        }
         Ok(())
     }
 

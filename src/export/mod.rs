@@ -13,7 +13,8 @@
 //! | [`flank_faces`] | flanks as such faces, where a gear is no swept section |
 //! | [`step`] | solid or flanks as a STEP file |
 //! | [`cut_heights`] | heights of a cut flank, where strokes reach |
-//! | [`points`] | points of flanks with their normals as CSV |
+//! | [`points`] | points of flanks with their normals, as CSV |
+//! | [`qif`] | the same points as a QIF document |
 //! | [`wire`] | programs of wire erosion |
 //! | [`mod@unit`] | units of length, and how numbers are written |
 
@@ -24,6 +25,7 @@ pub mod drawing;
 pub mod dxf;
 pub mod flank_faces;
 pub mod points;
+pub mod qif;
 pub mod section;
 pub mod solid;
 pub mod step;

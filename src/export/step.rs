@@ -52,14 +52,20 @@ impl StepWords {
             }
             ProfileSource::Cut => "as cut".to_owned(),
         };
-        let (of, frame) = if is_solid {
-            ("profile", "z = 0 in the middle of the face, a tooth space on the x axis")
-        } else {
-            ("flanks", "the apex of the pitch cone at the origin, the back below it, a tooth space on the x axis")
-        };
+        let of = if is_solid { "profile" } else { "flanks" };
         let within = format!("faces are within {} um of the {of}", plain(wish.tolerance_mm * UM_PER_MM));
-        let notes = vec![format!("{name}: {what}"), within, format!("gear frame: axis along z, {frame}")];
+        let notes = vec![format!("{name}: {what}"), within, frame_words(gear).to_owned()];
         Self { name, notes, tolerance_mm: wish.tolerance_mm }
+    }
+}
+
+/// The frame of exported points and faces.
+pub fn frame_words(gear: &dyn GearJob) -> &'static str {
+    if gear.cylindrical().is_some() {
+        "gear frame: axis along z, z = 0 in the middle of the face, a tooth space on the x axis"
+    } else {
+        "gear frame: axis along z, the apex of the pitch cone at the origin, the back below it, a tooth space on the x \
+         axis"
     }
 }
 

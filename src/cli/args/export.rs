@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use super::{ComputeArguments, SceneArguments};
 
 /// What can be written; one of them at least.
-const FILES: [&str; 5] = ["dxf", "tool_dxf", "step", "points", "wire"];
+const FILES: [&str; 6] = ["dxf", "tool_dxf", "step", "points", "qif", "wire"];
 
 /// Arguments of `export`.
 #[derive(Debug, Args)]
@@ -27,6 +27,9 @@ pub struct ExportArguments {
     /// Points of the flanks with their normals to write, as CSV: of all gears, bevel gears too.
     #[arg(long, value_name = "FILE")]
     pub points: Option<PathBuf>,
+    /// QIF 3.0 document of the same points to write: nominal ones, and with --as-cut results with their deviations.
+    #[arg(long, value_name = "FILE")]
+    pub qif: Option<PathBuf>,
     /// Places along the profile and along the tooth at which the points lie; 200x1 scans the profile, 1x200 the helix.
     #[arg(long, value_name = "NxN", default_value = "9x5", value_parser = point_grid)]
     pub grid: PointGrid,

@@ -5,6 +5,7 @@
 
 mod measured_points;
 mod points;
+mod qif;
 mod sections;
 mod solids;
 mod wire;
