@@ -19,7 +19,9 @@
 //!
 //! Roads not taken: whole flanks that are off at random. A drive that wanders over some seconds bends profiles of a
 //! gear whose teeth take longer, and neighbouring teeth lean alike. The whole covariance as a matrix: the same numbers
-//! for the cube of the places.
+//! for the cube of the places. Roughness of the edges as marks that places of one stroke share along the tooth: guide
+//! and wobble lead the edge some micrometres past the place, which is enough for another part of the roughness, and
+//! intervals held less often than with a noise of each value.
 
 use super::cuts::{MeasuredCuts, without_random};
 use crate::machine_errors::{AxisErrors, AxisNoise, NoiseLaw, PeriodicError};
