@@ -90,9 +90,11 @@ def main(dist, pictures, chromium):
         check_bad_input(opened)
         drag_ms, leaks = check_dragging(opened)
         check_keyboard(opened)
+        check_kinds(opened)
         check_link(opened, browser, address)
         fine_ms = time_of_flank(opened)
         opened.close()
+        check_touch(browser, address)
         for name, width, height, scheme in [("dark", 1400, 1000, "dark"), ("narrow", 390, 844, "light")]:
             other = Opened(browser, address, width, height, scheme)
             wider = "document.documentElement.scrollWidth - document.documentElement.clientWidth"
@@ -307,11 +309,71 @@ def check_dragging(opened):
     return max(times), f"worker {heap_20 / 1e6:.0f} MB (after 10: {heap_10 / 1e6:.0f}), page {js_20 / 1e6:.0f} MB"
 
 
+def check_kinds(opened):
+    """Each kind of gear begins with a gear that is cut as the library cuts it, by the arrow keys alone."""
+    page = opened.page
+    page.locator("[name=kind]:checked").focus()
+    for kind, process in (("ring", "shaping"), ("hobbed", "hobbing"), ("shaped", "shaping")):
+        page.evaluate("window.gearcut.idle = window.gearcut.cut = false")
+        page.keyboard.press("ArrowRight")
+        opened.wait("shown.cut")
+        assert page.locator("[name=kind]:checked").input_value() == kind, f"not {kind}"
+        assert opened.shown("shown.problem") is None, f"{kind}: {opened.shown('shown.problem')}"
+        assert opened.shown("shown.facts.process") == process, kind
+        flank = opened.shown(
+            "({ arcs: [...shown.flank.arcs], face: [...shown.flank.face], tooth: shown.flank.tooth, "
+            "heights: [...shown.flank.heights.at(-1)], last: shown.flank.heights.length - 1 })"
+        )
+        with scene_file(page.locator("#text").input_value()) as file:
+            cut = gearcut.Job(file).flank(flank["tooth"], "left", u_mm=flank["arcs"], v_mm=flank["face"])
+            here = cut.deviation_mm(flank["last"]).ravel()
+        assert ("internal" in page.locator("#text").input_value()) == (kind == "ring"), kind
+        off = np.abs(here - flank["heights"]).max()
+        assert here.size > 1000 and off <= 1e-6, f"{kind}: {off} mm off"
+
+
+def check_touch(browser, address):
+    """A finger draws the pitch curve upwards where it holds it, and scrolls the page elsewhere."""
+    context = browser.new_context(viewport={"width": 390, "height": 844}, has_touch=True, is_mobile=True)
+    page = context.new_page()
+    page.goto(address)
+    page.wait_for_function("document.querySelector('#preset').options.length > 1")
+    page.locator("[name=shape]").select_option("fourier")
+    touch = context.new_cdp_session(page)
+
+    def draw(x, y, by):
+        moves = [("touchMove", [y + by * i / 8]) for i in range(1, 9)]
+        for kind, places in [("touchStart", [y]), *moves, ("touchEnd", [])]:
+            points = [{"x": x, "y": at} for at in places]
+            touch.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": points})
+            page.wait_for_timeout(20)
+
+    stage = page.locator("#stage")
+    stage.scroll_into_view_if_needed()
+    for _ in range(100):
+        if page.evaluate("window.gearcut.cut && window.gearcut.drawing !== undefined"):
+            break
+        page.wait_for_timeout(100)
+    box, scrolled = stage.bounding_box(), page.evaluate("scrollY")
+    # The crest of cos 2 phi is at 90 deg.
+    top = page.evaluate("""() => { const { drawing, screen } = window.gearcut;
+        const highest = drawing.pitch.reduce((best, y, i) => (i % 2 && y > drawing.pitch[best] ? i : best), 1);
+        return screen(drawing.pitch[highest - 1], drawing.pitch[highest]); }""")
+    before = page.locator("[name=cos2]").input_value()
+    draw(box["x"] + top[0], box["y"] + top[1], 12)
+    assert page.locator("[name=cos2]").input_value() != before, "the curve stays"
+    assert page.evaluate("scrollY") == scrolled, "the page scrolls"
+    draw(box["x"] + 0.5 * box["width"], box["y"] + 0.5 * box["height"], -60)
+    page.wait_for_timeout(300)
+    assert page.evaluate("scrollY") != scrolled, "the page does not scroll"
+    context.close()
+
+
 def check_keyboard(opened):
     """Tab goes through every control that is not hidden or resting."""
     page = opened.page
     wanted = page.evaluate("""() => [...document.querySelectorAll("a, input, select, textarea, button, summary")]
-        .filter((of) => !of.matches(":disabled") && of.checkVisibility()).map((of, i) => (of.dataset.stop = i, i))""")
+        .filter((of) => !of.matches(":disabled, [type=radio]:not(:checked)") && of.checkVisibility()).map((of, i) => (of.dataset.stop = i, i))""")
     page.evaluate("document.activeElement.blur(); window.scrollTo(0, 0)")
     reached = set()
     for _ in range(2 * len(wanted) + 10):

@@ -3,7 +3,7 @@
 // While a hand moves, a request is coarse; once it rests, the whole one follows. What has been shown last is in
 // `window.gearcut`, for programs that look at the page.
 import { drawScale, number, paint, rangeOf } from "./maps.js";
-import { HARMONICS, linkOf, sceneOf, sceneText } from "./scene.js";
+import { HARMONICS, KINDS, linkOf, sceneOf, sceneText } from "./scene.js";
 import { Stage } from "./stage.js";
 import { Work } from "./work.js";
 
@@ -128,7 +128,8 @@ const receivers = {
   axes({ charts, toml }) {
     shown.charts = charts;
     shown.toml = toml;
-    const positions = charts.filter(([name]) => name.endsWith("_positions"));
+    const named = charts.filter(([name]) => name.endsWith("_positions"));
+    const positions = named.length > 0 ? named : charts.slice(0, 2);
     const [folded, words] = [document.createElement("details"), document.createElement("summary")];
     words.textContent = "Velocities, accelerations, relief";
     folded.append(words, pictures(charts.filter((chart) => !positions.includes(chart))));
@@ -200,7 +201,7 @@ const askForHeights = oncePerFrame(() => {
   byId("flank-progress").value = flank.done / columns;
   const thinned = flank.every > 1 ? `, every ${flank.every}th shown` : "";
   byId("flank-facts").textContent = `tooth ${flank.tooth} ${flank.left ? "left" : "right"}, ${columns} × ${rows} ` +
-    `dexels${thinned}, ${facts.operations.length} operations in ${number(flank.ms)} ms; tip above, face to the right`;
+    `dexels${thinned}, ${facts.operations.length === 1 ? "1 operation" : `${facts.operations.length} operations`} in ${number(flank.ms)} ms; tip above, face to the right`;
 });
 
 const askForAllowances = oncePerFrame(() => {
@@ -294,15 +295,17 @@ function dragged(handle, radius) {
   change(true);
 }
 
-// What belongs to the chosen curve, and what the sliders say.
+// What belongs to the chosen kind and curve, and what the sliders say.
 function controls() {
   const of = values();
-  for (const label of form.querySelectorAll("[data-for]")) {
-    label.hidden = !label.dataset.for.split(" ").includes(of.shape);
+  for (const [name, chosen] of [["for", of.shape], ["kind", of.kind]]) {
+    for (const label of form.querySelectorAll(`[data-${name}]`)) {
+      label.hidden = !label.dataset[name].split(" ").includes(chosen);
+    }
   }
   form.elements.eccentricity_shown.value = of.eccentricity ?? "";
   const rests = written !== null;
-  byId("own").disabled = byId("machine").disabled = rests;
+  for (const part of ["kinds", "own", "machine"]) byId(part).disabled = rests;
   byId("by-hand").hidden = !rests;
 }
 
@@ -310,9 +313,14 @@ function write(text, name) {
   written = text === null ? null : { text, name };
   if (text !== null) byId("text").value = text;
   else byId("preset").value = "";
+  forget();
+  controls();
+}
+
+// What was shown of another gear.
+function forget() {
   shown.allowances = {};
   byId("allowances").replaceChildren();
-  controls();
 }
 
 function stroke() {
@@ -357,6 +365,10 @@ async function open(file) {
 form.addEventListener("input", ({ target }) => {
   if (target.id === "text") write(target.value, written?.name ?? "gear.toml");
   if (!target.name && target.id !== "text") return;
+  if (target.name === "kind") {
+    for (const [name, value] of Object.entries(KINDS[target.value].start)) form.elements[name].value = value;
+    forget();
+  }
   controls();
   change(true);
 });

@@ -19,18 +19,51 @@ strokes_per_revolution = ${strokes}
 [operation.infeed.none]
 `;
 
+const shaped = (of) => `[tool.shaper_cutter]
+teeth = ${of.cutter}
+${operation("rough", of.rough, of.offset, of.linkage)}${operation("finish", of.finish, "0.0", of.linkage)}`;
+
+const hobbed = (of) => `[tool.hob]
+reference_diameter_mm = ${of.hob}
+gashes = ${of.gashes}
+
+[[operation]]
+name = "finish"
+hob_speed_per_minute = ${of.speed}
+axial_feed_mm_per_revolution = ${of.feed}
+
+`;
+
+// What each kind of gear has of its own in the scene, and values of the controls that it begins with: a hob needs a
+// convex curve, a ring one that is blunter than the cutter.
+export const KINDS = {
+  shaped: {
+    gear: "",
+    cut: shaped,
+    start: { shape: "ellipse", order: 3, eccentricity: 0.1348, module: 3, teeth: 42, face: 30, cutter: 20, offset: 2 },
+  },
+  ring: {
+    gear: 'kind = "internal"\n',
+    cut: shaped,
+    start: { shape: "ellipse", order: 2, eccentricity: 0.07, module: 2, teeth: 72, face: 16, cutter: 25, offset: 0.4 },
+  },
+  hobbed: {
+    gear: "",
+    cut: hobbed,
+    start: { shape: "ellipse", order: 3, eccentricity: 0.1, module: 3, teeth: 42, face: 30 },
+  },
+};
+
 // What is typed goes into the scene as it is: gearcut says what is wrong with it.
 export function sceneText(of) {
+  const { gear, cut } = KINDS[of.kind];
   return `[gear]
-module_mm = ${of.module}
+${gear}module_mm = ${of.module}
 teeth = ${of.teeth}
 face_width_mm = ${of.face}
 ${curve[of.shape](of)}
 
-[tool.shaper_cutter]
-teeth = ${of.cutter}
-${operation("rough", of.rough, of.offset, of.linkage)}${operation("finish", of.finish, "0.0", of.linkage)}
-[fields.flank]
+${cut(of)}[fields.flank]
 profile_spacing_um = ${of.profile}
 lead_spacing_um = ${of.lead}
 `;

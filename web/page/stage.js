@@ -47,6 +47,10 @@ export class Stage {
       const [x, y] = this.#place(event);
       dragged(this.#grabbed, Math.hypot(x, y));
     });
+    // A finger on the pitch curve draws it, elsewhere it scrolls the page.
+    canvas.addEventListener("touchstart", (event) => {
+      if (this.#under(event.touches[0])) event.preventDefault();
+    }, { passive: false });
     for (const end of ["pointerup", "pointercancel"]) {
       canvas.addEventListener(end, () => {
         if (!this.#grabbed) return;
@@ -231,15 +235,19 @@ export class Stage {
     return [(event.clientX - box.left) * mm - this.#radius, this.#radius - (event.clientY - box.top) * mm, mm];
   }
 
-  // Takes the nearest handle, if the pointer is on the pitch curve.
-  #grab(event) {
-    if (!this.#drawing || this.handles.length === 0) return;
+  // The nearest handle, if a pointer or finger is on the pitch curve.
+  #under(event) {
+    if (!this.#drawing || this.handles.length === 0) return null;
     const [x, y, mm] = this.#place(event);
     const angle = Math.atan2(y, x);
-    const radius = Math.hypot(...this.#onCurve(angle));
-    if (Math.abs(Math.hypot(x, y) - radius) > GRAB_PX * mm) return;
+    if (Math.abs(Math.hypot(x, y) - Math.hypot(...this.#onCurve(angle))) > GRAB_PX * mm) return null;
     const off = (handle) => Math.abs(Math.sin((handle.angle - angle) / 2));
-    const nearest = this.handles.reduce((best, handle) => (off(handle) < off(best) ? handle : best));
+    return this.handles.reduce((best, handle) => (off(handle) < off(best) ? handle : best));
+  }
+
+  #grab(event) {
+    const nearest = this.#under(event);
+    if (!nearest) return;
     this.#grabbed = { ...nearest, radius: Math.hypot(...this.#onCurve(nearest.angle)), mean: this.#mean() };
     this.#canvas.classList.add("held");
     this.#canvas.setPointerCapture(event.pointerId);

@@ -11,6 +11,8 @@ const GPU_PIECE = 400_000;
 const SHOWN = 1_500_000;
 // More dexels than this on all flanks are measured in a draft.
 const MEASURED = 12_000_000;
+// So many dexels of a shaped gear take as long as one that is cut by edges in space.
+const OF_SPATIAL = 20;
 // Places of an allowance map along a profile.
 const PLACES = 20;
 
@@ -74,9 +76,12 @@ function thinned(places, every) {
 // Settings that give every operation of a shaped gear a linkage.
 const linked = (facts, linkage) => facts.operations.map((_, i) => `operation.${i}.linkage.shaping_${linkage}={}`);
 
-// Dexels of all flanks through all operations.
-function dexels(job, { teeth, operations }) {
-  return 2 * teeth * operations.length * job.arcs_mm(1, true).length * job.face_mm(1, true).length;
+const effort = (facts) => (facts.process === "shaping" ? 1 : OF_SPATIAL);
+
+// Dexels of all flanks through all operations, as of a shaped gear.
+function dexels(job, facts) {
+  const flank = job.arcs_mm(1, true).length * job.face_mm(1, true).length;
+  return 2 * facts.teeth * facts.operations.length * flank * effort(facts);
 }
 
 async function flank(job, request, say, stopped) {
@@ -85,8 +90,9 @@ async function flank(job, request, say, stopped) {
   const many = arcs.length * face.length / (coarse ? 8_000 : SHOWN);
   const every = Math.max(1, Math.ceil(Math.sqrt(many)));
   [arcs, face] = [thinned(arcs, every), thinned(face, every)];
-  const operations = JSON.parse(job.facts()).operations.length;
-  const columns = Math.max(1, Math.floor((gpu ? GPU_PIECE : PIECE) / face.length));
+  const facts = JSON.parse(job.facts());
+  const operations = facts.operations.length;
+  const columns = Math.max(1, Math.floor((gpu ? GPU_PIECE : PIECE / effort(facts)) / face.length));
   const started = performance.now();
   say({ kind: "flank-begins", arcs, face, operations, tooth, left, every, columns });
   for (let from = 0; from < arcs.length; from += columns) {
