@@ -8,7 +8,7 @@ gearcut.stage.then(({ data, scene, geometry, metal, light, widen, draw }) => {
   const columns = new Float32Array(data.bytes, strokes.at, WIDTH * strokes.count);
   const of = (stroke) => Array.from({ length: WIDTH }, (_, column) => columns[column * strokes.count + stroke]);
 
-  const material = new THREE.ShaderMaterial({
+  const material = (tint, alpha) => new THREE.ShaderMaterial({
     side: THREE.DoubleSide,
     transparent: true,
     uniforms: { metal },
@@ -24,10 +24,14 @@ gearcut.stage.then(({ data, scene, geometry, metal, light, widen, draw }) => {
       void main() {
         vec3 facing = cross(dFdx(seen), dFdy(seen));
         ${light}
-        gl_FragColor = vec4(metal * vec3(0.62, 0.78, 1.0) * (0.45 + 0.55 * light), 0.85);
+        gl_FragColor = vec4(metal * vec3(${tint}) * (0.45 + 0.55 * light), ${alpha});
       }`,
   });
-  const tool = new THREE.Mesh(geometry(strokes.tool), material);
+  const tool = new THREE.Mesh(geometry(strokes.tool), material("0.62, 0.78, 1.0", "0.85"));
+  // The tooth that cuts, over its place in the tool.
+  const marked = new THREE.Mesh(geometry(strokes.tool), material("1.0, 0.62, 0.2", "1.0"));
+  Object.assign(marked.material, { polygonOffset: true, polygonOffsetFactor: -1, polygonOffsetUnits: -4 });
+  tool.add(marked);
   tool.visible = false;
   tool.geometry.computeBoundingSphere();
   const reach = tool.geometry.boundingSphere.radius;
@@ -44,10 +48,11 @@ gearcut.stage.then(({ data, scene, geometry, metal, light, widen, draw }) => {
     }
     const stroke = place - 1;
     const [operation, own, x, y, z, qx, qy, qz, qw, ...taken] = of(stroke);
-    if (!shown) widen(0.75 * (Math.hypot(x, y) + reach));
+    if (!shown) widen(0.95 * (Math.hypot(x, y) + reach));
     shown = true;
     tool.position.set(x, y, z);
     tool.quaternion.set(qx, qy, qz, qw);
+    marked.geometry.setDrawRange(...(strokes.parts[taken[3]] ?? [0, 0]));
     const [name, count] = strokes.operations[operation];
     const value = (_, column) => {
       const it = taken[column];

@@ -55,6 +55,9 @@ pub struct ViewerStrokes {
     pub words: &'static str,
     /// Names that the last value is a place of, from 0; empty: it is a number.
     pub names: Vec<String>,
+    /// Of each of these names what it is of [`Self::tool`], to be marked where it takes something: the first of its
+    /// corners among all indices, and how many it has. Empty: nothing is marked.
+    pub parts: Vec<[usize; 2]>,
     /// Strokes in order of time; very many are thinned.
     pub strokes: Vec<ViewerStroke>,
 }
@@ -266,6 +269,7 @@ impl Viewer {
                 "noun": of.noun,
                 "words": of.words,
                 "names": of.names,
+                "parts": of.parts,
                 "operations": of.operations,
                 "count": values.len(),
                 "at": block.add_f32(&columns),

@@ -43,6 +43,7 @@ pub fn strokes(job: &ShapingJob, chips: &ChipLedger) -> ViewerStrokes {
         noun: "stroke",
         operations: operations.collect(),
         words: "chip {0} mm², {1} µm thick, {2} N, space {3}",
+        parts: Vec::new(),
         names: Vec::new(),
         strokes: (0..count).step_by(every).map(stroke).collect(),
     }
