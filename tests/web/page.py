@@ -373,7 +373,8 @@ def check_keyboard(opened):
     """Tab goes through every control that is not hidden or resting."""
     page = opened.page
     wanted = page.evaluate("""() => [...document.querySelectorAll("a, input, select, textarea, button, summary")]
-        .filter((of) => !of.matches(":disabled, [type=radio]:not(:checked)") && of.checkVisibility()).map((of, i) => (of.dataset.stop = i, i))""")
+        .filter((of) => !of.matches(":disabled, [type=radio]:not(:checked)") && of.checkVisibility())
+        .map((of, i) => (of.dataset.stop = i, i))""")
     page.evaluate("document.activeElement.blur(); window.scrollTo(0, 0)")
     reached = set()
     for _ in range(2 * len(wanted) + 10):
