@@ -9,14 +9,15 @@ use crate::fixtures::command::gearcut;
 use glam::{DVec2, DVec3};
 use std::collections::HashMap;
 
-/// A spur gear with a bore, one without, a gear that is not round, a ring, helical gears, round and not; a tooth.
-const SCENES: [(&str, u32); 6] = [
-    ("scenes/shaping/circular_m3_z24.toml", 3),
-    ("scenes/hobbing/circular_spur.toml", 3),
-    ("scenes/shaping/elliptical_normal.toml", 5),
-    ("scenes/shaping/internal_ellipse.toml", 7),
-    ("scenes/hobbing/circular_helical.toml", 6),
-    ("scenes/hobbing/ellipse_six_schemes.toml", 4),
+/// A spur gear with a bore, one without, a gear that is not round, a ring, helical gears, round and not; teeth, as few
+/// as will do, and one of them.
+const SCENES: [(&str, u32, u32); 6] = [
+    ("scenes/shaping/circular_m3_z24.toml", 24, 3),
+    ("scenes/hobbing/circular_spur.toml", 20, 3),
+    ("scenes/shaping/elliptical_normal.toml", 42, 5),
+    ("scenes/shaping/internal_ellipse.toml", 72, 7),
+    ("scenes/hobbing/circular_helical.toml", 21, 6),
+    ("scenes/hobbing/ellipse_six_schemes.toml", 21, 4),
 ];
 
 /// Places of a wall between two knots that are compared with the target.
@@ -220,7 +221,7 @@ fn out_um(out: &str, words: &str) -> f64 {
 /// An edge that is turned round, a face that is missing, a place that is 5 um off.
 #[test]
 fn planted_faults_of_a_solid_are_seen() {
-    let (scene, tooth) = SCENES[0];
+    let (scene, _, tooth) = SCENES[0];
     let (text, _) = step_file(scene, &[]);
     let line = text.lines().find(|line| line.contains("ORIENTED_EDGE") && line.ends_with(".T.);")).expect("an edge");
     let turned = text.replace(line, &line.replace(".T.", ".F."));
@@ -289,17 +290,17 @@ mod slow {
 
     #[test]
     fn a_solid_is_closed_and_within_the_tolerance_of_the_target() {
-        for (scene, tooth) in SCENES {
+        for (scene, teeth, tooth) in SCENES {
             // A narrow face: fitted sections are as far apart on a wide one, only more of them.
-            let narrow = ["--set", "gear.face_width_mm=5"];
-            let (text, out) = step_file(scene, &narrow);
+            let small = ["gear.face_width_mm=5", &format!("gear.teeth={teeth}")];
+            let (text, out) = step_file(scene, &small.map(|setting| ["--set", setting]).concat());
             let file = StepText::read(&text);
             assert_eq!(file.faults(), Vec::<String>::new(), "{scene}");
             let faces = file.all("ADVANCED_FACE").count();
             assert!(out.contains(&format!("{faces} faces, ")), "{scene}: {faces} faces, {out}");
             // Between all sections that were fitted.
             let z_mm = 1.3;
-            let fine = target(scene, &narrow[1..], tooth, z_mm, 5e-3);
+            let fine = target(scene, &small, tooth, z_mm, 5e-3);
             let [from_file, from_target] = off_mm(&file, &fine, z_mm);
             let said_mm = 1e-3 * said_um(&out);
             // Said to a hundredth of a micrometre.

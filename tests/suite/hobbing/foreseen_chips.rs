@@ -52,9 +52,11 @@ mod slow {
     /// same hob tooth takes one as thick or thicker; the whole blank has no thinner one, and one not much thicker.
     #[test]
     fn a_foreseen_chip_is_one_of_the_cut() {
-        for (name, spacing_mm) in [("circular_spur", 0.4), ("third_order_plain", 0.5), ("circular_helical", 0.3)] {
-            let spacing = format!("fields.blank.spacing_mm={spacing_mm}");
-            let job = scene(name, &["gear.face_width_mm=8", "fields.blank.slice_spacing_mm=4", &spacing]);
+        for (name, teeth, spacing_mm) in
+            [("circular_spur", 20, 0.4), ("third_order_plain", 21, 0.5), ("circular_helical", 21, 0.3)]
+        {
+            let [teeth, spacing] = [format!("gear.teeth={teeth}"), format!("fields.blank.spacing_mm={spacing_mm}")];
+            let job = scene(name, &["gear.face_width_mm=8", "fields.blank.slice_spacing_mm=4", &teeth, &spacing]);
             let cutter = HobCutter::new(&job).expect("passes");
             let foreseen = foreseen_chips::of(&cutter).expect("they are found");
             let middle = |grid: BlankGrid| {

@@ -138,8 +138,9 @@ mod slow {
             "fields.flank.profile_spacing_um=300",
             "fields.flank.lead_spacing_um=5000",
             "fields.blank.spacing_mm=3",
-            "fields.blank.slice_spacing_mm=5",
+            "fields.blank.slice_spacing_mm=10",
             "picture=[]",
+            "texture=[]",
         ];
         let settings = settings.iter().flat_map(|setting| ["--set", setting]);
         let arguments: Vec<&str> = ["cut", SCENE, "--only", "report", "--out"]

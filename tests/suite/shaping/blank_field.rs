@@ -302,6 +302,7 @@ mod slow {
         for path in scenes_of_all_shapes() {
             let mut scene = load(&path, &[]).unwrap_or_else(|errors| panic!("{errors}")).scene;
             scene.fields.blank_slice_spacing_mm = 15.0;
+            scene.fields.blank_spacing_mm *= 2.0;
             let name = scene.name.clone();
             let job = job(scene);
             let cut = cut(&job);

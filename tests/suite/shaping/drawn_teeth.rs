@@ -346,7 +346,9 @@ mod slow {
 
     #[test]
     fn a_cut_by_a_hollow_edge_equals_brute_force() {
-        let job = cycloid_job(&["gear.face_width_mm=2.0", "operation.finish.strokes_per_revolution=600"]);
+        // Nine rows, one more than a vector: rows of strokes that do not feed are alike.
+        let rows = ["gear.face_width_mm=2.0", "fields.flank.lead_spacing_um=250"];
+        let job = cycloid_job(&[&rows[..], &["operation.finish.strokes_per_revolution=600"]].concat());
         assert!(!job.cutter.edge().is_convex, "cycloids are hollow below the pitch circle");
         for (tooth, side) in [(1, Side::Left), (7, Side::Right)] {
             let field = job.flank_field(job.target_flank(tooth, side));
