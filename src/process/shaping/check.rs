@@ -94,5 +94,9 @@ fn print_cost(sheet: &mut Sheet, job: &ShapingJob) -> Result<()> {
         blank: (format!("{rays} rays {rays_apart_mm} mm apart in {slices} sections"), grid.estimated_bytes(&job.blank)),
         blank_s: &blank_s,
     };
-    samples.print(sheet)
+    samples.print(sheet)?;
+    if job.machine.vibration.is_some() {
+        sheet.line("vibration", "not in that time: the mass is followed row by row, which takes many times as long");
+    }
+    Ok(())
 }
