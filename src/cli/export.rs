@@ -159,17 +159,20 @@ impl Exporter<'_> {
         let backend = self.choice.backend.as_ref();
         let (what, of, file, off_mm) = if let Some(gear) = gear.cylindrical() {
             let solid = GearSolid::new(gear, backend, wish, &self.watch)?;
-            ("solid", "profile", step::solid::step(&solid, &words), solid.off_mm)
+            let of = if solid.roots_mm.is_some() { "flanks and tips" } else { "profile" };
+            ("solid", of, step::solid::step(&solid, &words), [Some(solid.off_mm), solid.roots_mm])
         } else {
             let flanks = FlankFaces::new(gear, backend, wish, &self.watch)?;
-            ("flanks", "flanks", step::flanks::step(&flanks, &words), flanks.off_mm)
+            ("flanks", "flanks", step::flanks::step(&flanks, &words), [Some(flanks.off_mm), None])
         };
         let StepFile { text, faces } = file;
         self.watch.check()?;
         write_bytes_atomically(path, text.as_bytes())?;
         self.sheet.heading(&path.display().to_string());
         self.sheet.line(what, format!("{faces} faces, {} kB", text.len().div_ceil(1000)));
-        self.sheet.line(&format!("off the {of}"), format!("{} um at most", significant(off_mm * UM_PER_MM, 2)));
+        for (of, off_mm) in [of, "roots"].into_iter().zip(off_mm.into_iter().flatten()) {
+            self.sheet.line(&format!("off the {of}"), format!("{} um at most", significant(off_mm * UM_PER_MM, 2)));
+        }
         Ok(())
     }
 

@@ -13,7 +13,7 @@
 use super::b_spline::CubicKnots;
 use super::cut_heights::cut_heights_mm;
 use super::section::{ProfileSource, SectionWish};
-use super::solid::too_coarse;
+use super::walls::too_coarse;
 use crate::influence::gear_grid::evenly;
 use crate::job::GearJob;
 use crate::pair_job::watch::Watch;

@@ -9,7 +9,9 @@
 //! | [`drawing`] | layers of paths, with what is said about them |
 //! | [`dxf`] | the drawing as a DXF file |
 //! | [`b_spline`] | cubic B-splines through points |
-//! | [`solid`] | the gear as a solid of such faces |
+//! | [`walls`] | smooth walls through sections |
+//! | [`cut_walls`] | the same as the passes leave them |
+//! | [`solid`] | the gear as a solid of such walls |
 //! | [`flank_faces`] | flanks as such faces, where a gear is no swept section |
 //! | [`step`] | solid or flanks as a STEP file |
 //! | [`cut_heights`] | heights of a cut flank, where strokes reach |
@@ -21,6 +23,7 @@
 pub mod arcs;
 pub mod b_spline;
 pub mod cut_heights;
+pub mod cut_walls;
 pub mod drawing;
 pub mod dxf;
 pub mod flank_faces;
@@ -30,4 +33,5 @@ pub mod section;
 pub mod solid;
 pub mod step;
 pub mod unit;
+pub mod walls;
 pub mod wire;

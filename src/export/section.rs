@@ -12,10 +12,10 @@
 use super::arcs::{ArcPath, PathPieces, smooth_parts};
 use crate::job::{CylindricalGear, ToothSection};
 use crate::measure::round_gear::is_round;
-use crate::pair_job::outline::{cut_flank, cut_root, joined};
+use crate::pair_job::outline::{ToothOutline, cut_flank, cut_root, joined};
 use crate::pair_job::watch::WatchedUnits;
+use crate::surface::SurfaceGrid;
 use gearcut_core::cut::Backend;
-use gearcut_core::dexel::NO_PASS;
 use gearcut_core::error::Result;
 use gearcut_core::gear::Back;
 use gearcut_core::terms::Side;
@@ -31,6 +31,9 @@ pub const FIT_SHARE: f64 = 0.95;
 const SPACING_SHARE: f64 = 0.2;
 /// Points of a whole pitch curve at least.
 const LEAST_POINTS: f64 = 720.0;
+
+/// Points of a flank as near to the stock's outline lie on it.
+const ON_STOCK_MM: f64 = 1e-5;
 
 /// Which profile a section has.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -188,55 +191,116 @@ fn target_profile_mm(
     Ok(chain)
 }
 
+/// A tooth as the passes leave it in a section.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CutTooth {
+    /// From the middle of the root to the tip.
+    pub right: ToothOutline,
+    /// Between the tips of both flanks; none on a pointed tooth.
+    pub tip_mm: Vec<DVec2>,
+    /// From the middle of the root to the tip.
+    pub left: ToothOutline,
+}
+
+/// Teeth as the passes leave them, tooth after tooth, each in the sections `rows_z_mm`; `stage` counts teeth.
+///
+/// # Errors
+/// A flank that no pass has reached, a root that is not cut through; the backend's; Ctrl-C.
+pub fn cut_teeth(
+    gear: &dyn CylindricalGear,
+    backend: &dyn Backend,
+    [first, last]: [u32; 2],
+    rows_z_mm: &[f64],
+    stage: &WatchedUnits,
+) -> Result<Vec<Vec<CutTooth>>> {
+    let way_out = "export a section that is cut, or the target: leave --as-cut out";
+    let root = |space: u32| cut_root(gear, backend, counted(gear, space), rows_z_mm, way_out);
+    let roots: Vec<Vec<Vec<DVec2>>> = (first - 1..=last).into_par_iter().map(root).collect::<Result<_>>()?;
+    let tooth = |tooth: u32| {
+        let half = |side: Side, space: u32| -> Result<Vec<ToothOutline>> {
+            let flanks = cut_flank(gear, backend, tooth, side, rows_z_mm)?;
+            let rows = roots[space as usize].iter().zip(&flanks);
+            Ok(rows.map(|(root, flank)| joined(root, side, flank)).collect())
+        };
+        let (right, left) = (half(Side::Right, tooth - first)?, half(Side::Left, tooth + 1 - first)?);
+        let tip = gear.tip_surface(backend, tooth)?;
+        let section = |((right, left), &z_mm): ((ToothOutline, ToothOutline), &f64)| {
+            let row = tip.as_ref().and_then(|grid| topped_mm(grid, z_mm));
+            let is_stock = tip.is_some() && row.is_none();
+            let [right, left] = [right, left].map(|flank| if is_stock { to_stock(gear, flank) } else { flank });
+            let tips_mm = [&right, &left].map(|flank| flank.points_mm[flank.points_mm.len() - 1]);
+            let tip_mm = row.or_else(|| tip.as_ref().map(|_| stock_mm(gear, tips_mm))).unwrap_or_default();
+            CutTooth { right, tip_mm, left }
+        };
+        let sections = right.into_iter().zip(left).zip(rows_z_mm).map(section).collect();
+        stage.count()?;
+        Ok(sections)
+    };
+    (first..=last).into_par_iter().map(tooth).collect()
+}
+
 /// The profile as the passes leave it.
 fn cut_profile_mm(
     gear: &dyn CylindricalGear,
     backend: &dyn Backend,
-    [first, last]: [u32; 2],
+    teeth: [u32; 2],
     z_mm: f64,
     stage: &WatchedUnits,
 ) -> Result<Vec<DVec2>> {
-    let way_out = "export a section that is cut, or the target: leave --as-cut out";
-    let root = |space: u32| Ok(cut_root(gear, backend, counted(gear, space), &[z_mm], way_out)?.remove(0));
-    let roots: Vec<Vec<DVec2>> = (first - 1..=last).into_par_iter().map(root).collect::<Result<_>>()?;
-    let tooth = |tooth: u32| {
-        let [before, behind] = [tooth - first, tooth + 1 - first].map(|space| &roots[space as usize]);
-        // From the middle of the root to the tip.
-        let half = |side: Side, root: &[DVec2]| -> Result<Vec<DVec2>> {
-            let flank = cut_flank(gear, backend, tooth, side, &[z_mm])?.remove(0);
-            Ok(joined(root, side, &flank).points_mm)
-        };
-        let (mut chain, left) = (half(Side::Right, before)?, half(Side::Left, behind)?);
-        let tips_mm = [chain[chain.len() - 1], left[left.len() - 1]];
-        chain.extend(cut_tip_mm(gear, backend, tooth, z_mm, tips_mm)?);
-        chain.extend(left.into_iter().rev());
-        stage.count()?;
-        Ok(chain)
+    let whole = |CutTooth { right, tip_mm, left }: &CutTooth| {
+        [&right.points_mm[..], tip_mm, &left.points_mm.iter().rev().copied().collect::<Vec<_>>()].concat()
     };
-    let teeth: Vec<Vec<DVec2>> = (first..=last).into_par_iter().map(tooth).collect::<Result<_>>()?;
-    Ok(teeth.concat())
+    Ok(cut_teeth(gear, backend, teeth, &[z_mm], stage)?.concat().iter().flat_map(whole).collect())
 }
 
-/// The tip land between the tips of both flanks: the stock's own outline, or what a tool that tops the gear leaves.
-fn cut_tip_mm(
-    gear: &dyn CylindricalGear,
-    backend: &dyn Backend,
-    tooth: u32,
-    z_mm: f64,
-    tips_mm: [DVec2; 2],
-) -> Result<Vec<DVec2>> {
-    let Some(grid) = gear.tip_surface(backend, tooth)? else { return Ok(Vec::new()) };
-    let row = grid.rows_mm.partition_point(|&row_mm| row_mm < z_mm).min(grid.rows() - 1);
-    if (0..grid.columns()).any(|column| grid.passes[column * grid.rows() + row] != NO_PASS) {
-        return Ok((0..grid.columns()).map(|column| grid.position_mm(column, row).truncate()).collect());
+/// The tip land that a tool which tops the gear leaves; none where it is the stock's own outline.
+fn topped_mm(grid: &SurfaceGrid, z_mm: f64) -> Option<Vec<DVec2>> {
+    let row = grid.rows_mm.partition_point(|&row_mm| row_mm < z_mm).clamp(1, grid.rows() - 1);
+    // Its edges are cut, too, where a flank lies deeper than its target.
+    if grid.is_uncut(grid.columns() / 2, row) {
+        return None;
     }
+    let [below_mm, above_mm] = [row - 1, row].map(|row| grid.rows_mm[row]);
+    let share = (z_mm - below_mm) / (above_mm - below_mm);
+    let place = |column| grid.position_mm(column, row - 1).lerp(grid.position_mm(column, row), share).truncate();
+    Some((0..grid.columns()).map(place).collect())
+}
+
+/// A flank as far as the stock's outline: a flank off its target meets it elsewhere than the target does. What lies on
+/// the outline is no flank; a flank that ends below it goes on straight.
+fn to_stock(gear: &dyn CylindricalGear, mut flank: ToothOutline) -> ToothOutline {
+    let blank = gear.blank();
+    let below_mm = |point_mm: DVec2| blank.addendum_mm - blank.height(point_mm, point_mm.to_angle()).0;
+    let end = |flank: &ToothOutline, back: usize| flank.points_mm[flank.points_mm.len() - back];
+    if below_mm(end(&flank, 1)) <= ON_STOCK_MM {
+        // One point on it is the corner.
+        if flank.points_mm.len() < 4 || below_mm(end(&flank, 2)) > ON_STOCK_MM {
+            return flank;
+        }
+        while flank.points_mm.len() > 3 && below_mm(end(&flank, 1)) <= ON_STOCK_MM {
+            flank.points_mm.pop();
+            flank.u_mm.pop();
+        }
+    }
+    let [before_mm, last_mm] = [2, 1].map(|back| end(&flank, back));
+    let [before, last] = [before_mm, last_mm].map(below_mm);
+    if before > last {
+        let on_mm = last_mm + (last_mm - before_mm) * last / (before - last);
+        flank.u_mm.push(flank.u_mm[flank.u_mm.len() - 1] + last_mm.distance(on_mm));
+        flank.points_mm.push(on_mm);
+    }
+    flank
+}
+
+/// The stock's outline between the tips of both flanks.
+fn stock_mm(gear: &dyn CylindricalGear, tips_mm: [DVec2; 2]) -> Vec<DVec2> {
     let blank = gear.blank();
     let [from, to] = tips_mm.map(|tip_mm| blank.height(tip_mm, tip_mm.to_angle()).1);
     let width = (to - from).rem_euclid(TURN_RAD);
     // Tips of a whole pitch would be no tips: the flanks have crossed.
     if width > PI {
-        return Ok(Vec::new());
+        return Vec::new();
     }
     let count = (tips_mm[0].distance(tips_mm[1]) / crate::job::TIP_SPACING_MM[0]).ceil().max(1.0);
-    Ok((0..=count as u32).map(|i| blank.outline_mm(from + width * f64::from(i) / count)).collect())
+    (0..=count as u32).map(|i| blank.outline_mm(from + width * f64::from(i) / count)).collect()
 }

@@ -47,7 +47,7 @@ impl StepWords {
         let is_solid = gear.cylindrical().is_some();
         let what = match wish.source {
             ProfileSource::Target => "target: the envelope of the finishing operation".to_owned(),
-            ProfileSource::Cut if is_solid => {
+            ProfileSource::Cut if is_solid && gear.scene().gear.helix_angle_rad == 0.0 => {
                 format!("as cut {} mm from the middle of the face, swept straight", plain(wish.z_mm))
             }
             ProfileSource::Cut => "as cut".to_owned(),

@@ -175,8 +175,11 @@ pub fn cut_flank(
         .into());
     }
     let profile = |row: usize| {
+        // A normal of a helical flank leads out of the section: where it is the surface's own, the section through the
+        // surface is so much farther off.
         let point = |(c, ray): (usize, &gearcut_core::dexel::Ray)| {
-            ray.at(f64::from(last.heights_mm[c * rows + row])).truncate()
+            let (normal, height_mm) = (ray.normal.truncate(), f64::from(last.heights_mm[c * rows + row]));
+            ray.origin_mm.truncate() + height_mm / normal.length_squared() * normal
         };
         ToothOutline { points_mm: target[row].iter().enumerate().map(point).collect(), u_mm: arcs_mm.clone() }
     };
@@ -211,6 +214,11 @@ pub fn joined(root: &[DVec2], side: Side, flank: &ToothOutline) -> ToothOutline 
 }
 
 impl ToothOutline {
+    /// Its half of the root and its flank, which begins with the form point.
+    pub fn root_and_flank(&self) -> [&[DVec2]; 2] {
+        self.points_mm.split_at(self.u_mm.partition_point(|&u_mm| u_mm < 0.0)).into()
+    }
+
     /// The profile without points that lie nearer than `tolerance_mm` to the chain of the others (Ramer 1972; Douglas
     /// and Peucker 1973).
     fn thinned(&self, tolerance_mm: f64) -> Self {

@@ -35,6 +35,11 @@ CASES = [
     ("ring", "scenes/shaping/internal_circle.toml", [], "1..4", "15x3", 16.0),
     ("helical", "scenes/hobbing/circular_helical.toml", HELICAL, "1..4", "15x5", 6.0),
 ]
+# Helical gears as cut: name, scene, settings, tolerance in um, above the marks of flanks.
+CUT = [
+    ("shaped_as_cut", "scenes/shaping/helical.toml", ["gear.teeth=13", "gear.face_width_mm=4"], 2.0),
+    ("hobbed_as_cut", "scenes/hobbing/circular_helical.toml", HELICAL, 5.0),
+]
 # Bevel gears: name, scene, teeth.
 BEVELS = [("formate", "scenes/bevel/formate.toml", 41), ("hypoid", "scenes/bevel/hypoid.toml", 62)]
 TOLERANCE_MM = 1e-3
@@ -54,7 +59,7 @@ def volume_mm3(shape):
     return properties.Mass()
 
 
-def off_mm(shape, points):
+def off_mm(shape, points, tolerance_mm=TOLERANCE_MM):
     """Largest distance of points from the faces, each looked for on the faces whose boxes hold it."""
     boxes, surfaces = [], []
     for face in parts(shape, TopAbs_FACE):
@@ -74,17 +79,17 @@ def off_mm(shape, points):
             # A foot near by; where that is too far, all feet.
             quick[i].ValueOfUV(gp_Pnt(*point), 1e-7)
             nearest = min(nearest, quick[i].Gap())
-        if nearest > TOLERANCE_MM:
+        if nearest > tolerance_mm:
             feet = [GeomAPI_ProjectPointOnSurf(gp_Pnt(*point), surfaces[i]) for i in np.flatnonzero(holds)]
             nearest = min([foot.LowerDistance() for foot in feet if foot.NbPoints()], default=np.inf)
         worst = max(worst, nearest)
     return worst
 
 
-def section_mm2(path):
+def section_mm2(path, layer="TARGET"):
     """Area of the section between profile and bore or rim, from a drawing."""
     space = ezdxf.readfile(path).modelspace()
-    x, y = flattened(space.query('LWPOLYLINE[layer=="TARGET"]')[0], 1.0, 100).T
+    x, y = flattened(space.query(f'LWPOLYLINE[layer=="{layer}"]')[0], 1.0, 100).T
     area = 0.5 * np.sum(x * np.roll(y, -1) - y * np.roll(x, -1))
     for circle in space.query("CIRCLE"):
         if circle.dxf.layer in ("BORE", "RIM"):
@@ -114,6 +119,31 @@ def one(program, folder, name, scene, settings, teeth, grid, face_mm):
     return shape
 
 
+def as_cut(program, folder, name, scene, settings, tolerance_um):
+    path, drawing, table = (folder / f"{name}{end}" for end in (".step", ".dxf", "_points.csv"))
+    sets = [word for setting in settings for word in ("--set", setting)]
+    run = lambda *more: subprocess.run(
+        [program, "export", scene, *sets, "--as-cut", "--quiet", "--force", *more],
+        check=True,
+        capture_output=True,
+        text=True,
+    ).stdout
+    run("--step", path, "--tolerance-um", str(tolerance_um))
+    run("--points", table, "--teeth", "1..3", "--grid", "40x17")
+    shape = read(name, path)
+    check(f"{name}: one solid", len(list(parts(shape, TopAbs_SOLID))) == 1)
+    face_mm = float(settings[-1].split("=")[1])
+    # Sections as they are cut, mark by mark, over the face.
+    expected = 0.0
+    for place, weight in zip(*np.polynomial.legendre.leggauss(6)):
+        run("--dxf", drawing, "--tolerance-um", "0.1", "--section-mm", f"{0.5 * face_mm * place:.9f}")
+        expected += 0.5 * face_mm * weight * section_mm2(drawing, "AS_CUT")
+    off = abs(volume_mm3(shape) / expected - 1)
+    check(f"{name}: volume", off < 1e-5, f"{expected:.3f} mm3, off by {off:.1e}")
+    on_faces(name, shape, table, 1e-3 * tolerance_um, "cut")
+    return shape
+
+
 def bevel(program, folder, name, scene, teeth):
     path, table = folder / f"{name}.step", folder / f"{name}_points.csv"
     command = [program, "export", scene, "--quiet", "--force"]
@@ -136,14 +166,14 @@ def read(name, path):
     return shape
 
 
-def on_faces(name, shape, table):
+def on_faces(name, shape, table, tolerance_mm=TOLERANCE_MM, kind="target"):
     rows = list(csv.DictReader(table.open()))
     points = np.array([[float(row[column]) for column in ("x_mm", "y_mm", "z_mm")] for row in rows])
-    off = off_mm(shape, points)
-    check(f"{name}: {len(points)} target points on faces", off <= TOLERANCE_MM, f"{1000 * off:.3f} um at most")
+    off = off_mm(shape, points, tolerance_mm)
+    check(f"{name}: {len(points)} {kind} points on faces", off <= tolerance_mm, f"{1000 * off:.3f} um at most")
     # A fault of two tolerances is seen.
     normals = np.array([[float(row[column]) for column in ("nx", "ny", "nz")] for row in rows[:20]])
-    check(f"{name}: points beside are not", off_mm(shape, points[:20] + 2 * TOLERANCE_MM * normals) > TOLERANCE_MM)
+    check(f"{name}: points beside are not", off_mm(shape, points[:20] + 2 * tolerance_mm * normals) > tolerance_mm)
 
 
 def drawn(shape, path):
@@ -185,7 +215,7 @@ def main():
     with tempfile.TemporaryDirectory() as scratch:
         folder = arguments.keep or Path(scratch)
         folder.mkdir(parents=True, exist_ok=True)
-        for cases, opened in [(CASES, one), (BEVELS, bevel)]:
+        for cases, opened in [(CASES, one), (CUT, as_cut), (BEVELS, bevel)]:
             for case in cases:
                 shape = opened(arguments.program, folder, *case)
                 if arguments.keep:
