@@ -176,6 +176,14 @@ def flanks():
     return [*shaped, ("hobbed", HOBBED)]
 
 
+def arcs_mm(job, flank, side):
+    """Places of the page's flank on the library's own: sines of a browser's library may differ in the last bit, and so
+    may the length of a profile."""
+    arcs = np.minimum(flank["arcs"], job.flank(flank["tooth"], side).u_mm[-1])
+    assert np.abs(arcs - flank["arcs"]).max() < 1e-12, "other places"
+    return arcs
+
+
 def deviations_mm(opened, name, text):
     """What the page has cut of a scene and what the library cuts at the same places, operation by operation."""
     opened.open(text, until="shown.cut || shown.problem")
@@ -188,9 +196,7 @@ def deviations_mm(opened, name, text):
     with scene_file(text) as file:
         job, columns = gearcut.Job(file), flank["columns"]
         side = "left" if flank["left"] else "right"
-        # Sines of a browser's library may differ in the last bit, and so may the length of a profile.
-        arcs = np.minimum(flank["arcs"], job.flank(flank["tooth"], side).u_mm[-1])
-        assert np.abs(arcs - flank["arcs"]).max() < 1e-12, f"{name}: other places"
+        arcs = arcs_mm(job, flank, side)
         # Newton's method starts elsewhere among other dexels: the same pieces as on the page.
         pieces = [
             job.flank(flank["tooth"], side, u_mm=arcs[at : at + columns], v_mm=flank["face"])
@@ -325,7 +331,8 @@ def check_kinds(opened):
             "heights: [...shown.flank.heights.at(-1)], last: shown.flank.heights.length - 1 })"
         )
         with scene_file(page.locator("#text").input_value()) as file:
-            cut = gearcut.Job(file).flank(flank["tooth"], "left", u_mm=flank["arcs"], v_mm=flank["face"])
+            job = gearcut.Job(file)
+            cut = job.flank(flank["tooth"], "left", u_mm=arcs_mm(job, flank, "left"), v_mm=flank["face"])
             here = cut.deviation_mm(flank["last"]).ravel()
         assert ("internal" in page.locator("#text").input_value()) == (kind == "ring"), kind
         off = np.abs(here - flank["heights"]).max()
