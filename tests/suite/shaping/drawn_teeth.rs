@@ -6,6 +6,8 @@ use gearcut::cut::cpu::Cpu;
 use gearcut::drawn_tooth::drawn_words;
 use gearcut::process;
 use gearcut::process::shaping::ShapingJob;
+use gearcut::process::shaping::findings::ring;
+use gearcut::process::shaping::gear::ring::{RingFacts, corners_of_any_edge};
 use gearcut::process::shaping::target::{FlankEnd, TargetFlank};
 use gearcut::terms::Side;
 use glam::DVec2;
@@ -118,6 +120,29 @@ fn an_involute_given_as_points_cuts_the_analytic_ones_flank() {
             println!("    cut {:.1} nm apart", 1e6 * cut_mm);
             assert!(cut_mm < 1.5 * TOLERANCE_MM, "{gear:?} {side:?}: cut {cut_mm} mm apart");
         }
+    }
+}
+
+/// Room and depth of the tip corners in rings, on the path of rolling and while the cutter goes in on a spiral, are
+/// those of the analytic cutter with its sharp corner. In the smaller ring they cut.
+#[test]
+fn tip_corners_of_points_come_as_near_to_a_ring_as_the_analytic_ones() {
+    let contour = table(&involute_contour());
+    let text = ROUND.replace("infeed.none", "infeed.spiral");
+    for (teeth, cuts, trims) in [("gear.teeth=60", false, false), ("gear.teeth=26", true, true)] {
+        let gear = [teeth, "gear.kind=\"internal\""];
+        let analytic = RingFacts::new(&scene_job(&text, None, &gear).expect("the standard cutter"));
+        let drawn = scene_job(&text, Some(("tooth.csv", &contour)), &gear).expect("the drawn one");
+        let (corner, trimming) = corners_of_any_edge(&drawn);
+        let rooms_mm = [corner, analytic.tightest_corner].map(|of| of.expect("a known outline").path.clearance_mm);
+        let depths_mm = [trimming, analytic.trimming].map(|of| of.expect("a known outline").depth_mm);
+        println!("{teeth}: room {rooms_mm:?}, trimmed {depths_mm:?} mm");
+        assert_eq!((rooms_mm[1] < 0.0, depths_mm[1] > 0.01), (cuts, trims), "{teeth}");
+        for [ours_mm, theirs_mm] in [rooms_mm, depths_mm] {
+            assert!((ours_mm - theirs_mm).abs() < 5.0 * TOLERANCE_MM, "{teeth}: {ours_mm}, {theirs_mm}");
+        }
+        let said = ring::of_job(&drawn, None).expect("a ring");
+        assert_eq!(ring::warnings(&said, 0.01).len(), usize::from(cuts) + usize::from(trims), "{teeth}");
     }
 }
 

@@ -11,7 +11,8 @@ use crate::measure::damage::LEAST_DEPTH_MM;
 use crate::number_text::significant;
 use crate::process::shaping::ShapingJob;
 use crate::process::shaping::gear::ring::{
-    CornerPath, RingFacts, RingTooth, ToothPlace, rolling_module_mm, rolling_teeth,
+    CornerPath, RingFacts, RingTooth, TightestCorner, ToothPlace, Trimming, corners_of_any_edge, rolling_module_mm,
+    rolling_teeth,
 };
 use crate::process::shaping::notices::{TipCorners, Trimmed};
 use crate::process::shaping::quantities::ring::{
@@ -26,17 +27,33 @@ use gearcut_core::units::UM_PER_MM;
 
 /// Advice where nothing is known of the target's outline.
 const SEE_BLANK: &str = "See the whole blank of a run";
+/// Advice on the teeth of a cutter.
+const ROUNDER: &str = "A larger smallest radius of curvature allows more";
 
-/// The section; none of an external gear, and none where a drawn tooth cuts: its laws are those of involutes. Where a
-/// program cuts another ring, `other` says why nothing of it holds.
+/// The section; none of an external gear. Of a drawn tooth it says what holds of any edge: the rest are laws of
+/// involutes. Where a program cuts another ring, `other` says why nothing of it holds.
 pub fn of_job(job: &ShapingJob, other: Option<&str>) -> Option<Section> {
-    (job.blank.kind() == GearKind::Internal && job.cutter.involute().is_some()).then(|| {
-        let section = section(job, &RingFacts::new(job));
+    (job.blank.kind() == GearKind::Internal).then(|| {
+        let section = if job.cutter.involute().is_some() { section(job, &RingFacts::new(job)) } else { of_drawn(job) };
         match other {
             Some(why) => section.without_values(why, &[]),
             None => section,
         }
     })
+}
+
+/// Whether the cutter rolls, and its tip corners.
+fn of_drawn(job: &ShapingJob) -> Section {
+    let radius_mm = 1.0 / job.curve.facts().largest_curvature.curvature_per_mm;
+    let (tightest, deepest) = corners_of_any_edge(job);
+    RING.section([
+        ROLLING_TEETH
+            .of(rolling_teeth(radius_mm, job.transverse.module_mm))
+            .fine(format!("This cutter has {}. {ROUNDER}", job.cutter.teeth)),
+        SMALLEST_RADIUS.of(radius_mm),
+        corners(tightest),
+        trimming(job, deepest, None),
+    ])
 }
 
 fn section(job: &ShapingJob, facts: &RingFacts) -> Section {
@@ -49,8 +66,7 @@ fn section(job: &ShapingJob, facts: &RingFacts) -> Section {
     };
     let modules = [rolling_module_mm(radius_mm, z0), facts.printed.module_limit_mm(radius_mm)];
     let cutters = [
-        sharpest(ROLLING_TEETH.of(facts.rolling_teeth))
-            .fine(format!("This cutter has {z0}. A larger smallest radius of curvature allows more")),
+        sharpest(ROLLING_TEETH.of(facts.rolling_teeth)).fine(format!("This cutter has {z0}. {ROUNDER}")),
         sharpest(CLEARING_TEETH.of_or(facts.clearing_teeth, NO_CUTTER))
             .fine("For a round ring of that radius and sharp corners. A lower addendum of cutter or ring allows more"),
         sharpest(RADIAL_TEETH.of_or(facts.radial_teeth, NO_CUTTER)).fine(
@@ -69,7 +85,7 @@ fn section(job: &ShapingJob, facts: &RingFacts) -> Section {
     RING.section(cutters)
         .entries(undercut(facts))
         .entries(tips(job, facts))
-        .entries([corners(facts), trimming(job, facts)])
+        .entries([corners(facts.tightest_corner), trimming(job, facts.trimming, facts.radial_teeth)])
         .entries([limit, sharpest(PRINTED_MODULE_LIMIT.of(modules[1]))])
         .table(table(facts, z0, module_mm))
 }
@@ -125,8 +141,8 @@ fn tips(job: &ShapingJob, facts: &RingFacts) -> [Entry; 2] {
 }
 
 /// Tip corners on their way in and out.
-fn corners(facts: &RingFacts) -> Entry {
-    let Some(tightest) = facts.tightest_corner else {
+fn corners(tightest: Option<TightestCorner>) -> Entry {
+    let Some(tightest) = tightest else {
         return CORNER_CLEARANCE.none(NO_OUTLINE).fine(SEE_BLANK);
     };
     let CornerPath { clearance_mm, phi_rad } = tightest.path;
@@ -146,16 +162,15 @@ fn corners(facts: &RingFacts) -> Entry {
 }
 
 /// What the strokes of the infeed take off the tips.
-fn trimming(job: &ShapingJob, facts: &RingFacts) -> Entry {
-    let Some(deepest) = facts.trimming else {
+fn trimming(job: &ShapingJob, deepest: Option<Trimming>, radial_teeth: Option<u32>) -> Entry {
+    let Some(deepest) = deepest else {
         return TRIMMING.none(NO_OUTLINE).fine(SEE_BLANK);
     };
     let depth = TRIMMING.of(UM_PER_MM * deepest.depth_mm);
     if deepest.depth_mm < LEAST_DEPTH_MM {
         return depth.fine("The corners come clear");
     }
-    let fewer =
-        facts.radial_teeth.map_or("fewer cutter teeth".to_owned(), |teeth| format!("{teeth} cutter teeth or less"));
+    let fewer = radial_teeth.map_or("fewer cutter teeth".to_owned(), |teeth| format!("{teeth} cutter teeth or less"));
     let place = Place::default()
         .and("operation", job.operations[deepest.operation].spec.name.clone())
         .and("stroke", deepest.stroke as u64)

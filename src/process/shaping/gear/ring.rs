@@ -309,7 +309,7 @@ impl RingFacts {
                 .reduce(|a, b| if b.mm > a.mm { b } else { a })
                 .expect("a ring has teeth"),
             undercut_flanks: undercut * (gear.teeth / period),
-            tightest_corner: tightest_corner(&teeth),
+            tightest_corner: tightest_corner(teeth.iter().filter_map(|of| Some((of.tooth, of.corners?)))),
             printed: PrintedUndercut::of(job),
             teeth,
         }
@@ -327,10 +327,16 @@ fn flanks(
     })
 }
 
-fn tightest_corner(teeth: &[RingTooth]) -> Option<TightestCorner> {
-    let paths = teeth.iter().flat_map(|of| {
-        let paths = of.corners.into_iter().flat_map(|paths| paths.into_iter().zip([true, false]));
-        paths.map(|(path, entering)| TightestCorner { path, tooth: of.tooth, entering })
+/// What holds of tip corners of any edge: the tightest path, and the deepest place where an infeed trims the ring;
+/// `None` where the target's outline is not known.
+pub fn corners_of_any_edge(job: &ShapingJob) -> (Option<TightestCorner>, Option<Trimming>) {
+    let paths = corners::of_period(job, job.curve.period_teeth(job.transverse.teeth));
+    (tightest_corner((1..).zip(paths.unwrap_or_default())), infeed::deepest(job))
+}
+
+fn tightest_corner(spaces: impl Iterator<Item = (u32, [CornerPath; 2])>) -> Option<TightestCorner> {
+    let paths = spaces.flat_map(|(tooth, paths)| {
+        paths.into_iter().zip([true, false]).map(move |(path, entering)| TightestCorner { path, tooth, entering })
     });
     paths.reduce(|a, b| if b.path.clearance_mm < a.path.clearance_mm { b } else { a })
 }

@@ -1,15 +1,17 @@
 //! The path of the cutter's tip corners into a space of the ring and out of it.
 //!
-//! In: the finishing linkage, the rounds at the cutter's tip, the target's outline. Out: for every space of a period,
-//! and for both paths, the smallest distance of a corner from the teeth. Law: a corner goes in and out of its space
-//! past the tips of the teeth beside it. Inside it touches the fillet that it makes; the clearance is the smallest
-//! distance from where it has left the blank's outline on. Where its path runs through material, it cuts there what no
-//! envelope of the flanks has shaped, and the clearance is minus the depth.
+//! In: the finishing linkage, the rounds at the cutter's tip, or places of a drawn one, the target's outline. Out: for
+//! every space of a period, and for both paths, the smallest distance of a corner from the teeth. Law: a corner goes in
+//! and out of its space past the tips of the teeth beside it. Inside it touches the fillet that it makes; the clearance
+//! is the smallest distance from where it has left the blank's outline on. Where its path runs through material, it
+//! cuts there what no envelope of the flanks has shaped, and the clearance is minus the depth.
 
+use crate::drawn_tooth::{DrawnPart, DrawnTooth, PartLaw};
 use crate::measure::damage::LEAST_DEPTH_MM;
 use crate::measure::target_outline::TargetOutline;
 use crate::process::shaping::ShapingJob;
 use crate::process::shaping::tool::involute_tooth::CornerPart;
+use gearcut_core::tool::edge::SegmentName;
 use glam::DVec2;
 use rayon::prelude::*;
 use std::f64::consts::{PI, TAU};
@@ -21,6 +23,12 @@ pub(super) const TARGET_SPACING_MM: f64 = 0.01;
 const PLACES_PER_PITCH: i32 = 64;
 /// A corner is looked for this far from the teeth, in modules: more than half of a space at the tips.
 const FARTHEST_MODULES: f64 = 2.0;
+
+/// Arcs of a drawn tooth whose radius is smaller are rounds of its tip corners, modules: those of flanks are larger.
+const LARGEST_ROUND_MODULES: f64 = 0.6;
+/// Turn between two places of such a round, rad: chords of a round of a fifth of a module are within 0.3 thousandths of
+/// a module of it.
+const PLACE_RAD: f64 = 0.105;
 
 /// The tightest place of a corner's path.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -34,14 +42,41 @@ pub struct CornerPath {
 /// A round at the cutter's tip in the tooth's frame: centre and radius, mm.
 pub(super) type Round = (DVec2, f64);
 
-/// The rounds at both corners of a cutter tooth.
+/// The rounds at both corners of a cutter tooth; of a drawn one places of its edge, as rounds of no radius.
 pub(super) fn tip_rounds(job: &ShapingJob) -> Vec<Round> {
+    if let Some(drawn) = job.cutter.drawn() {
+        return drawn_corners_mm(drawn, LARGEST_ROUND_MODULES * job.transverse.module_mm);
+    }
     let corner = job.cutter.involute().map_or(&[][..], |tooth| &tooth.corner);
     let own = corner.iter().filter_map(|part| match *part {
         CornerPart::Round { center_mm, radius_mm, .. } => Some((center_mm, radius_mm)),
         CornerPart::Chamfer { .. } => None,
     });
     own.flat_map(|(at, radius)| [(at, radius), (DVec2::new(at.x, -at.y), radius)]).collect()
+}
+
+/// Places of the arcs beside the tip that are rounder than a flank, up to the first part on either side that is not.
+fn drawn_corners_mm(tooth: &DrawnTooth, largest_mm: f64) -> Vec<Round> {
+    use SegmentName::{CornerLeft, CornerRight};
+    let is_round = |part: &&DrawnPart| match part.law {
+        PartLaw::Turn { radius_mm, .. } => (0.0..largest_mm).contains(&radius_mm),
+        PartLaw::Line { .. } => false,
+    };
+    let places = |part: &DrawnPart| {
+        let PartLaw::Turn { normals_rad: [from, to], .. } = part.law else { return Vec::new() };
+        let steps = ((to - from).abs() / PLACE_RAD).ceil().max(1.0) as u32;
+        (0..=steps).map(|i| (part.law.at(f64::from(i) / f64::from(steps)).point_mm, 0.0)).collect()
+    };
+    let parts = &tooth.parts;
+    let right = parts.iter().rposition(|part| part.name == CornerRight).map_or(0, |last| last + 1);
+    let left = parts.iter().position(|part| part.name == CornerLeft).unwrap_or(parts.len());
+    // From the tip to either side.
+    let right = parts[..right].iter().rev().skip_while(|part| !is_round(part)).take_while(is_round);
+    let left = parts[left..].iter().skip_while(|part| !is_round(part)).take_while(is_round);
+    let mut places_mm: Vec<Round> = right.chain(left).flat_map(places).collect();
+    // A sharp corner is divided: its parts are one place.
+    places_mm.dedup();
+    places_mm
 }
 
 /// Of the spaces behind the first `teeth` teeth: on the way in, and out. `None` where the target's outline is not
