@@ -30,7 +30,7 @@ pub fn run(arguments: &DiagnoseArguments) -> Result<(), Failure> {
     let filled = folder::fill_partly(&out, "diagnose", |folder, interrupt, known| {
         let cuts = MeasuredCuts::new(&loaded, &points, choice.backend.as_ref(), known)?;
         let measured_um: Vec<f64> = points.iter().map(|point| point.deviation_um).collect();
-        let noise = Noise::of_values(noise_um).and_axes(&cuts, &progress)?;
+        let noise = Noise::of_values(noise_um).and_axes(&cuts, &progress, interrupt)?;
         let (model, found) = diagnose::diagnose(&cuts, &measured_um, &noise, names, &progress, interrupt)?;
         let tree = diagnose::findings(&loaded.scene, &model, &points, &noise, &found);
         diagnose::write(&loaded, &choice.backend.name_in_files(), (&model, &found), &tree, folder)?;

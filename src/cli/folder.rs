@@ -65,7 +65,8 @@ pub fn fill_partly<T>(
     let written = written().map_err(|error| folder.explain(error));
     let [made, taken] = known.made_and_taken();
     if taken > 0 {
-        to_stderr(&format!("note: {taken} cuts are those of a run that was stopped; {made} were made now"));
+        let cuts = if taken == 1 { "1 cut is that".to_owned() } else { format!("{taken} cuts are those") };
+        to_stderr(&format!("note: {cuts} of a run that was stopped; {made} were made now"));
     }
     match written {
         // The file of cuts is closed before its folder gets another name: systems refuse that while it is open.

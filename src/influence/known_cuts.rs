@@ -15,6 +15,7 @@ use crate::scene::Scene;
 use gearcut_core::error::{Error, Result};
 use serde_json::{Map, Value};
 use sha2::{Digest, Sha256};
+use std::collections::BTreeMap;
 use std::fmt::{self, Debug, Write};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -30,7 +31,8 @@ pub struct KnownCuts {
     place: Option<GrowingPlace>,
     rows: Mutex<KeyedRows<String>>,
     made: AtomicUsize,
-    taken: AtomicUsize,
+    /// Keys of rows of an earlier run, each with whether this one took it.
+    earlier: Mutex<BTreeMap<String, bool>>,
 }
 
 /// Where rows grow.
@@ -69,7 +71,8 @@ impl KnownCuts {
         };
         let is_own = there.is_none();
         let place = GrowingPlace { folder: folder.to_owned(), record, file: Mutex::new(file), is_own };
-        Ok(Self { place: Some(place), rows: Mutex::new(rows), ..Self::default() })
+        let earlier = rows.keys().map(|key| (key.clone(), false)).collect();
+        Ok(Self { place: Some(place), rows: Mutex::new(rows), earlier: Mutex::new(earlier), ..Self::default() })
     }
 
     /// Numbers of a scene's gear: known ones, or what `cut` finds. `asked` tells what they are, beyond the scene.
@@ -85,7 +88,9 @@ impl KnownCuts {
         let files = scene.process.files_read().into_iter().map(read).collect::<Result<Vec<_>>>()?;
         let key = digest(&(env!("CARGO_PKG_VERSION"), scene, files, asked));
         if let Some(known) = locked(&self.rows).get(&key) {
-            self.taken.fetch_add(1, Ordering::Relaxed);
+            if let Some(taken) = locked(&self.earlier).get_mut(&key) {
+                *taken = true;
+            }
             return Ok(known.clone());
         }
         self.made.fetch_add(1, Ordering::Relaxed);
@@ -105,9 +110,9 @@ impl KnownCuts {
         Ok(values.into_iter().map(|value| value.unwrap_or(f64::NAN)).collect())
     }
 
-    /// How many cuts were made, and how often an earlier one was taken instead.
+    /// How many cuts were made, and how many of an earlier run were taken.
     pub fn made_and_taken(&self) -> [usize; 2] {
-        [&self.made, &self.taken].map(|count| count.load(Ordering::Relaxed))
+        [self.made.load(Ordering::Relaxed), locked(&self.earlier).values().filter(|taken| **taken).count()]
     }
 
     /// How many finished cuts are on disk, and in which folder; none before the first one.

@@ -48,7 +48,8 @@ impl<const N: usize> MeasuredTable<N> {
             let heads: Vec<&str> = heads.iter().collect();
             let spelled = other_spelling(&heads, &names);
             let why = spelled.unwrap_or_else(|| format!("it has no column {missing}"));
-            return Err(unreadable(format!("{why}; its first line must have {}", names.join(", "))));
+            let needed: Vec<&str> = names.into_iter().filter(|name| !optional.contains(name)).collect();
+            return Err(unreadable(format!("{why}; its first line must have {}", needed.join(", "))));
         }
         let mut rows = Vec::new();
         for record in reader.records() {

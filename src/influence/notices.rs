@@ -32,7 +32,8 @@ notices! {
     DiagnosisUnexplained: Warning "fit.unexplained", "budget.md", (left_um),
         "unexplained: {left_um} um are left beyond the stated noise; no error that the scene can name makes them, and \
          what is named has no intervals: it may take the place of something else";
-        "Check --noise-um, and the tool and blank that the scene names."
+        "Check --noise-um, the noise of the axes in the scene (noise_arcsec, noise_um, noise_bandwidth_hz), and the \
+         tool and blank that it names."
     /// Mending the named one may mend nothing.
     SameAs: Warning "fit.not_told_apart", "budget.md", (source, others),
         "{source} acts on these deviations like {others}: each would explain them as well";

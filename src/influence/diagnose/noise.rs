@@ -24,6 +24,7 @@
 //! intervals held less often than with a noise of each value.
 
 use super::cuts::{MeasuredCuts, without_random};
+use crate::interrupt::Interrupt;
 use crate::machine_errors::{AxisErrors, AxisNoise, NoiseLaw, PeriodicError};
 use crate::progress::Progress;
 use crate::scene::Scene;
@@ -62,8 +63,8 @@ impl Noise {
     /// With that of the scene's axes.
     ///
     /// # Errors
-    /// Geometry that cannot be cut; the backend's; places where no pass comes.
-    pub fn and_axes(self, cuts: &MeasuredCuts, progress: &Progress) -> Result<Self> {
+    /// Geometry that cannot be cut; the backend's; places where no pass comes; Ctrl-C.
+    pub fn and_axes(self, cuts: &MeasuredCuts, progress: &Progress, interrupt: &Interrupt) -> Result<Self> {
         let noises = axis_noises(&cuts.loaded.scene);
         if noises.iter().all(Vec::is_empty) {
             return Ok(self);
@@ -72,9 +73,11 @@ impl Noise {
         let cut_um = |change: &dyn Fn(usize, &mut AxisErrors)| {
             let mut scene = still.clone();
             scene.process.axis_errors_mut().iter_mut().enumerate().for_each(|(index, axis)| change(index, axis));
+            interrupt.check()?;
             cuts.one_gears_um(&scene)
         };
-        let step = progress.step("noise of axes", u64::from(COURSES) + noises.len() as u64, "courses and axes");
+        let noisy = noises.iter().filter(|noise| !noise.is_empty()).count() as u64;
+        let step = progress.step("noise of axes", u64::from(COURSES) + noisy, "axes and courses");
         let mut axes = Vec::new();
         for (axis, noise) in noises.iter().enumerate().filter(|(_, noise)| !noise.is_empty()) {
             let deviation = noise.iter().map(|noise| noise.deviation.powi(2)).sum::<f64>().sqrt();

@@ -29,8 +29,9 @@ notices! {
         + "a larger tool.hob.dedendum_coefficient keeps the blank's own tips"
     /// Undercut weakens the root and shortens the active flank.
     Undercut: Warning "flank.undercut", "hobbing.md", (count, teeth),
-        "the hob's tip corner undercuts {count} teeth ({teeth}), where the pitch curve is sharp: "
-        + "use more teeth, a smaller addendum_coefficient of the hob, or a flatter curve"
+        "the hob's tip corner undercuts {count} teeth ({teeth}): "
+        + "use more teeth, a larger gear.profile_shift_coefficient, a smaller addendum_coefficient of the hob, or a \
+           pitch curve that is flatter there"
     /// Deviations of these flanks are evaluated over another part of the profile than the drawing says.
     Unreached: Note "measure.unreached", "results.md", (flanks),
         "{flanks} flanks do not reach an end of [measure]: there 5 % of the profile are left out instead";

@@ -282,54 +282,55 @@ fn a_solid_as_cut_has_marks_and_what_is_none_is_refused() {
     refused(&[&[bevel, "--step", "a.step"], &fine[..]].concat(), &["--tolerance-um", "smooth faces are", "way out"]);
 }
 
-/// A helical gear whose blank sits 30 um off its spindle: cut flanks lie within the tolerance of the solid, and as far
-/// off its target's as they are off the target.
-#[test]
-fn a_helical_solid_as_cut_is_on_its_cut_flanks() {
-    let scene = "scenes/shaping/helical.toml";
-    let keys = ["gear.teeth=13", "gear.face_width_mm=2", "mounting.eccentricity_um=30"];
-    let sets: Vec<&str> = keys.iter().flat_map(|key| ["--set", key]).collect();
-    let (text, out) = step_file(scene, &[&sets[..], &["--as-cut", "--tolerance-um", "3"]].concat());
-    assert!(text.contains("helical: as cut'"), "{text:.600}");
-    let [tolerance_mm, roots_um] = [3.0 * TOLERANCE_MM, out_um(&out, "off the roots")];
-    assert!(out_um(&out, "off the flanks and tips") <= 3.0 && (1.0..30.0).contains(&roots_um), "{out}");
-    let [cut, target] = [text, step_file(scene, &sets).0].map(|text| StepText::read(&text));
-    assert_eq!(cut.faults(), Vec::<String>::new());
-    let folder = tempfile::tempdir().expect("a folder for the test");
-    let table = folder.path().join("points.csv");
-    let points = ["--points", table.to_str().expect("UTF-8"), "--as-cut", "--grid", "20x3", "--teeth", "2..5"];
-    gearcut(&[&["export", scene, "--quiet"], &points[..], &sets].concat()).done();
-    let rows = csv::Reader::from_path(&table).expect("CSV").into_records();
-    let rows: Vec<Vec<f64>> = rows
-        .map(|row| row.expect("a row").iter().skip(2).map(|cell| cell.parse().expect("a number")).collect())
-        .collect();
-    let mut largest_mm = 0.0_f64;
-    for row in &rows {
-        let (place, normal, deviation_mm) = (DVec2::new(row[2], row[3]), DVec3::from_slice(&row[5..8]), 1e-3 * row[8]);
-        let lines_of = |file: &StepText| -> Vec<[DVec2; 2]> {
-            let near = |wall: &FileSpline| wall.controls.iter().any(|p| p.truncate().distance(place) < 4.0);
-            let walls: Vec<Vec<DVec2>> =
-                file.section(row[4]).iter().filter(|wall| near(wall)).map(FileSpline::places).collect();
-            walls.iter().flat_map(|wall| wall.windows(2).map(|pair| [pair[0], pair[1]])).collect()
-        };
-        // The section's distance is that in space over the cosine between both normals.
-        let off_mm = |file: &StepText| {
-            let lines = lines_of(file);
-            let off_mm = lines.iter().map(|&line| distance_from_line_mm(line, place)).fold(f64::INFINITY, f64::min);
-            off_mm * normal.truncate().length()
-        };
-        assert!(off_mm(&cut) <= tolerance_mm, "{} mm at {row:?}", off_mm(&cut));
-        // The foot on the target may lie beyond the tip.
-        let off_target_mm = off_mm(&target);
-        assert!(off_target_mm <= deviation_mm.abs() + tolerance_mm, "{off_target_mm} mm at {row:?}");
-        largest_mm = largest_mm.max(off_target_mm);
-    }
-    assert!(largest_mm > 0.02 && rows.len() == 2 * 4 * 20 * 3, "{largest_mm} mm");
-}
-
 /// Tests of more than some ten seconds.
 mod slow {
     use super::*;
+
+    /// A helical gear whose blank sits 30 um off its spindle: cut flanks lie within the tolerance of the solid, and as
+    /// far off its target's as they are off the target.
+    #[test]
+    fn a_helical_solid_as_cut_is_on_its_cut_flanks() {
+        let scene = "scenes/shaping/helical.toml";
+        let keys = ["gear.teeth=13", "gear.face_width_mm=2", "mounting.eccentricity_um=30"];
+        let sets: Vec<&str> = keys.iter().flat_map(|key| ["--set", key]).collect();
+        let (text, out) = step_file(scene, &[&sets[..], &["--as-cut", "--tolerance-um", "3"]].concat());
+        assert!(text.contains("helical: as cut'"), "{text:.600}");
+        let [tolerance_mm, roots_um] = [3.0 * TOLERANCE_MM, out_um(&out, "off the roots")];
+        assert!(out_um(&out, "off the flanks and tips") <= 3.0 && (1.0..30.0).contains(&roots_um), "{out}");
+        let [cut, target] = [text, step_file(scene, &sets).0].map(|text| StepText::read(&text));
+        assert_eq!(cut.faults(), Vec::<String>::new());
+        let folder = tempfile::tempdir().expect("a folder for the test");
+        let table = folder.path().join("points.csv");
+        let points = ["--points", table.to_str().expect("UTF-8"), "--as-cut", "--grid", "6x2", "--teeth", "2..5"];
+        gearcut(&[&["export", scene, "--quiet"], &points[..], &sets].concat()).done();
+        let rows = csv::Reader::from_path(&table).expect("CSV").into_records();
+        let rows: Vec<Vec<f64>> = rows
+            .map(|row| row.expect("a row").iter().skip(2).map(|cell| cell.parse().expect("a number")).collect())
+            .collect();
+        let mut largest_mm = 0.0_f64;
+        for row in &rows {
+            let (place, normal, deviation_mm) =
+                (DVec2::new(row[2], row[3]), DVec3::from_slice(&row[5..8]), 1e-3 * row[8]);
+            let lines_of = |file: &StepText| -> Vec<[DVec2; 2]> {
+                let near = |wall: &FileSpline| wall.controls.iter().any(|p| p.truncate().distance(place) < 4.0);
+                let walls: Vec<Vec<DVec2>> =
+                    file.section(row[4]).iter().filter(|wall| near(wall)).map(FileSpline::places).collect();
+                walls.iter().flat_map(|wall| wall.windows(2).map(|pair| [pair[0], pair[1]])).collect()
+            };
+            // The section's distance is that in space over the cosine between both normals.
+            let off_mm = |file: &StepText| {
+                let lines = lines_of(file);
+                let off_mm = lines.iter().map(|&line| distance_from_line_mm(line, place)).fold(f64::INFINITY, f64::min);
+                off_mm * normal.truncate().length()
+            };
+            assert!(off_mm(&cut) <= tolerance_mm, "{} mm at {row:?}", off_mm(&cut));
+            // The foot on the target may lie beyond the tip.
+            let off_target_mm = off_mm(&target);
+            assert!(off_target_mm <= deviation_mm.abs() + tolerance_mm, "{off_target_mm} mm at {row:?}");
+            largest_mm = largest_mm.max(off_target_mm);
+        }
+        assert!(largest_mm > 0.02 && rows.len() == 2 * 4 * 6 * 2, "{largest_mm} mm");
+    }
 
     #[test]
     fn a_solid_is_closed_and_within_the_tolerance_of_the_target() {

@@ -195,7 +195,9 @@ mod slow {
         let points = places(&loaded);
         let cuts = MeasuredCuts::new(&loaded, &points, &cpu, &known).expect("places");
         let scene = model(&cuts, &[]);
-        let stated = Noise::of_values(NOISE_UM).and_axes(&cuts, &Progress::new(ProgressMode::Quiet)).expect("cuts");
+        let stated =
+            Noise::of_values(NOISE_UM).and_axes(&cuts, &Progress::new(ProgressMode::Quiet), &Interrupt::default());
+        let stated = stated.expect("cuts");
         let noises = [stated.clone(), Noise::of_values(NOISE_UM.hypot(stated.axes_um()))];
         let mut random = Random(20_261_128);
         let mut tallies = [Tally::default(); 2];
