@@ -22,6 +22,7 @@ pub fn run(arguments: &DiagnoseArguments) -> Result<(), Failure> {
         return Err(Refusal::new("--noise-um", problem, "give a number above 0").into());
     }
     let loaded = process::load(&arguments.scene.scene, &arguments.scene.settings)?;
+    diagnose::tried(&loaded, &arguments.parameters)?;
     let points = measured::read(&arguments.measured)?;
     let name = &loaded.scene.name;
     let out = arguments.out.clone().unwrap_or_else(|| PathBuf::from("out").join(format!("{name}_diagnosis")));

@@ -56,6 +56,11 @@ pub fn run(arguments: &ExportArguments) -> Result<(), Failure> {
             let way_out = "choose another name, or let it be replaced with --force";
             return Err(Refusal::new(option, format!("{} exists", path.display()), way_out).into());
         }
+        let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty() && !folder.is_dir());
+        if let Some(folder) = folder {
+            let problem = format!("there is no folder {}", folder.display());
+            return Err(Refusal::new(option, problem, "make it, or choose another place").into());
+        }
         named.push(path);
     }
     let (choice, progress) = backend::of_few_places(&arguments.compute, false, &loaded.scene)?;

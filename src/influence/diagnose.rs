@@ -41,7 +41,7 @@ use fit::LinearFit;
 
 pub use cuts::MeasuredCuts;
 pub use findings::{findings, sheet};
-pub use model::ErrorModel;
+pub use model::{ErrorModel, tried};
 pub use noise::Noise;
 pub use page::write;
 pub use refit::diagnose;

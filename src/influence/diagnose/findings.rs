@@ -20,6 +20,8 @@ use crate::output::summary;
 use crate::output::text::Sheet;
 use crate::scene::Scene;
 
+/// From this weight on a source is named without a word of doubt.
+const WITHOUT_DOUBT: f64 = 0.95;
 /// What every fitted number is.
 const FITTED: &str = "fitted";
 
@@ -229,8 +231,11 @@ pub fn sheet(model: &ErrorModel, found: &Diagnosis, tree: &Findings, sheet: &mut
     let rows = |named: &NamedSource| {
         let source = &model.sources[named.source];
         let cells = |(parameter, fitted): (&crate::scene::error_parameters::ErrorParameter, &Option<FittedSize>)| {
-            let apart = if named.same_as.is_empty() { String::new() } else { "or another".to_owned() };
-            vec![parameter.title.clone(), sized(found, *fitted, parameter.unit), apart]
+            let doubt = found.intervals_hold() && named.weight < WITHOUT_DOUBT;
+            let sure = doubt.then(|| format!("{:.0} % sure", 100.0 * named.weight));
+            let another = (!named.same_as.is_empty()).then(|| "or another".to_owned());
+            let words = [sure, another].into_iter().flatten().collect::<Vec<_>>().join(", ");
+            vec![parameter.title.clone(), sized(found, *fitted, parameter.unit), words]
         };
         source.parameters.iter().zip(&named.fitted).map(cells).collect::<Vec<_>>()
     };

@@ -33,6 +33,20 @@ pub struct ErrorModel {
     pub complete: bool,
 }
 
+/// The errors with these names, all if none is given.
+///
+/// # Errors
+/// No error has the name; the size of something random, which has no map of its own.
+pub fn tried(loaded: &LoadedScene, names: &[String]) -> Result<Vec<ErrorParameter>> {
+    let parameters = chosen(loaded, names)?;
+    if let Some(random) = parameters.iter().find(|parameter| parameter.is_random()) {
+        let problem = format!("{} is the size of something random, which makes another map in every gear", random.id);
+        let way_out = "a diagnosis finds what repeats; `gearcut calibrate` fits it to numbers of texture";
+        return Err(Refusal::new("--parameters", problem, way_out).into());
+    }
+    Ok(parameters)
+}
+
 /// A source of errors with its columns.
 #[derive(Debug, Clone)]
 pub struct ModelledSource {
@@ -65,13 +79,7 @@ impl ErrorModel {
     /// The size of something random, which has no map of its own; geometry that cannot be cut; places where no pass
     /// came; Ctrl-C before any error was tried.
     pub fn new(cuts: &MeasuredCuts, names: &[String], progress: &Progress, interrupt: &Interrupt) -> Result<Self> {
-        let parameters = chosen(cuts.loaded, names)?;
-        if let Some(random) = parameters.iter().find(|parameter| parameter.is_random()) {
-            let problem =
-                format!("{} is the size of something random, which makes another map in every gear", random.id);
-            let way_out = "a diagnosis finds what repeats; `gearcut calibrate` fits it to numbers of texture";
-            return Err(Refusal::new("--parameters", problem, way_out).into());
-        }
+        let parameters = tried(cuts.loaded, names)?;
         let before_um = cuts.deviations_um(&cuts.loaded.scene)?;
         let mut model = Self {
             here_um: before_um.clone(),

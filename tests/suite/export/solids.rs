@@ -275,6 +275,7 @@ fn a_solid_as_cut_has_marks_and_what_is_none_is_refused() {
     };
     gearcut(&["export", scene, "--step", "a.step", "--teeth", "3"]).failed(2, &["--teeth"]);
     refused(&[scene, "--step", "a.stp"], &["--step", "a.step"]);
+    refused(&[scene, "--step", "no/such/a.step"], &["--step", "there is no folder no/such", "way out"]);
     refused(&[scene, "--step", "a.step", "--units", "inch"], &["--units", "STEP files are in mm"]);
     let bevel = "scenes/bevel/crown_gear.toml";
     refused(&[bevel, "--dxf", "a.dxf"], &["bevel", "--step", "way out"]);
