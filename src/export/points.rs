@@ -61,7 +61,7 @@ pub struct FlankPoints {
     pub places_mm: Vec<[f64; 2]>,
     /// The same on the target, each with the normal out of the gear.
     pub target: Vec<Ray>,
-    /// How far the cut flank stands off the target along these normals, mm; none of the target itself.
+    /// Deviation of the cut flank from the target along these normals, mm; none of the target itself.
     pub heights_mm: Option<Vec<f64>>,
 }
 
@@ -111,7 +111,7 @@ pub fn flank_points(
     flanks.par_iter().map(points).collect()
 }
 
-/// A table with a row for each point; units stand in the names of its columns.
+/// A table with a row for each point; units are in the names of its columns.
 pub fn csv(flanks: &[FlankPoints], unit: FileUnit) -> String {
     let length = match unit {
         FileUnit::Millimetre => "mm",

@@ -30,8 +30,8 @@ notices! {
         "Name fewer --parameters, or check units and signs of what was measured."
     /// Something else is wrong with the gear than the scene can name.
     DiagnosisUnexplained: Warning "fit.unexplained", "budget.md", (left_um),
-        "unexplained: {left_um} um are left beyond the stated noise; no error that the scene can name makes them, and \
-         what is named has no intervals: it may take the place of something else";
+        "unexplained: {left_um} um are left beyond the noise of values and axes; no error that the scene can name \
+         makes them, and what is named has no intervals: it may take the place of something else";
         "Check --noise-um, the noise of the axes in the scene (noise_arcsec, noise_um, noise_bandwidth_hz), and the \
          tool and blank that it names."
     /// Mending the named one may mend nothing.

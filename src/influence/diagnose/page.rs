@@ -60,7 +60,7 @@ fn page(scene: &Scene, model: &ErrorModel, found: &Diagnosis, tree: &Findings, e
             PageSection::new(
                 "left-over",
                 "What is left over",
-                "What no error explains, against the stated noise. tables/residuals.csv has it place by place.",
+                "What no error explains, against the noise. tables/residuals.csv has it place by place.",
                 left.into_iter().collect(),
             ),
         ]

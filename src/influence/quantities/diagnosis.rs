@@ -23,8 +23,8 @@ rows! {
         => or(&[NOTHING_DEVIATES]);
     RESIDUAL: "residual", "um", "fitted: root mean square of the residuals" => titled("left over");
     UNEXPLAINED: "unexplained", "um",
-        "fitted: root mean square of what is left beyond the stated noise; 0 where noise makes as much in more than 1 \
-         of 1000 gears";
+        "fitted: root mean square of what is left beyond the noise of values and axes; 0 where noise makes as much in \
+         more than 1 of 1000 gears";
     POINTS: "points", "places", "measured places";
     NOISE: "noise", "um", "stated standard deviation of every measured value on its own";
     AXES_NOISE: "axes_noise", "um",
@@ -34,7 +34,7 @@ rows! {
     TURN_HIGH: "turn_high", "arcsec", "fitted: upper end of the turn's 95 % interval" => or(&[NO_TURN, NO_INTERVAL]);
     FREEDOM: "freedom", "1", "measured values less fitted numbers";
     CHANCE: "chance", "1",
-        "chance of as much by noise alone: chi-square of the residuals over the stated noise" => symbol("p");
+        "chance of as much by noise alone: chi-square of the residuals over that of values and axes" => symbol("p");
     ROUNDS: "rounds", "1", "fitted: how often the gear was cut with the sizes found so far, until they moved no more";
     BENT: "bent", "places",
         "measured places that the first fit went without, where the heights bend by more than the noise within a \

@@ -65,7 +65,7 @@ pub fn passes(cutter: &HobCutter, blank: &HobbedBlank) -> ViewerStrokes {
     }
 }
 
-/// A cylinder below the drawn teeth, as long as all teeth stand.
+/// A cylinder below the drawn teeth, as long as the row of all teeth.
 fn body(job: &HobbingJob, teeth: &Triangles) -> Mesh {
     let radii_mm = teeth.positions_mm.iter().map(|at| f64::from(at[0]).hypot(f64::from(at[1])));
     let radius_mm = radii_mm.fold(job.hob.pitch_radius_mm, f64::min);
