@@ -40,8 +40,12 @@ pub fn decimated(mesh: &Mesh, within_mm: f64) -> Mesh {
         .map(|(part, of)| {
             let faces = of.triangles.clone().map(|t| ThinnedFace::new(mesh.triangles[t], part)).collect();
             let mut thinned = Thinned::new(values, faces);
-            let inside: Vec<bool> =
-                (0..thinned.ids.len()).map(|vertex| thinned.ends_of_lines(vertex).is_empty()).collect();
+            let mut edges = Vec::new();
+            let mut is_inside = |vertex: u32| {
+                thinned.edges_of(vertex, &mut edges);
+                !edges.iter().any(FanEdge::is_line)
+            };
+            let inside: Vec<bool> = (0..thinned.ids.len() as u32).map(&mut is_inside).collect();
             thinned.thin(&inside);
             thinned
         })
@@ -117,6 +121,26 @@ struct Thinned<'a> {
     faces: Vec<ThinnedFace>,
     /// Triangles round every vertex.
     fans: Vec<Vec<u32>>,
+    /// Least error of its own with which a vertex can be drawn onto any neighbour, mm^2: known since its fan last
+    /// changed, or none. It spares most vertices all rounds but one.
+    least_mm2: Vec<Option<f64>>,
+}
+
+/// An edge of a fan, from its vertex.
+struct FanEdge {
+    to: u32,
+    /// Its triangles, and the part of the first.
+    faces: u32,
+    part: usize,
+    /// Whether another triangle is of another part.
+    joins: bool,
+}
+
+impl FanEdge {
+    /// Whether it has not two triangles of one part.
+    fn is_line(&self) -> bool {
+        self.faces != 2 || self.joins
+    }
 }
 
 /// A vertex drawn onto a neighbour: triangles that change, with what is then over them.
@@ -136,7 +160,8 @@ impl<'a> Thinned<'a> {
             face.corners = face.corners.map(|id| ids.partition_point(|&own| own < id) as u32);
             face.corners.iter().for_each(|&corner| fans[corner as usize].push(index));
         }
-        Self { values, ids, faces, fans }
+        let least_mm2 = vec![None; ids.len()];
+        Self { values, ids, faces, fans, least_mm2 }
     }
 
     fn into_faces(self) -> impl Iterator<Item = ThinnedFace> {
@@ -177,6 +202,7 @@ impl<'a> Thinned<'a> {
     /// Draws vertices that may go onto neighbours, round by round.
     fn thin(&mut self, may_go: &[bool]) {
         let mut is_target = vec![false; self.ids.len()];
+        let mut edges = Vec::new();
         for share in ROUNDS {
             is_target.fill(false);
             let most_mm2 = (share * self.values.within_mm).powi(2);
@@ -184,7 +210,7 @@ impl<'a> Thinned<'a> {
                 if is_target[vertex] || self.fans[vertex].is_empty() {
                     continue;
                 }
-                if let Some(collapse) = self.best(vertex as u32, most_mm2) {
+                if let Some(collapse) = self.best(vertex as u32, most_mm2, &mut edges) {
                     is_target[collapse.onto as usize] = true;
                     self.apply(vertex as u32, collapse);
                 }
@@ -192,80 +218,78 @@ impl<'a> Thinned<'a> {
         }
     }
 
-    /// Neighbours of a vertex, each once.
-    fn neighbours(&self, vertex: u32) -> Vec<u32> {
-        let corners = self.fans[vertex as usize].iter().flat_map(|&face| self.faces[face as usize].corners);
-        let mut others: Vec<u32> = corners.filter(|&corner| corner != vertex).collect();
-        others.sort_unstable();
-        others.dedup();
-        others
-    }
-
-    /// Ends of the edges at a vertex that have not two triangles of one part.
-    fn ends_of_lines(&self, vertex: usize) -> Vec<u32> {
-        let is_line = |other: &u32| {
-            let faces = self.fans[vertex].iter().map(|&face| &self.faces[face as usize]);
-            let mut parts = faces.filter(|face| face.corners.contains(other)).map(|face| face.part);
-            let both = [parts.next(), parts.next(), parts.next()];
-            both[0] != both[1] || both[2].is_some()
-        };
-        self.neighbours(vertex as u32).into_iter().filter(is_line).collect()
+    /// Edges of a vertex's fan, one for each neighbour, into memory that is reused.
+    fn edges_of(&self, vertex: u32, into: &mut Vec<FanEdge>) {
+        into.clear();
+        for face in self.fans[vertex as usize].iter().map(|&face| &self.faces[face as usize]) {
+            for to in face.corners.into_iter().filter(|&corner| corner != vertex) {
+                match into.iter_mut().find(|edge| edge.to == to) {
+                    Some(edge) => {
+                        edge.faces += 1;
+                        edge.joins |= edge.part != face.part;
+                    }
+                    None => into.push(FanEdge { to, faces: 1, part: face.part, joins: false }),
+                }
+            }
+        }
     }
 
     /// The neighbour onto which a vertex is drawn with the least error of its own.
-    fn best(&self, vertex: u32, most_mm2: f64) -> Option<Collapse> {
-        let lines = self.ends_of_lines(vertex as usize);
-        let neighbours = self.neighbours(vertex);
-        let onto = match lines.len() {
-            0 => &neighbours,
-            2 => &lines,
-            _ => return None,
-        };
-        let mut found: Vec<(f64, u32)> = onto
+    fn best(&mut self, vertex: u32, most_mm2: f64, edges: &mut Vec<FanEdge>) -> Option<Collapse> {
+        if self.least_mm2[vertex as usize].is_some_and(|least_mm2| least_mm2 > most_mm2) {
+            return None;
+        }
+        self.edges_of(vertex, edges);
+        let lines = edges.iter().filter(|edge| edge.is_line()).count();
+        let mut found: Vec<(f64, u32)> = edges
             .iter()
-            .filter(|&&onto| self.keeps_the_surface(&neighbours, vertex, onto))
-            .filter_map(|&onto| Some((self.own_error_mm2(vertex, onto, most_mm2)?, onto)))
+            .filter(|edge| lines == 0 || lines == 2 && edge.is_line())
+            .filter_map(|edge| Some((self.own_error_mm2(vertex, edge.to)?, edge.to)))
             .collect();
         found.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-        found.into_iter().take(2).find_map(|(_, onto)| self.collapse(vertex, onto, most_mm2))
+        self.least_mm2[vertex as usize] = Some(found.first().map_or(f64::INFINITY, |&(least_mm2, _)| least_mm2));
+        let near = found.into_iter().take_while(|&(error_mm2, _)| error_mm2 <= most_mm2);
+        let sound = near.filter(|&(_, onto)| self.keeps_the_surface(edges, vertex, onto));
+        sound.take(2).find_map(|(_, onto)| self.collapse(vertex, onto, most_mm2))
     }
 
     /// Whether what both vertices know are the third corners of the triangles between them.
-    fn keeps_the_surface(&self, neighbours: &[u32], vertex: u32, onto: u32) -> bool {
-        let of_onto = self.neighbours(onto);
-        let common = neighbours.iter().filter(|&neighbour| of_onto.binary_search(neighbour).is_ok()).count();
-        let between = self.fans[vertex as usize].iter();
-        let between = between.filter(|&&face| self.faces[face as usize].corners.contains(&onto)).count();
-        let fan = self.fans[vertex as usize].len() + self.fans[onto as usize].len() - 2 * between;
-        common == between && fan <= MOST_IN_FAN
+    fn keeps_the_surface(&self, edges: &[FanEdge], vertex: u32, onto: u32) -> bool {
+        let (own, others) = (&self.fans[vertex as usize], &self.fans[onto as usize]);
+        let has = |&&face: &&u32, corner: u32| self.faces[face as usize].corners.contains(&corner);
+        let between = own.iter().filter(|face| has(face, onto)).count();
+        let is_common = |edge: &&FanEdge| edge.to != onto && others.iter().any(|face| has(&face, edge.to));
+        edges.iter().filter(is_common).count() == between && own.len() + others.len() - 2 * between <= MOST_IN_FAN
     }
 
-    /// Triangles of a vertex's fan that stay when it is drawn onto another, with their new corners; none where one of
-    /// them turns over.
-    fn moved(&self, vertex: u32, onto: u32) -> Option<Vec<(u32, [u32; 3])>> {
-        let place_mm = |corner: u32| self.values.place_mm(self.ids[corner as usize]);
-        let across = |[a, b, c]: [u32; 3]| (place_mm(b) - place_mm(a)).cross(place_mm(c) - place_mm(a));
-        let stays =
-            self.fans[vertex as usize].iter().filter(|&&face| !self.faces[face as usize].corners.contains(&onto));
-        stays
-            .map(|&face| {
-                let corners = self.faces[face as usize].corners;
-                let moved = corners.map(|corner| if corner == vertex { onto } else { corner });
-                let (before, after) = (across(corners), across(moved));
-                let [a, b, c] = moved.map(place_mm);
-                let longest_mm2 = a.distance_squared(b).max(b.distance_squared(c)).max(c.distance_squared(a));
-                let sound = before.dot(after) > TURNED * before.length() * after.length();
-                (sound && after.length() > FLATTEST * longest_mm2).then_some((face, moved))
-            })
-            .collect()
+    /// Triangles of a vertex's fan that stay when it is drawn onto another, with their new corners; none for one that
+    /// turns over.
+    fn moved(&self, vertex: u32, onto: u32) -> impl Iterator<Item = Option<(u32, [u32; 3])>> {
+        let across = |[a, b, c]: [DVec3; 3]| (b - a).cross(c - a);
+        let with_corners = self.fans[vertex as usize].iter().map(|&face| (face, self.faces[face as usize].corners));
+        let stays = with_corners.filter(move |(_, corners)| !corners.contains(&onto));
+        stays.map(move |(face, corners)| {
+            let moved = corners.map(|corner| if corner == vertex { onto } else { corner });
+            let [stood_mm, at_mm] =
+                [corners, moved].map(|of| of.map(|corner| self.values.place_mm(self.ids[corner as usize])));
+            let (before, after) = (across(stood_mm), across(at_mm));
+            let [a, b, c] = at_mm;
+            let longest_mm2 = a.distance_squared(b).max(b.distance_squared(c)).max(c.distance_squared(a));
+            let sound = before.dot(after) > TURNED * before.length() * after.length();
+            (sound && after.length() > FLATTEST * longest_mm2).then_some((face, moved))
+        })
     }
 
     /// Square of the distance of a vertex from the triangles that it leaves.
-    fn own_error_mm2(&self, vertex: u32, onto: u32, most_mm2: f64) -> Option<f64> {
-        let moved = self.moved(vertex, onto)?;
+    fn own_error_mm2(&self, vertex: u32, onto: u32) -> Option<f64> {
         let id = self.ids[vertex as usize];
-        let off = moved.iter().filter_map(|&(face, corners)| self.off_mm2(id, face, corners));
-        off.min_by(f64::total_cmp).filter(|&off_mm2| off_mm2 <= most_mm2)
+        let mut least_mm2: Option<f64> = None;
+        for moved in self.moved(vertex, onto) {
+            let (face, corners) = moved?;
+            let off_mm2 = self.off_mm2(id, face, corners);
+            least_mm2 = least_mm2.into_iter().chain(off_mm2).min_by(f64::total_cmp);
+        }
+        least_mm2
     }
 
     fn off_mm2(&self, id: u32, face: u32, corners: [u32; 3]) -> Option<f64> {
@@ -274,9 +298,9 @@ impl<'a> Thinned<'a> {
 
     /// A vertex drawn onto another; none where something over its fan would be farther off than it may.
     fn collapse(&self, vertex: u32, onto: u32, most_mm2: f64) -> Option<Collapse> {
-        let moved = self.moved(vertex, onto)?;
+        let moved = self.moved(vertex, onto);
         let mut changed: Vec<(u32, [u32; 3], Vec<u32>)> =
-            moved.into_iter().map(|(face, corners)| (face, corners, Vec::new())).collect();
+            moved.map(|moved| moved.map(|(face, corners)| (face, corners, Vec::new()))).collect::<Option<_>>()?;
         let fan = &self.fans[vertex as usize];
         let part = |face: u32| self.faces[face as usize].part;
         let mut parts: Vec<usize> = fan.iter().map(|&face| part(face)).collect();
@@ -301,6 +325,7 @@ impl<'a> Thinned<'a> {
     fn apply(&mut self, vertex: u32, Collapse { onto, changed }: Collapse) {
         for face in std::mem::take(&mut self.fans[vertex as usize]) {
             let corners = self.faces[face as usize].corners;
+            corners.iter().for_each(|&corner| self.least_mm2[corner as usize] = None);
             if !corners.contains(&onto) {
                 continue;
             }
