@@ -12,7 +12,7 @@ use crate::scene::model::Gear;
 use crate::surface::SurfaceGrid;
 use crate::surface::triangles::{SectionProfile, in_space};
 use gearcut_core::cut::Backend;
-use gearcut_core::dexel::{Layer, Ray};
+use gearcut_core::dexel::{BlankField, Layer, Ray};
 use gearcut_core::error::Result;
 use gearcut_core::frame::Rigid2;
 use gearcut_core::gear::PitchCurve;
@@ -30,6 +30,17 @@ pub const RAY_HEIGHT_MODULES: f64 = 0.5 * PI;
 pub const ROOT_SPACING_MM: [f64; 2] = [0.02, 1.0];
 /// Distance of tip rays along profile and tooth, mm.
 pub const TIP_SPACING_MM: [f64; 2] = [0.02, 1.0];
+
+/// Takes passes from a blank on a backend.
+pub type CutTrial<'a> = dyn Fn(&dyn Backend, BlankField) -> Result<()> + 'a;
+
+/// Passes over the whole blank on which backends are compared.
+pub struct TrialBlank<'a> {
+    /// The uncut blank.
+    pub uncut: BlankField,
+    /// Takes the passes from it.
+    pub cut: Box<CutTrial<'a>>,
+}
 
 /// A job that is ready to cut.
 pub trait GearJob: Sync {
@@ -125,6 +136,14 @@ pub trait GearJob: Sync {
         arcs_mm: &[f64],
         rows_mm: &[f64],
     ) -> Result<Vec<Layer>>;
+
+    /// Some passes over the whole blank, for a backend on trial; none where the blank is cut as flanks are.
+    ///
+    /// # Errors
+    /// A blank that does not fit in memory.
+    fn trial_blank(&self) -> Result<Option<TrialBlank<'_>>> {
+        Ok(None)
+    }
 
     /// The same job as one of a cylindrical gear, if it is one.
     fn cylindrical(&self) -> Option<&dyn CylindricalGear>;

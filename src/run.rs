@@ -15,7 +15,7 @@ use crate::process::{CutDone, ProcessJob};
 use crate::progress::{Progress, ProgressMode};
 use crate::scene::LoadedScene;
 use crate::steps::backend_trial::BackendTrial;
-use crate::steps::parts::{Parts, Stages};
+use crate::steps::parts::{Parts, Stage, Stages};
 use crate::steps::summary::Summary;
 use crate::steps::{Tools, record};
 use gearcut_core::cut::Backend;
@@ -120,15 +120,15 @@ impl<'a> Run<'a> {
         let mut trial = None;
         if choice.on_trial {
             prepared.with_gear(&mut |gear| {
-                trial = Some(BackendTrial::new(gear, choice.backend.as_ref(), &interrupt)?);
+                let with_blank = stages.has(Stage::Blank);
+                trial = Some(BackendTrial::new(gear, choice.backend.as_ref(), with_blank, &interrupt)?);
                 Ok(())
             })?;
         }
         let native = Cpu::default();
-        let backend: &dyn Backend = match &trial {
-            Some(trial) if !trial.takes_gpu() => &native,
-            _ => choice.backend.as_ref(),
-        };
+        let gpu = choice.backend.as_ref();
+        let faster = trial.as_ref().map(|trial| trial.backends(gpu, &native));
+        let backend = faster.as_ref().map_or(gpu, |faster| faster as &dyn Backend);
         let backend_why = trial.map_or_else(|| choice.why.clone(), |trial| format!("{}, {}", choice.why, trial.why()));
         if choice.on_trial {
             progress.note(&format!("backend: {} ({backend_why})", backend.name()));

@@ -55,7 +55,7 @@ pub fn of_few_places(arguments: &ComputeArguments, json: bool, scene: &Scene) ->
 fn tried(choice: Choice, scene: &Scene) -> Result<Choice, Error> {
     let mut trial = None;
     process::prepare(scene)?.with_gear(&mut |gear| {
-        trial = Some(BackendTrial::new(gear, choice.backend.as_ref(), &Interrupt::default())?);
+        trial = Some(BackendTrial::new(gear, choice.backend.as_ref(), false, &Interrupt::default())?);
         Ok(())
     })?;
     Ok(match trial {

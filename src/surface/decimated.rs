@@ -325,7 +325,9 @@ impl<'a> Thinned<'a> {
     fn apply(&mut self, vertex: u32, Collapse { onto, changed }: Collapse) {
         for face in std::mem::take(&mut self.fans[vertex as usize]) {
             let corners = self.faces[face as usize].corners;
-            corners.iter().for_each(|&corner| self.least_mm2[corner as usize] = None);
+            for corner in corners {
+                self.least_mm2[corner as usize] = None;
+            }
             if !corners.contains(&onto) {
                 continue;
             }

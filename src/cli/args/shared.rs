@@ -17,8 +17,9 @@ pub struct SceneArguments {
 /// How gears are cut.
 #[derive(Debug, Args)]
 pub struct ComputeArguments {
-    /// What computes: auto takes a real GPU that answers within ten seconds; cut tries it on tiles of the scene first
-    /// and takes it only if it is faster [default: auto for cut; cpu for few places at a time, where it is fastest].
+    /// What computes: auto takes a real GPU that answers within ten seconds; cut tries it first, on tiles of flanks and
+    /// on passes over the whole blank of the scene, and takes it for what it cuts faster [default: auto for cut; cpu
+    /// for few places at a time, where it is fastest].
     #[arg(long, value_enum)]
     pub backend: Option<BackendChoice>,
     /// Show no progress and no summary of a cut.
@@ -59,7 +60,7 @@ impl VerdictArguments {
 /// What computes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum BackendChoice {
-    /// A real GPU where there is one (cut: if it is faster on tiles of the scene), else the processor.
+    /// A real GPU where there is one (cut: for what it cuts faster), else the processor.
     Auto,
     /// A GPU, or fail.
     Gpu,

@@ -148,6 +148,18 @@ impl HobCutter<'_> {
         SweptSections::new(passes, reach_mm, self.job.scene.gear.face_width_mm, cull)
     }
 
+    /// The same of so many passes in the middle of the operation.
+    ///
+    /// # Errors
+    /// As [`Self::sections`].
+    pub(super) fn middle_sections(&self, operation: usize, count: u32) -> Result<SweptSections, Refusal> {
+        let passes = &self.operations[operation];
+        let first = passes.first_pass + passes.count().saturating_sub(count) / 2;
+        let reach_mm = BlankOutline::new(&self.job.stock).reach_mm();
+        let is_among = |pass: &BladePass| (first..first + count).contains(&pass.pass);
+        SweptSections::of_some(is_among, passes, reach_mm, self.job.scene.gear.face_width_mm, true)
+    }
+
     /// The same of the passes that go through tooth spaces of these numbers, counted as the teeth before them.
     ///
     /// # Errors

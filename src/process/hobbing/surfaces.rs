@@ -8,7 +8,7 @@
 
 use crate::job::{
     CylindricalGear, GearJob, RAY_DEPTH_MODULES, ROOT_SPACING_MM, TIP_SPACING_MM, ToolSection, ToothFrame,
-    ToothSection, rows_z_mm, teeth_of_extreme_radius,
+    ToothSection, TrialBlank, rows_z_mm, teeth_of_extreme_radius,
 };
 use crate::measure::round_gear::{RoundGear, ToothEnds, is_round};
 use crate::process::hobbing::cutter::HobCutter;
@@ -20,7 +20,7 @@ use crate::surface::flanks::points_of_sections;
 use crate::surface::triangles::SectionProfile;
 use gearcut_core::cut::Backend;
 use gearcut_core::dexel::PlacedRays;
-use gearcut_core::dexel::{Layer, Ray, SpatialField};
+use gearcut_core::dexel::{BlankField, Layer, Ray, SpatialField};
 use gearcut_core::error::Result;
 use gearcut_core::gear::PitchCurve;
 use gearcut_core::gear::blank::Blank;
@@ -33,6 +33,8 @@ use std::f64::consts::PI;
 /// of 60 mm.
 const VIEW_SECTION_MM: f64 = 5.0;
 
+/// Passes over the blank in a trial, those that do not reach it included.
+const TRIAL_PASSES: u32 = 1024;
 /// Share of a root's length at either end over which its rays turn from the flank's normal to the middle of the space.
 const BLEND_SHARE: f64 = 0.2;
 /// Rays of a root end before the point in the middle of the space, where they meet.
@@ -56,6 +58,17 @@ impl GearJob for HobCutter<'_> {
         let (set, operation) = (&self.operations[at], &self.job.operations[at]);
         let hob_rad = set.pass(pass - set.first_pass).tool_angle_rad;
         operation.actual.start_s() + operation.commanded().time_at_hob_angle(hob_rad)
+    }
+
+    /// Passes that a device takes at once, in the middle of the last operation.
+    fn trial_blank(&self) -> Result<Option<TrialBlank<'_>>> {
+        let Some(last) = self.operations.len().checked_sub(1) else { return Ok(None) };
+        let sections = self.middle_sections(last, TRIAL_PASSES)?;
+        let ids = self.operations[last].first_pass..self.operations[last].end_pass();
+        let cut = move |backend: &dyn Backend, mut blank: BlankField| {
+            backend.cut_blank_sweeps(&mut blank, &sections, ids.clone(), &|| true).map(drop)
+        };
+        Ok(Some(TrialBlank { uncut: self.job.blank_field()?, cut: Box::new(cut) }))
     }
 
     fn marks_follow(&self, _operation: usize) -> [bool; 2] {

@@ -7,12 +7,14 @@ use gearcut::cut::cpu::Cpu;
 use gearcut::cut::sweep_chips::SweepsCut;
 use gearcut::cut::{Backend, BlankCut, BlankOperation, CutStats};
 use gearcut::dexel::{BlankField, Field, Layer, SpatialField};
+use gearcut::job::GearJob;
 use gearcut::passes::sections::swept_sections::SweptSections;
 use gearcut::passes::{CutPlan, SweepPlan};
-use gearcut::steps::backend_trial::BackendTrial;
+use gearcut::steps::backend_trial::{BackendTrial, StageTrial};
 use gearcut::{Job, Parts, Result};
 use std::ops::Range;
 use std::path::Path;
+use std::sync::Mutex;
 use std::time::Duration;
 
 /// The native backend, which waits before every planar cut.
@@ -73,7 +75,106 @@ fn a_gpu_that_is_slower_is_not_taken_and_the_record_says_why() {
     assert_eq!(record["backend"], Cpu::default().name());
     let why = record["backend_why"].as_str().expect("a text");
     assert!(why.starts_with("auto: slow, not faster than the processor on tiles of this scene: "), "{why}");
-    assert!(BackendTrial { native_s: 0.02, gpu_s: 0.01, took_s: 0.1 }.takes_gpu());
+    // The blank is tried by itself, on a backend that only waits for flanks.
+    let blank = why.split_once("; ").expect("two verdicts").1;
+    assert!(blank.contains("faster than the processor on passes over the whole blank of this scene: "), "{why}");
+}
+
+/// Seconds of a trial: the processor's and the GPU's.
+fn times(native_s: f64, gpu_s: f64) -> StageTrial {
+    StageTrial { native_s, gpu_s }
+}
+
+#[test]
+fn each_stage_gets_the_faster_backend() {
+    let (slow, native) = (Slow::default(), Cpu::default());
+    let names = |flanks: StageTrial, blank: Option<StageTrial>| {
+        let by = BackendTrial { flanks, blank, took_s: 0.1 }.backends(&slow, &native);
+        (by.flanks.name(), by.blank.name(), by.name())
+    };
+    let (gpu, cpu) = (slow.name(), native.name());
+    let both = |one: &str, other: &str| (one.to_owned(), other.to_owned(), format!("{one}; the whole blank: {other}"));
+    assert_eq!(names(times(2.0, 1.0), Some(times(1.0, 2.0))), both(&gpu, &cpu));
+    assert_eq!(names(times(1.0, 2.0), Some(times(2.0, 1.0))), both(&cpu, &gpu));
+    assert_eq!(names(times(2.0, 1.0), None), (gpu.clone(), gpu.clone(), gpu));
+    assert_eq!(names(times(1.0, 2.0), Some(times(1.0, 2.0))), (cpu.clone(), cpu.clone(), cpu));
+}
+
+/// Passes over the blank that a trial makes, of shaped gears with straight and helical teeth and of a hobbed one: as
+/// many as are meant, and they meet material.
+#[test]
+fn a_trial_takes_material_from_the_blank() {
+    for (scene, settings) in [
+        ("scenes/shaping/circular_m3_z24.toml", &["fields.blank.spacing_mm=1"][..]),
+        ("scenes/shaping/helical.toml", &["fields.blank.spacing_mm=1"][..]),
+        ("scenes/hobbing/circular_helical.toml", &["fields.blank.spacing_mm=1", "fields.blank.slice_spacing_mm=5"][..]),
+    ] {
+        let settings: Vec<String> = settings.iter().map(|&setting| setting.to_owned()).collect();
+        let loaded = gearcut::load(Path::new(scene), &settings).unwrap_or_else(|problems| panic!("{problems}"));
+        let watched = Watched::default();
+        let with_gear = |gear: &dyn GearJob| {
+            let trial = gear.trial_blank()?.expect("a blank that is cut by itself");
+            (trial.cut)(&watched, trial.uncut.clone())
+        };
+        let prepared = gearcut::process::prepare(&loaded.scene).expect("a scene that cuts");
+        prepared.with_gear(&mut |gear| with_gear(gear)).expect("cuts");
+        let removed_mm3 = *watched.removed_mm3.lock().expect("no panic");
+        println!("{scene}: {removed_mm3:?}");
+        assert!(removed_mm3.iter().all(|&mm3| mm3 > 10.0), "{scene}: {removed_mm3:?}");
+    }
+}
+
+/// The native backend, which notes what it takes from the blank.
+#[derive(Default)]
+struct Watched {
+    cpu: Cpu,
+    removed_mm3: Mutex<[f64; 2]>,
+}
+
+impl Watched {
+    fn note(&self, before_mm3: [f64; 2], field: &BlankField) {
+        let after_mm3 = field.volumes_mm3();
+        *self.removed_mm3.lock().expect("no panic") = [0, 1].map(|family| before_mm3[family] - after_mm3[family]);
+    }
+}
+
+impl Backend for Watched {
+    fn name(&self) -> String {
+        "watched".to_owned()
+    }
+
+    fn cut(&self, field: &Field, plan: &CutPlan, layer: &mut Layer) -> Result<CutStats> {
+        self.cpu.cut(field, plan, layer)
+    }
+
+    fn cut_blank(
+        &self,
+        field: &mut BlankField,
+        operation: &BlankOperation,
+        advance: &(dyn Fn() -> bool + Sync),
+    ) -> Result<Option<BlankCut>> {
+        let before_mm3 = field.volumes_mm3();
+        let cut = self.cpu.cut_blank(field, operation, advance)?;
+        self.note(before_mm3, field);
+        Ok(cut)
+    }
+
+    fn cut_blank_sweeps(
+        &self,
+        field: &mut BlankField,
+        sections: &SweptSections,
+        passes: Range<u32>,
+        advance: &(dyn Fn() -> bool + Sync),
+    ) -> Result<Option<SweepsCut>> {
+        let before_mm3 = field.volumes_mm3();
+        let cut = self.cpu.cut_blank_sweeps(field, sections, passes, advance)?;
+        self.note(before_mm3, field);
+        Ok(cut)
+    }
+
+    fn cut_spatial(&self, field: &SpatialField, plan: &SweepPlan, layer: &mut Layer) -> Result<CutStats> {
+        self.cpu.cut_spatial(field, plan, layer)
+    }
 }
 
 #[test]
@@ -94,9 +195,10 @@ fn rates_are_those_of_the_backend_kernel_by_kernel() {
 #[test]
 fn a_choice_on_trial_is_settled_with_its_reason() {
     let on_trial = || Choice { backend: Box::new(Slow::default()), why: "auto: slow".to_owned(), on_trial: true };
-    let faster = BackendTrial { native_s: 0.02, gpu_s: 0.01, took_s: 0.09 }.settle(on_trial());
+    let settled = |flanks| BackendTrial { flanks, blank: None, took_s: 0.09 }.settle(on_trial());
+    let faster = settled(times(0.02, 0.01));
     assert_eq!(faster.backend.name(), "slow");
-    let slower = BackendTrial { native_s: 0.01, gpu_s: 0.02, took_s: 0.09 }.settle(on_trial());
+    let slower = settled(times(0.01, 0.02));
     assert_eq!(slower.backend.name(), Cpu::default().name());
     for (settled, verdict) in [(faster, "faster"), (slower, "not faster")] {
         assert!(!settled.on_trial && settled.why.starts_with(&format!("auto: slow, {verdict} than the processor")));

@@ -6,6 +6,7 @@
 //! leave the same height the lowest id wins, so the result does not depend on any order of work.
 
 pub mod blank;
+mod by_stage;
 pub mod cpu;
 pub mod sweep_chips;
 pub mod swept;
@@ -21,6 +22,7 @@ use std::sync::OnceLock;
 use sweep_chips::SweepsCut;
 
 pub use blank::{BlankCut, BlankOperation, BlankStats, CutBlank, Rub};
+pub use by_stage::ByStage;
 pub use swept::{MakeSwept, SweptBy, SweptField, TakeSwept};
 
 /// Heights below this are the kernels' own error and shown as zero, µm.

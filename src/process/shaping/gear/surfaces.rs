@@ -4,7 +4,9 @@
 //! normals of the pitch curve.
 
 use crate::findings::Notice;
-use crate::job::{CylindricalGear, GearJob, ToolSection, ToothFrame, ToothSection, rows_z_mm, teeth_of_extreme_radius};
+use crate::job::{
+    CylindricalGear, GearJob, ToolSection, ToothFrame, ToothSection, TrialBlank, rows_z_mm, teeth_of_extreme_radius,
+};
 use crate::measure::round_gear::{RoundGear, ToothEnds, is_round};
 use crate::measure::thickness::Thickness;
 use crate::process::shaping::cut::section::{CutSection, cutter_outline};
@@ -17,7 +19,7 @@ use crate::surface::SurfaceGrid;
 use crate::surface::flanks::points_of_sections;
 use crate::surface::triangles::SectionProfile;
 use gearcut_core::cut::Backend;
-use gearcut_core::dexel::{Layer, Ray};
+use gearcut_core::dexel::{BlankField, Layer, Ray};
 use gearcut_core::error::Result;
 use gearcut_core::frame::Rigid2;
 use gearcut_core::gear::PitchCurve;
@@ -28,6 +30,9 @@ use glam::DVec2;
 /// Distance of the sections that show a helical gear's shape, mm: chords a micrometre off a helix of 20 deg on a radius
 /// of 60 mm.
 const VIEW_SECTION_MM: f64 = 5.0;
+
+/// Strokes over the blank in a trial.
+const TRIAL_STROKES: usize = 256;
 
 impl GearJob for ShapingJob {
     fn scene(&self) -> &Scene {
@@ -55,6 +60,24 @@ impl GearJob for ShapingJob {
 
     fn marks_follow(&self, operation: usize) -> [bool; 2] {
         [self.operations[operation].spec.feed_during_stroke || self.helix.is_some(), true]
+    }
+
+    /// Strokes in the middle of the last operation; of a helical gear in the middle of the face.
+    fn trial_blank(&self) -> Result<Option<TrialBlank<'_>>> {
+        let Some(last) = self.operations.last() else { return Ok(None) };
+        let strokes = if self.helix.is_some() { self.strokes_in_section(last, 0.0) } else { last.strokes.clone() };
+        let first = strokes.count().saturating_sub(TRIAL_STROKES) / 2;
+        let some = vec![strokes.some(first..strokes.count().min(first + TRIAL_STROKES))];
+        let mut uncut = self.planar().blank_field()?;
+        if self.helix.is_some() {
+            // A slice alone stands for the whole face.
+            uncut.slices.truncate(1);
+            uncut.grid.slices_z_mm = vec![0.0];
+        }
+        let cut = move |backend: &dyn Backend, blank: BlankField| {
+            self.planar_of(&some).cut_blank(backend, blank, |_| None, &|| true).map(drop)
+        };
+        Ok(Some(TrialBlank { uncut, cut: Box::new(cut) }))
     }
 
     fn profile_length_mm(&self, tooth: u32, side: Side) -> Result<f64> {

@@ -16,6 +16,7 @@ use crate::frame::Rigid2;
 use crate::tool::PlanarTool;
 use arrayvec::ArrayVec;
 use glam::DVec2;
+use std::ops::Range;
 
 /// Nodes of the cubic in tau (Chebyshev of the first kind on [-1, 1]).
 pub const NODES: [f64; 4] =
@@ -164,6 +165,14 @@ impl StrokeSet {
         let nodes = self.phases().len();
         let poses = self.poses.iter().enumerate().map(|(index, pose)| displaced(index / nodes, pose));
         Self::of_poses(poses.collect(), self)
+    }
+
+    /// Some of those strokes.
+    #[must_use]
+    pub fn some(&self, strokes: Range<usize>) -> Self {
+        let (nodes, first_pass) = (self.phases().len(), self.pass_id(strokes.start, 0));
+        let poses = self.poses[strokes.start * nodes..strokes.end * nodes].to_vec();
+        Self { first_pass, ..Self::of_poses(poses, self) }
     }
 
     /// Other poses of the same strokes.
