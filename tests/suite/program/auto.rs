@@ -1,6 +1,7 @@
 //! A GPU that nobody asked for by name is taken only if it is faster than the processor.
 
 use crate::fixtures::command::read_json;
+use crate::fixtures::parity::{software_gpu, strict};
 use gearcut::backend::Choice;
 use gearcut::bench::kernel_rates;
 use gearcut::cut::cpu::Cpu;
@@ -100,51 +101,59 @@ fn each_stage_gets_the_faster_backend() {
     assert_eq!(names(times(1.0, 2.0), Some(times(1.0, 2.0))), (cpu.clone(), cpu.clone(), cpu));
 }
 
-/// Passes over the blank that a trial makes, of shaped gears with straight and helical teeth and of a hobbed one: as
-/// many as are meant, and they meet material.
+/// Passes over the blank that a trial makes, of shaped gears with straight and helical teeth and of a hobbed one: they
+/// meet material, and a GPU takes as much of it as the processor.
 #[test]
 fn a_trial_takes_material_from_the_blank() {
+    let gpu = software_gpu(strict());
     for (scene, settings) in [
-        ("scenes/shaping/circular_m3_z24.toml", &["fields.blank.spacing_mm=1"][..]),
-        ("scenes/shaping/helical.toml", &["fields.blank.spacing_mm=1"][..]),
-        ("scenes/hobbing/circular_helical.toml", &["fields.blank.spacing_mm=1", "fields.blank.slice_spacing_mm=5"][..]),
+        ("scenes/shaping/circular_m3_z24.toml", &["fields.blank.spacing_mm=2"][..]),
+        ("scenes/shaping/helical.toml", &["fields.blank.spacing_mm=2"][..]),
+        (
+            "scenes/hobbing/circular_helical.toml",
+            &["fields.blank.spacing_mm=2", "fields.blank.slice_spacing_mm=10"][..],
+        ),
     ] {
         let settings: Vec<String> = settings.iter().map(|&setting| setting.to_owned()).collect();
         let loaded = gearcut::load(Path::new(scene), &settings).unwrap_or_else(|problems| panic!("{problems}"));
-        let watched = Watched::default();
-        let with_gear = |gear: &dyn GearJob| {
-            let trial = gear.trial_blank()?.expect("a blank that is cut by itself");
-            (trial.cut)(&watched, trial.uncut.clone())
-        };
         let prepared = gearcut::process::prepare(&loaded.scene).expect("a scene that cuts");
-        prepared.with_gear(&mut |gear| with_gear(gear)).expect("cuts");
-        let removed_mm3 = *watched.removed_mm3.lock().expect("no panic");
-        println!("{scene}: {removed_mm3:?}");
-        assert!(removed_mm3.iter().all(|&mm3| mm3 > 10.0), "{scene}: {removed_mm3:?}");
+        let removed_mm3 = |backend: &dyn Backend| {
+            let watched = Watched { backend, removed_mm3: Mutex::default() };
+            let with_gear = |gear: &dyn GearJob| {
+                let trial = gear.trial_blank()?.expect("a blank that is cut by itself");
+                (trial.cut)(&watched, trial.uncut.clone())
+            };
+            prepared.with_gear(&mut |gear| with_gear(gear)).expect("cuts");
+            watched.removed_mm3.into_inner().expect("no panic")
+        };
+        let [native_mm3, gpu_mm3] = [removed_mm3(&Cpu::default()), removed_mm3(&gpu)];
+        println!("{scene}: {native_mm3:?} {gpu_mm3:?}");
+        for (native_mm3, gpu_mm3) in native_mm3.iter().zip(gpu_mm3) {
+            assert!(*native_mm3 > 10.0 && (gpu_mm3 / native_mm3 - 1.0).abs() < 1e-6, "{scene}");
+        }
     }
 }
 
-/// The native backend, which notes what it takes from the blank.
-#[derive(Default)]
-struct Watched {
-    cpu: Cpu,
+/// A backend, and what it takes from the blank.
+struct Watched<'a> {
+    backend: &'a dyn Backend,
     removed_mm3: Mutex<[f64; 2]>,
 }
 
-impl Watched {
+impl Watched<'_> {
     fn note(&self, before_mm3: [f64; 2], field: &BlankField) {
         let after_mm3 = field.volumes_mm3();
         *self.removed_mm3.lock().expect("no panic") = [0, 1].map(|family| before_mm3[family] - after_mm3[family]);
     }
 }
 
-impl Backend for Watched {
+impl Backend for Watched<'_> {
     fn name(&self) -> String {
         "watched".to_owned()
     }
 
     fn cut(&self, field: &Field, plan: &CutPlan, layer: &mut Layer) -> Result<CutStats> {
-        self.cpu.cut(field, plan, layer)
+        self.backend.cut(field, plan, layer)
     }
 
     fn cut_blank(
@@ -154,7 +163,7 @@ impl Backend for Watched {
         advance: &(dyn Fn() -> bool + Sync),
     ) -> Result<Option<BlankCut>> {
         let before_mm3 = field.volumes_mm3();
-        let cut = self.cpu.cut_blank(field, operation, advance)?;
+        let cut = self.backend.cut_blank(field, operation, advance)?;
         self.note(before_mm3, field);
         Ok(cut)
     }
@@ -167,13 +176,13 @@ impl Backend for Watched {
         advance: &(dyn Fn() -> bool + Sync),
     ) -> Result<Option<SweepsCut>> {
         let before_mm3 = field.volumes_mm3();
-        let cut = self.cpu.cut_blank_sweeps(field, sections, passes, advance)?;
+        let cut = self.backend.cut_blank_sweeps(field, sections, passes, advance)?;
         self.note(before_mm3, field);
         Ok(cut)
     }
 
     fn cut_spatial(&self, field: &SpatialField, plan: &SweepPlan, layer: &mut Layer) -> Result<CutStats> {
-        self.cpu.cut_spatial(field, plan, layer)
+        self.backend.cut_spatial(field, plan, layer)
     }
 }
 
