@@ -123,6 +123,10 @@ impl Exporter<'_> {
             self.sheet.heading(&path.display().to_string());
             self.sheet.line("path of the wire", format!("{arcs} arcs and {lines} lines"));
             self.sheet.line("read back, off the profile", format!("{least_um} to {most_um} um"));
+            if let Some(dwell_mm) = program.dwell_mm {
+                let words = format!("{} um, as the wire is round", significant(dwell_mm * UM_PER_MM, 2));
+                self.sheet.line("left in the dwell's corners", words);
+            }
         }
         Ok(())
     }
@@ -196,6 +200,9 @@ fn unit(arguments: &ExportArguments) -> FileUnit {
     }
 }
 
+/// The narrowest spark gap, um: a length in mm in its place is found by it.
+const LEAST_GAP_UM: f64 = 1.0;
+
 /// The wire; programs and solids are in mm.
 fn wire_wish(arguments: &ExportArguments, section: &SectionWish) -> Result<WireWish, Refusal> {
     for (path, what) in [(&arguments.wire, "programs of wire erosion"), (&arguments.step, "STEP files")] {
@@ -214,6 +221,11 @@ fn wire_wish(arguments: &ExportArguments, section: &SectionWish) -> Result<WireW
             let problem = format!("{value} is not {least} to {most}");
             return Err(Refusal::new(option, problem, "give a value in this range"));
         }
+    }
+    if arguments.gap_um > 0.0 && arguments.gap_um < LEAST_GAP_UM {
+        let problem = format!("{} um is no spark gap; one of millimetres?", arguments.gap_um);
+        let mm_meant = plain(arguments.gap_um * UM_PER_MM);
+        return Err(Refusal::new("--gap-um", problem, format!("give --gap-um {mm_meant} for that, or 0 for none")));
     }
     Ok(WireWish {
         wire_mm: arguments.wire_diameter_um / UM_PER_MM,

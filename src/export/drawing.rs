@@ -68,7 +68,7 @@ impl Drawing {
         let place = format!("transverse section {} mm from the middle of the face", plain(wish.z_mm));
         let notes = vec![
             format!("{}: {}", scene.name, place),
-            "gear frame: axis at the origin, a tooth space on the x axis, tooth 1 counter-clockwise of it".to_owned(),
+            format!("gear frame: axis at the origin, {}", zero_words(gear)),
             within(wish.tolerance_mm),
         ];
         Self { notes, layers }
@@ -93,6 +93,15 @@ impl Drawing {
         let points: Vec<DVec2> = corners.collect();
         let low = points.iter().copied().reduce(DVec2::min).unwrap_or_default();
         [low, points.into_iter().reduce(DVec2::max).unwrap_or_default()]
+    }
+}
+
+/// What lies on the x axis of the gear's frame.
+pub fn zero_words(gear: &dyn CylindricalGear) -> &'static str {
+    if gear.curve().sector_rad().is_some() {
+        "phi = 0 of the pitch curve on the x axis"
+    } else {
+        "a tooth space on the x axis, tooth 1 counter-clockwise of it"
     }
 }
 

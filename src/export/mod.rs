@@ -17,6 +17,7 @@
 //! | [`cut_heights`] | heights of a cut flank, where strokes reach |
 //! | [`points`] | points of flanks with their normals, as CSV |
 //! | [`qif`] | the same points as a QIF document |
+//! | [`wire_centre`] | where the centre of a wire runs beside a profile |
 //! | [`wire`] | programs of wire erosion |
 //! | [`mod@unit`] | units of length, and how numbers are written |
 
@@ -35,3 +36,4 @@ pub mod step;
 pub mod unit;
 pub mod walls;
 pub mod wire;
+pub mod wire_centre;

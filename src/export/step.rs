@@ -10,6 +10,7 @@
 //! more, and puts the time into each file: the same scene would no longer give the same bytes.
 
 use super::b_spline::{CubicKnots, DEGREE};
+use super::drawing::zero_words;
 use super::section::{ProfileSource, SectionWish};
 use super::unit::fixed;
 use crate::job::GearJob;
@@ -54,18 +55,18 @@ impl StepWords {
         };
         let of = if is_solid { "profile" } else { "flanks" };
         let within = format!("faces are within {} um of the {of}", plain(wish.tolerance_mm * UM_PER_MM));
-        let notes = vec![format!("{name}: {what}"), within, frame_words(gear).to_owned()];
+        let notes = vec![format!("{name}: {what}"), within, frame_words(gear)];
         Self { name, notes, tolerance_mm: wish.tolerance_mm }
     }
 }
 
 /// The frame of exported points and faces.
-pub fn frame_words(gear: &dyn GearJob) -> &'static str {
-    if gear.cylindrical().is_some() {
-        "gear frame: axis along z, z = 0 in the middle of the face, a tooth space on the x axis"
-    } else {
-        "gear frame: axis along z, the apex of the pitch cone at the origin, the back below it, a tooth space on the x \
-         axis"
+pub fn frame_words(gear: &dyn GearJob) -> String {
+    match gear.cylindrical() {
+        Some(gear) => format!("gear frame: axis along z, z = 0 in the middle of the face, {}", zero_words(gear)),
+        None => "gear frame: axis along z, the apex of the pitch cone at the origin, the back below it, a tooth space \
+                 on the x axis"
+            .to_owned(),
     }
 }
 

@@ -5,34 +5,37 @@
 //! program's own reader has it, judged against the profile.
 //!
 //! **Law.** The wire cuts a circle of radius d = half its diameter and the gap. Its centre runs d beside the profile in
-//! the air, on an arc of radius d round every corner that stands out. Where the profile is hollow with a radius below
-//! d, or narrower than 2 d, the offset path comes nearer to another part of the profile than d: every place of it is
-//! looked at, and such a profile is refused.
+//! the air ([`super::wire_centre`]), so that it leaves material where the profile is hollow with a radius below d, or
+//! narrower than 2 d. Up to the tolerance that is as good as the profile: so low marks of a cut one are passed over.
+//! More is refused with its place. Of a sector's dwell alone any is left, in the corners at the feet of its walls,
+//! which nothing meets; the program and the command say how much.
 
 use super::arcs::{ArcPath, ArcVertex, PathPieces, distinct};
+use super::drawing::zero_words;
 use super::section::FIT_SHARE;
 use super::unit::{FileUnit, fixed};
+use super::wire_centre::centre_path;
 use crate::gcode::{Grammar, Move, ProgramArc, ascii, statements};
 use crate::job::CylindricalGear;
 use crate::machine::AxisKind;
 use crate::measure::target_outline::TargetOutline;
-use crate::number_text::plain;
+use crate::number_text::{plain, significant};
 use gearcut_core::error::Refusal;
 use gearcut_core::gear::Back;
 use gearcut_core::units::UM_PER_MM;
 use glam::DVec2;
+use rayon::prelude::*;
 use std::f64::consts::{PI, TAU};
 use std::fmt::Write as _;
 
-/// A chain turns by more than this at corners, rad; round them the wire goes in steps of at most so much.
-const CORNER_RAD: f64 = 0.2;
-const CORNER_STEP_RAD: f64 = 0.04;
 /// Share of the tolerance by which chords of the chain may come nearer than d.
 const CHORD_SHARE: f64 = 0.1;
 /// Points nearer to the one before than this share of the tolerance are left out.
 const NEAREST_SHARE: f64 = 0.1;
 /// Places at which a program is judged are so far apart, mm.
 const JUDGED_MM: f64 = 0.01;
+/// What is left is looked for so many distances of the wire off the path.
+const MOST_OFFSETS: f64 = 20.0;
 /// Both radii of an arc agree to this, mm; LinuxCNC allows a thousand times as much.
 const RADII_MM: f64 = 1e-5;
 
@@ -67,6 +70,8 @@ pub struct WireProgram {
     pub path: ArcPath,
     /// How far what the read program cuts is off the profile, mm, negative where it cuts into the gear: least and most.
     pub off_mm: [f64; 2],
+    /// The most that the wire leaves in the corners of a sector's dwell, mm.
+    pub dwell_mm: Option<f64>,
 }
 
 impl WireProgram {
@@ -85,9 +90,16 @@ impl WireProgram {
         let outline = TargetOutline::new(chain.clone(), blank.back);
         let first = nearest(&chain, tip_middle_mm(gear));
         chain.rotate_left(first);
-        let mut centre = offset_chain(&chain, blank.kind().tip_sign() * wish.offset_mm());
-        centre.push(centre[0]);
-        clear_of_profile(&centre, &outline, wish)?;
+        let nearest_mm = wish.offset_mm() - CHORD_SHARE * wish.tolerance_mm;
+        let centre = centre_path(&chain, &outline, wish.offset_mm(), nearest_mm);
+        let centre = centre.ok_or_else(|| left(wish, chain[0], None))?;
+        let (dwell, profile): (Vec<DVec2>, Vec<DVec2>) =
+            chain.iter().partition(|p| blank.dwell().is_some_and(|dwell| dwell.has(**p)));
+        let left_mm = |places: &[DVec2]| most_left(&centre, places, wish);
+        let dwell_mm = left_mm(&dwell).map(|(left_mm, _)| left_mm);
+        if let Some((left_mm, place_mm)) = left_mm(&profile).filter(|(left_mm, _)| *left_mm > wish.tolerance_mm) {
+            return Err(left(wish, place_mm, Some(left_mm)));
+        }
         let path = ArcPath::fit(&centre, false, FIT_SHARE * wish.tolerance_mm, PathPieces::Arcs);
         let outwards = (centre[0] - chain[0]).normalize_or_zero();
         let hole_mm = centre[0] + wish.lead_mm * outwards;
@@ -97,11 +109,16 @@ impl WireProgram {
                 format!("{} mm from the path the start hole is {near_mm:.3} mm from the profile", wish.lead_mm);
             return Err(Refusal::new("--lead-mm", problem, "give a shorter lead"));
         }
-        let text = text(&path, hole_mm, wish, &gear.scene().name);
+        let text = text(gear, &path, hole_mm, dwell_mm, wish);
         let read = read(&text).map_err(|why| {
             Refusal::new("--wire", format!("the program cannot be read back: {why}"), "please report this")
         })?;
-        Ok(Self { text, path, off_mm: judged(&read, &chain, &outline, wish) })
+        let off_mm = judged(&read, &profile, &outline, wish);
+        if off_mm[0] < -(1.0 + CHORD_SHARE) * wish.tolerance_mm {
+            let problem = format!("the program would cut {:.3} um into the gear", -off_mm[0] * UM_PER_MM);
+            return Err(Refusal::new("--wire", problem, "allow another --tolerance-um, and please report this"));
+        }
+        Ok(Self { text, path, off_mm, dwell_mm })
     }
 }
 
@@ -116,69 +133,58 @@ fn nearest(chain_mm: &[DVec2], place_mm: DVec2) -> usize {
     (0..chain_mm.len()).min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap_or_default()
 }
 
-/// The closed chain moved aside to its right by `right_mm`, with arcs round corners that stand out on that side.
-fn offset_chain(chain: &[DVec2], right_mm: f64) -> Vec<DVec2> {
-    let count = chain.len();
-    let mut moved = Vec::with_capacity(count);
-    for (i, &point) in chain.iter().enumerate() {
-        let before = (point - chain[(i + count - 1) % count]).normalize_or_zero();
-        let after = (chain[(i + 1) % count] - point).normalize_or_zero();
-        let turn = before.angle_to(after);
-        let aside = |along: DVec2| -right_mm * along.perp();
-        if turn.abs() <= CORNER_RAD {
-            moved.push(point + aside((before + after).normalize_or_zero()));
-            continue;
-        }
-        // A corner that is hollow on the wire's side gives both ends; what lies between is too near.
-        let steps = if turn * right_mm > 0.0 { (turn.abs() / CORNER_STEP_RAD).ceil() as u32 } else { 1 };
-        moved.extend((0..=steps).map(|step| {
-            let along = DVec2::from_angle(turn * f64::from(step) / f64::from(steps)).rotate(before);
-            point + aside(along)
-        }));
-    }
-    moved
+/// The most that the wire leaves of the profile's places, and where.
+fn most_left(centre: &[DVec2], places_mm: &[DVec2], wish: &WireWish) -> Option<(f64, DVec2)> {
+    let wire = TargetOutline::new(centre.to_vec(), Back::bore(0.0));
+    let offset_mm = wish.offset_mm();
+    let left =
+        |&p: &DVec2| (wire.distance_mm(p, MOST_OFFSETS * offset_mm).map_or(f64::INFINITY, f64::abs) - offset_mm, p);
+    places_mm.par_iter().map(left).max_by(|a, b| a.0.total_cmp(&b.0))
 }
 
-/// Refuses a path that comes nearer to the profile than the wire and its gap.
-fn clear_of_profile(centre: &[DVec2], outline: &TargetOutline, wish: &WireWish) -> Result<(), Refusal> {
-    let offset_mm = wish.offset_mm();
-    let allowed_mm = offset_mm - CHORD_SHARE * wish.tolerance_mm;
-    let depth_mm = |p: &DVec2| {
-        let near_mm = outline.distance_mm(*p, 2.0 * offset_mm).unwrap_or(f64::INFINITY);
-        (allowed_mm - near_mm, *p)
-    };
-    let deepest = centre.iter().map(depth_mm).max_by(|a, b| a.0.total_cmp(&b.0));
-    let Some((depth_mm, place_mm)) = deepest.filter(|(depth_mm, _)| *depth_mm > 0.0) else { return Ok(()) };
+/// A profile that the wire cannot follow: how much of it would be left at a place, as far as that is looked for.
+fn left(wish: &WireWish, place_mm: DVec2, left_mm: Option<f64>) -> Refusal {
+    let left = left_mm.filter(|left_mm| left_mm.is_finite());
+    let left = left.map_or_else(|| "more than it is wide".to_owned(), |mm| format!("{} mm", significant(mm, 2)));
     let problem = format!(
-        "a wire of {} mm with a gap of {} mm would cut {:.3} mm into the gear at the polar angle {:.3} deg, {:.3} mm \
-         from the axis: the profile is more hollow there than {offset_mm} mm",
+        "a wire of {} mm with a gap of {} mm would leave {left} in a hollow at the polar angle {:.3} deg, {:.3} mm \
+         from the axis: the profile has a radius below {} mm there, or its sides are too near",
         plain(wish.wire_mm),
         plain(wish.gap_mm),
-        depth_mm,
         place_mm.to_angle().to_degrees(),
-        place_mm.length()
+        place_mm.length(),
+        shown_offset(wish)
     );
-    let way_out = "use a thinner wire (--wire-diameter-um), or a tool with a larger tip radius";
-    Err(Refusal::new("--wire-diameter-um", problem, way_out))
+    let way_out = "use a thinner wire (--wire-diameter-um), allow more (--tolerance-um), take a tool with a larger tip \
+                   radius, or leave --as-cut out, with which every mark is followed";
+    Refusal::new("--wire-diameter-um", problem, way_out)
 }
 
-fn text(path: &ArcPath, hole_mm: DVec2, wish: &WireWish, name: &str) -> String {
+/// The wire's distance as it is said, mm.
+fn shown_offset(wish: &WireWish) -> String {
+    plain((wish.offset_mm() * 1e9).round() / 1e9)
+}
+
+fn text(gear: &dyn CylindricalGear, path: &ArcPath, hole_mm: DVec2, dwell_mm: Option<f64>, wish: &WireWish) -> String {
     let unit = FileUnit::Millimetre;
     let place = |p: DVec2| format!("X{} Y{}", unit.shown(p.x), unit.shown(p.y));
     let mut text = String::from("%\n");
     for words in [
-        format!("gearcut {}: wire round the section of {}", env!("CARGO_PKG_VERSION"), ascii(name)),
+        format!("gearcut {}: wire round the section of {}", env!("CARGO_PKG_VERSION"), ascii(&gear.scene().name)),
         format!(
             "wire {} mm, gap {} mm: its centre {} mm beside the profile, within {} um",
             plain(wish.wire_mm),
             plain(wish.gap_mm),
-            plain(wish.offset_mm()),
+            shown_offset(wish),
             plain(wish.tolerance_mm * UM_PER_MM)
         ),
-        "gear frame: axis at the origin, a tooth space on the X axis".to_owned(),
+        format!("gear frame: axis at the origin, {}", zero_words(gear)),
         "F is the largest feed: the generator holds the gap".to_owned(),
     ] {
         let _ = writeln!(text, "({words})");
+    }
+    if let Some(dwell_mm) = dwell_mm {
+        let _ = writeln!(text, "(in the corners of the dwell it leaves {} mm)", significant(dwell_mm, 2));
     }
     let _ = writeln!(text, "G17 G21 G90 G94\n(start hole)\nG0 {}\n(thread the wire)\nM0", place(hole_mm));
     let _ = writeln!(text, "G1 {} F{}", place(path.vertices[0].point_mm), plain(wish.feed_mm_per_min));
@@ -242,8 +248,8 @@ fn bulge(arc: &ProgramArc, from: DVec2, to: DVec2) -> Result<f64, String> {
 }
 
 /// How far what a read path cuts is off the profile: least and most over the path, its leads left out, and over the
-/// profile, so that nothing is left out.
-fn judged(read: &ArcPath, chain_mm: &[DVec2], outline: &TargetOutline, wish: &WireWish) -> [f64; 2] {
+/// profile but for a dwell, so that nothing is left out.
+fn judged(read: &ArcPath, profile_mm: &[DVec2], outline: &TargetOutline, wish: &WireWish) -> [f64; 2] {
     // The first piece leads in, the last one out.
     let round = &read.vertices[1..read.vertices.len() - 1];
     let places = ArcPath { vertices: round.to_vec(), is_closed: false }.places_mm(JUDGED_MM);
@@ -251,7 +257,7 @@ fn judged(read: &ArcPath, chain_mm: &[DVec2], outline: &TargetOutline, wish: &Wi
     let most_mm = 4.0 * offset_mm;
     let own = places.iter().map(|&p| outline.distance_mm(p, most_mm).unwrap_or(most_mm) - offset_mm);
     let wire = TargetOutline::new(places.clone(), Back::bore(0.0));
-    let reached = chain_mm.iter().map(|&p| wire.distance_mm(p, most_mm).map_or(most_mm, f64::abs) - offset_mm);
+    let reached = profile_mm.iter().map(|&p| wire.distance_mm(p, most_mm).map_or(most_mm, f64::abs) - offset_mm);
     // A profile place at a corner is as near to the wire as at its flanks: only what is not reached counts there.
     own.chain(reached.filter(|off| *off > 0.0))
         .fold([f64::INFINITY, f64::NEG_INFINITY], |[least, most], off| [least.min(off), most.max(off)])

@@ -55,6 +55,11 @@ impl TargetOutline {
         &self.points_mm
     }
 
+    /// The stock's other side.
+    pub fn back(&self) -> Back {
+        self.back
+    }
+
     fn segment(&self, index: usize) -> [DVec2; 2] {
         [self.points_mm[index], self.points_mm[(index + 1) % self.points_mm.len()]]
     }
@@ -163,7 +168,8 @@ impl TargetOutline {
                 for c in (left..=right).step_by(step) {
                     for &index in &self.buckets[r * self.columns + c] {
                         let found = signed_distance(self.segment(index as usize), p);
-                        if best.is_none_or(|b| found < b) {
+                        // Both segments of a corner are as near; the one that is squarer to the way there has the side.
+                        if best.is_none_or(|b| found.0 < b.0 || found.0 == b.0 && found.1.abs() > b.1.abs()) {
                             best = Some(found);
                         }
                     }
@@ -175,13 +181,12 @@ impl TargetOutline {
     }
 }
 
-/// Distance from a segment, and a measure of the side (positive on the right) that is largest in magnitude, with
-/// negative sign in the first place of ties, for the segment that decides at a corner.
+/// Distance from a segment, and how far the point is beside its line, mm, positive on the right.
 fn signed_distance([a, b]: [DVec2; 2], p: DVec2) -> (f64, f64) {
     let along = b - a;
     let share = ((p - a).dot(along) / along.length_squared().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
-    let distance = p.distance(a + share * along);
-    (distance, -along.normalize_or_zero().perp_dot(p - a))
+    let foot = if share == 1.0 { b } else { a + share * along };
+    (p.distance(foot), -along.normalize_or_zero().perp_dot(p - a))
 }
 
 #[cfg(test)]

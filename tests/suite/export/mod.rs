@@ -9,6 +9,7 @@ mod qif;
 mod sections;
 mod solids;
 mod wire;
+mod wire_centre;
 
 use crate::fixtures::command::gearcut;
 use glam::DVec2;

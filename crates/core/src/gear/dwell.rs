@@ -14,6 +14,9 @@ use crate::parameter;
 use crate::units::TURN_RAD;
 use glam::DVec2;
 
+/// Places of the outline as near to the dwell lie on it, mm.
+const ON_DWELL_MM: f64 = 1e-6;
+
 /// Outline of the stock over the dwell of a sector.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Dwell {
@@ -61,6 +64,13 @@ impl Dwell {
     pub fn arc_rad(&self) -> [f64; 2] {
         let [first, last] = self.feet_mm.map(DVec2::to_angle);
         [last, last + (first - last).rem_euclid(TURN_RAD)]
+    }
+
+    /// Whether a place of the gear's outline lies on the dwell: on its arc, or on one of its walls.
+    pub fn has(&self, point_mm: DVec2) -> bool {
+        let on_wall = |at: usize| (point_mm - self.feet_mm[at]).dot(self.normals[at]).abs() < ON_DWELL_MM;
+        let beyond = |at: usize| (point_mm - self.feet_mm[at]).dot(self.feet_mm[at]) >= 0.0;
+        (point_mm.length() - self.radius_mm).abs() < ON_DWELL_MM || (0..2).any(|at| on_wall(at) && beyond(at))
     }
 
     /// Points and outward normals from a place on the wall at the end of the sector to one on the wall at its

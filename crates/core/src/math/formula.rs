@@ -76,7 +76,7 @@ impl Formula {
         let mut reader = FormulaReader { text, at: 0, depth: 0 };
         let term = reader.sum()?;
         if reader.peek().is_some() {
-            return Err(reader.fault("this belongs to nothing: an operator is missing before it"));
+            return Err(reader.stray("this belongs to nothing: an operator is missing before it"));
         }
         Ok(Self { text: text.to_owned(), term })
     }
@@ -157,6 +157,14 @@ impl FormulaReader<'_> {
     fn fault(&mut self, message: impl Into<String>) -> FormulaFault {
         let length = self.peek().map_or(0, char::len_utf8);
         FormulaFault { at: self.at..self.at + length, message: message.into() }
+    }
+
+    /// A character where the formula should go on otherwise; a comma is mostly a decimal one.
+    fn stray(&mut self, message: &str) -> FormulaFault {
+        match self.peek() {
+            Some(',') => self.fault("numbers have a point, such as 0.3, and a function takes one value"),
+            _ => self.fault(message),
+        }
     }
 
     fn sum(&mut self) -> Read {
@@ -244,7 +252,7 @@ impl FormulaReader<'_> {
         }
         match self.peek() {
             None => Err(FormulaFault { at: open..open + 1, message: "this bracket is never closed".to_owned() }),
-            Some(_) => Err(self.fault("an operator or a closing bracket is missing before this")),
+            Some(_) => Err(self.stray("an operator or a closing bracket is missing before this")),
         }
     }
 

@@ -56,6 +56,8 @@ fn what_is_no_formula_is_refused_at_its_place() {
         ("1 + ", 4..4, "ends"),
         ("1 + * 2", 4..5, "`*` is no value"),
         ("2 phi", 2..3, "operator is missing"),
+        ("1 + 0,3*phi", 5..6, "numbers have a point"),
+        ("sin(0,3)", 5..6, "numbers have a point"),
         ("sin(phi", 3..4, "never closed"),
         ("sin phi", 0..3, "into brackets"),
         ("1 + 0.3*sinus(phi)", 8..13, "`sinus` is not known"),
