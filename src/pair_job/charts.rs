@@ -96,26 +96,16 @@ fn backlash(rolled: &RolledPair) -> LineChart {
     let of = |name: &str, of: &dyn Fn(&crate::pair::backlash::Backlash) -> f64| {
         series(name, &at, rolled.backlash.iter().map(|play| UM_PER_MM * of(play)))
     };
-    over_angle(
-        "Backlash",
-        vec![
-            panel(
-                "circumferential, at the pitch point",
-                "µm",
-                LEAST_UM,
-                vec![of("j_c", &|play| play.circumferential_mm)],
-            ),
-            panel(
-                "normal to the flanks",
-                "µm",
-                LEAST_UM,
-                vec![
-                    of("right flanks, left ones touching", &|play| play.normal_right_mm),
-                    of("left flanks, right ones touching", &|play| play.normal_left_mm),
-                ],
-            ),
-        ],
-    )
+    let across = vec![of("j_c", &|play| play.circumferential_mm)];
+    let normal = vec![
+        of("right flanks, left ones touching", &|play| play.normal_right_mm),
+        of("left flanks, right ones touching", &|play| play.normal_left_mm),
+    ];
+    let mut panels = vec![panel("circumferential, at the pitch point", "µm", LEAST_UM, across)];
+    if rolled.fit.no_involutes().is_none() {
+        panels.push(panel("normal to the flanks", "µm", LEAST_UM, normal));
+    }
+    over_angle("Backlash", panels)
 }
 
 fn contact_ratio(rolled: &RolledPair) -> LineChart {
@@ -133,13 +123,11 @@ fn contact_ratio(rolled: &RolledPair) -> LineChart {
         let counts = rolled.pairs[side].iter().map(|&count| f64::from(count));
         series(&format!("{} flanks", SIDES[side].name()), &at, counts)
     };
-    over_angle(
-        "Contact ratio",
-        vec![
-            panel("path of contact over the base pitch", "1", 0.01, vec![path(0), path(1)]),
-            panel("pairs within the marking thickness", "1", 0.5, vec![pairs(0), pairs(1)]),
-        ],
-    )
+    let mut panels = vec![panel("pairs within the marking thickness", "1", 0.5, vec![pairs(0), pairs(1)])];
+    if rolled.contact_ratio.is_ok() {
+        panels.insert(0, panel("path of contact over the base pitch", "1", 0.01, vec![path(0), path(1)]));
+    }
+    over_angle("Contact ratio", panels)
 }
 
 fn double_flank(rolled: &RolledPair) -> Option<LineChart> {

@@ -101,6 +101,14 @@ fn largest_at(values: impl Iterator<Item = f64>) -> usize {
     values.enumerate().fold((0, f64::NEG_INFINITY), |most, (i, v)| if v > most.1 { (i, v) } else { most }).0
 }
 
+/// A quantity that drawn teeth do not have.
+fn of_involutes(rolled: &RolledPair, row: &QuantityRow, value: f64) -> Entry {
+    match rolled.fit.no_involutes() {
+        Some(why) => row.none(why.to_owned()),
+        None => row.of(value),
+    }
+}
+
 fn pair(scenes: [&Scene; 2], options: &PairOptions, rolled: &RolledPair) -> Section {
     let teeth = rolled.fit.pitch.teeth();
     let own = &rolled.fit.own;
@@ -118,8 +126,8 @@ fn pair(scenes: [&Scene; 2], options: &PairOptions, rolled: &RolledPair) -> Sect
         TEETH_A.of(teeth.count[0]),
         TEETH_B.of(teeth.count[1]),
         MODULE.of(own.module_mm),
-        PRESSURE_ANGLE.of(own.pressure_angle_rad.to_degrees()),
-        WORKING_PRESSURE_ANGLE.of(teeth.pressure_angle_rad.to_degrees()),
+        of_involutes(rolled, &PRESSURE_ANGLE, own.pressure_angle_rad.to_degrees()),
+        of_involutes(rolled, &WORKING_PRESSURE_ANGLE, teeth.pressure_angle_rad.to_degrees()),
         FLANKS_ROLLED.of(flanks),
         DISTANCE.of(closing_mm + error_um / UM_PER_MM),
         CLOSING_DISTANCE.of(closing_mm),

@@ -6,7 +6,7 @@
 //!
 //! Round gears roll at any distance of their axes: their pitch curves in the pair are the circles of that distance
 //! ([`super::working`]). Pitch curves that are not round close at one distance, and another one is an error of
-//! mounting.
+//! mounting. So it is for drawn teeth, which are no involutes: they are made for one distance.
 //!
 //! Law: equal transverse modules and pressure angles; helices of one angle, of opposite hands outside and of one hand
 //! in a ring; r2 = a - s r1 all round, at the distance a at which a mate with this number of teeth closes. A scene has
@@ -49,6 +49,9 @@ const FINE_PLACES: usize = 720;
 /// Turns whose misfits differ by less are equal, mm.
 const SAME_MISFIT_MM: f64 = 1e-7;
 
+/// No quantity along the normal of involutes.
+pub const DRAWN_TEETH: &str = "drawn teeth have no pressure angle and no path of contact in closed form";
+
 /// Two gears that belong together.
 #[derive(Debug, Clone)]
 pub struct Fit {
@@ -69,6 +72,8 @@ pub struct Fit {
     /// A named centre distance less the one at which the pitch curves close, mm; 0 on round gears, whose pitch curves
     /// follow it.
     pub named_off_mm: f64,
+    /// The gears whose teeth are drawn: they have no pressure angle, and gaps count along the pitch curves.
+    pub drawn: [bool; 2],
     /// Sum (external) or difference (ring) of the numbers of a space and the tooth that stands in it.
     phase: i64,
 }
@@ -95,16 +100,14 @@ impl Fit {
     ) -> Result<Self, Refusal> {
         let (a, b) = (&driver.gear, &driven.gear);
         kinds(a, b)?;
-        for (scene, name) in [(driver, "A"), (driven, "B")] {
-            if let Some(key) = scene.process.other_teeth_key() {
-                let problem = format!("gear {name} has drawn teeth, and pairs are followed by the law of involutes");
-                return Err(Refusal::new(key, problem, "roll gears whose tools have involute teeth"));
-            }
-        }
         let is_sector = |(_, gear): &(&str, &Gear)| matches!(gear.pitch_curve, PitchCurveShape::Sector { .. });
         if let Some((name, _)) = [("a", a), ("b", b)].into_iter().find(is_sector) {
             let problem = format!("gear {name} is a sector, and pairs are followed over whole turns");
-            return Err(Refusal::new("gear.sector_deg", problem, "roll gears with teeth all round"));
+            return Err(Refusal::new(
+                "gear.sector_deg",
+                problem,
+                "roll the whole gears whose parts they are, where the law closes (docs/pair.md, what is not rolled)",
+            ));
         }
         teeth_alike(a, b)?;
         let named_mm = match center_distance_mm {
@@ -121,7 +124,10 @@ impl Fit {
             count: [a.teeth, b.teeth],
             driven: b.kind,
         };
-        let closing = PitchPair::closing(curve.clone(), teeth)?;
+        let drawn = [driver, driven].map(|scene| scene.process.other_teeth_key().is_some());
+        let is_drawn = drawn.contains(&true);
+        let in_mesh = if is_drawn { PairTeeth { pressure_angle_rad: 0.0, ..teeth } } else { teeth };
+        let closing = PitchPair::closing(curve.clone(), in_mesh)?;
         let round = is_round(&curve) && is_round(&own);
         let mut fit = Self {
             named_off_mm: named_mm.map_or(0.0, |named_mm| named_mm - closing.center_distance_mm()),
@@ -132,9 +138,13 @@ impl Fit {
             addendum_mm: [a, b].map(Gear::addendum_mm),
             extra_thickness_mm: [a, b].map(Gear::extra_thickness_mm),
             own: teeth,
+            drawn,
             phase: 0,
         };
-        if round && let Some(circles) = RollingCircles::of(&teeth, [a, b], named_mm)? {
+        if round
+            && !is_drawn
+            && let Some(circles) = RollingCircles::of(&teeth, [a, b], named_mm)?
+        {
             fit.pitch = circles.pair()?;
             fit.addendum_mm = circles.addendum_mm([a, b]);
             fit.extra_thickness_mm = circles.extra_thickness_mm([a, b]);
@@ -169,6 +179,11 @@ impl Fit {
     /// How many times longer the pair's pitch curves are than the gears' own: 1 but on shifted round gears.
     pub fn stretch(&self) -> f64 {
         self.pitch.teeth().module_mm / self.own.module_mm
+    }
+
+    /// Why there is none of what the law of involutes gives, where a gear's teeth are drawn.
+    pub fn no_involutes(&self) -> Option<&'static str> {
+        self.drawn.contains(&true).then_some(DRAWN_TEETH)
     }
 
     fn turn_to(&mut self, phase: i64) {

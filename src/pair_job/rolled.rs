@@ -108,6 +108,12 @@ pub fn roll_pair(
 ) -> Result<RolledPair> {
     let gears = [&scenes[0].gear, &scenes[1].gear];
     let fit = Fit::at_distance(scenes[0], scenes[1], options.phase_teeth, options.center_distance_mm)?;
+    if options.source == FlankSource::Nominal
+        && let Some(key) = scenes.iter().find_map(|scene| scene.process.other_teeth_key())
+    {
+        let problem = "nominal flanks are those of a straight-sided rack, and drawn teeth have other ones";
+        return Err(Refusal::new(key, problem, "roll them as cut: leave --flanks nominal out").into());
+    }
     let mounting = options.mounting(&fit, gears)?;
     let positions = options.positions(fit.pitch.teeth().count);
     enough(fit.pitch.teeth().count, positions)?;
@@ -141,6 +147,9 @@ pub fn roll_pair(
     })?;
     let probes = moments.len().div_ceil(stride(&period, PROBES_PER_PITCH));
     let contact_ratio = in_stage(watch, RATIO, 2 * probes, |stage| {
+        if let Some(why) = fit.no_involutes() {
+            return Ok(Err(why.to_owned()));
+        }
         let ratios = || -> Result<_> {
             let limits = flanks.ends.as_ref().map(|ends| generated::limits(&fit, ends)).transpose()?;
             let [right, left] = [0, 1].map(|at| {
@@ -233,6 +242,9 @@ fn master(
 ) -> Result<Tight> {
     let middle = &flanks.sections[flanks.sections.len() / 2];
     let at = usize::from(member == Member::Driven);
+    if fit.drawn[at] {
+        return Ok(Err("a master has involute teeth, and these are drawn".to_owned()));
+    }
     let gear = &scenes[at].gear;
     let off_mm = mounting.eccentricity_mm[at];
     let chains = middle[at].chains.each(|chain| chain.moved(off_mm));

@@ -25,7 +25,10 @@ pub(super) fn backlash(rolled: &RolledPair) -> Section {
         extreme(&LARGEST_BACKLASH, &circumferential, 1.0),
         MEAN_BACKLASH.of(UM_PER_MM * mean_mm),
         extreme(&SMALLEST_TANGENTIAL, &|play| play.tangential_mm, -1.0),
-        extreme(&SMALLEST_NORMAL, &|play| play.normal_left_mm.min(play.normal_right_mm), -1.0),
+        match rolled.fit.no_involutes() {
+            Some(why) => SMALLEST_NORMAL.none(why.to_owned()),
+            None => extreme(&SMALLEST_NORMAL, &|play| play.normal_left_mm.min(play.normal_right_mm), -1.0),
+        },
         SMALLEST_ANGLE.of(ARCSEC_PER_RAD * least_rad),
     ])
 }

@@ -37,10 +37,14 @@ pub(super) fn rolling(rolled: &RolledPair) -> Table {
             .column(of_side(&PAIRS), |&i| pairs[i]);
     }
     let play = &rolled.backlash;
-    table
+    table = table
         .column(&PLAY_ANGLE, |&i| ARCSEC_PER_RAD * play[i].angle_rad)
         .column(&PLAY, |&i| UM_PER_MM * play[i].circumferential_mm)
-        .column(&PLAY_TANGENTIAL, |&i| UM_PER_MM * play[i].tangential_mm)
+        .column(&PLAY_TANGENTIAL, |&i| UM_PER_MM * play[i].tangential_mm);
+    if rolled.fit.no_involutes().is_some() {
+        return table.rows_in_file("rolling");
+    }
+    table
         .column(&GAP_RIGHT, |&i| UM_PER_MM * play[i].normal_right_mm)
         .column(&GAP_LEFT, |&i| UM_PER_MM * play[i].normal_left_mm)
         .rows_in_file("rolling")

@@ -1,7 +1,7 @@
 //! Ratio and transmission error: what the pair is for, and how well it does it.
 
 use super::tables;
-use super::{ARCSEC_PER_RAD, at_moment, largest_at};
+use super::{ARCSEC_PER_RAD, at_moment, largest_at, of_involutes};
 use crate::findings::{QuantityRow, Section, Table};
 use crate::pair::assembly::Moment;
 use crate::pair::rolling::{TransmissionError, peak_to_peak};
@@ -54,7 +54,7 @@ fn side_section(rolled: &RolledPair, side: Side, error: &TransmissionError) -> S
             MESH_RANGE.of(range_arcsec(&error.mesh_rad)),
             MEAN_ERROR.of(ARCSEC_PER_RAD * mean),
             RANGE_AT_PITCH_POINT.of(range_um(&|at| at.pitch.radius_mm[1])),
-            RANGE_NORMAL.of(range_um(&|at| rolled.fit.pitch.arm_mm(&at.pitch, side))),
+            of_involutes(rolled, &RANGE_NORMAL, range_um(&|at| rolled.fit.pitch.arm_mm(&at.pitch, side))),
         ])
         .table(listed(rolled, side, error))
         .table(all(rolled, side, error))

@@ -31,7 +31,7 @@ fn scene_job(text: &str, contour: Option<(&str, &str)>, settings: &[&str]) -> Re
 }
 
 /// Points of a contour, given in the blade's frame, as the table of an upright tooth.
-fn table(points: &[DVec2]) -> String {
+pub(super) fn table(points: &[DVec2]) -> String {
     let mut text = String::from("x_mm,y_mm\n");
     for at in points {
         let _ = writeln!(text, "{:.9},{:.9}", -at.y, at.x);
@@ -52,12 +52,13 @@ fn arc(radius_mm: f64, from_rad: f64, to_rad: f64, count: u32) -> impl Iterator<
 }
 
 const MODULE_MM: f64 = 3.0;
-const ROUND: &str = "[gear]\nmodule_mm = 3\nteeth = 24\nface_width_mm = 4\n[tool.shaper_cutter]\nteeth = 20\n\
+pub(super) const ROUND: &str = "[gear]\nmodule_mm = 3\nteeth = 24\nface_width_mm = 4\n\
+    [tool.shaper_cutter]\nteeth = 20\n\
     [[operation]]\nname = \"finish\"\nstrokes_per_revolution = 1200\n[operation.infeed.none]\n";
 
 /// The contour of the standard cutter, an involute given as 200 points: 20 teeth of module 3, addendum and dedendum of
 /// 1.25 modules, straight along the radius below the base circle.
-fn involute_contour() -> Vec<DVec2> {
+pub(super) fn involute_contour() -> Vec<DVec2> {
     let alpha = 20_f64.to_radians();
     let pitch_mm = 0.5 * MODULE_MM * 20.0;
     let (base_mm, tip_mm, root_mm) = (pitch_mm * alpha.cos(), pitch_mm + 1.25 * MODULE_MM, pitch_mm - 1.25 * MODULE_MM);

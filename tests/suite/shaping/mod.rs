@@ -12,6 +12,7 @@ mod cut_away;
 mod deflection;
 mod deflection_polygons;
 mod deflection_refused;
+mod drawn_pairs;
 mod drawn_teeth;
 mod edge_roughness;
 mod flank_chips;
