@@ -161,7 +161,11 @@ fn warnings(rolled: &RolledPair) -> Vec<Notice> {
     let mut warnings = Vec::new();
     let smallest = rolled.backlash.iter().map(|play| UM_PER_MM * play.circumferential_mm).fold(f64::INFINITY, f64::min);
     if smallest < JAMS_UM {
-        warnings.push(Jams { missing_um: format!("{:.1}", -smallest) }.notice());
+        let by = match rolled.fit.no_involutes() {
+            Some(_) => "a thicker tooth in the cutter's drawing",
+            None => "gear.tooth_thickness_allowance_mm",
+        };
+        warnings.push(Jams { missing_um: format!("{:.1}", -smallest), by }.notice());
     }
     warnings.extend(interference(rolled));
     if rolled.fit.misfit_mm > TOLD_MISFIT_MM {

@@ -36,6 +36,8 @@ fn cycloids_roll_evenly_at_their_distance_and_at_no_other() {
     println!("{even_um} um, 100 um farther apart {off_um} um");
     assert!(even_um > 0.01 && even_um < 2.5, "{even_um} um");
     assert!(off_um > 4.0 * even_um, "{off_um} um, {even_um} um");
+    // Drawn teeth have no key for their thickness.
+    assert!(right["warnings"].to_string().contains("a thicker tooth in the cutter's drawing"), "{}", right["warnings"]);
     // What the law of involutes gives has a reason in place of a number.
     for path in [
         &["transmission_error", "right", "peak_to_peak_normal"][..],
