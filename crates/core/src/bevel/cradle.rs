@@ -151,14 +151,19 @@ impl CradleSettings {
         }
     }
 
-    /// The paper's M_pt: pose of the tool in the work at a cradle angle and a work angle.
-    pub fn work_from_tool_at(&self, cradle_rad: f64, work_rad: f64) -> Rigid3 {
+    /// Machine in the work at a work angle.
+    fn work_from_machine(&self, work_rad: f64) -> Rigid3 {
         let still = Rigid3 {
             rotation: DMat3::from_rotation_y(self.root_angle_rad),
             translation_mm: DVec3::new(-self.center_to_back_mm, 0.0, 0.0),
         };
         let turn = Rigid3 { rotation: DMat3::from_rotation_x(-work_rad), translation_mm: DVec3::ZERO };
-        turn.after(&still).after(&self.machine_from_tool(cradle_rad))
+        turn.after(&still)
+    }
+
+    /// The paper's M_pt: pose of the tool in the work at a cradle angle and a work angle.
+    pub fn work_from_tool_at(&self, cradle_rad: f64, work_rad: f64) -> Rigid3 {
+        self.work_from_machine(work_rad).after(&self.machine_from_tool(cradle_rad))
     }
 
     /// Pose of the tool in the work at a moment of a slot.
@@ -169,10 +174,11 @@ impl CradleSettings {
 
     /// The same with its velocity where the moment grows by one per second.
     pub fn motion(&self, moment: f64) -> RigidMotion3 {
-        let cradle_rad = self.at(moment).cradle_rad;
-        let [work_rad, rate] = self.work_angle(cradle_rad);
-        let pose = self.work_from_tool(moment);
-        let work_from_machine = DMat3::from_rotation_x(-work_rad) * DMat3::from_rotation_y(self.root_angle_rad);
+        let CradleMoment { settings, cradle_rad } = self.at(moment);
+        let [work_rad, rate] = settings.work_angle(cradle_rad);
+        let work_from_machine = settings.work_from_machine(work_rad);
+        let pose = work_from_machine.after(&settings.machine_from_tool(cradle_rad));
+        let work_from_machine = work_from_machine.rotation;
         if self.plunges() {
             let velocity_mm_per_s = work_from_machine * DVec3::Z;
             return RigidMotion3 { pose, velocity_mm_per_s, angular_velocity_rad_per_s: DVec3::ZERO };

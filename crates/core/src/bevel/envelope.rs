@@ -18,6 +18,7 @@ use super::blank::BevelBlank;
 use super::cradle::CradleSettings;
 use super::face_mill::CuttingSurface;
 use crate::error::NotConverged;
+use crate::frame::RigidMotion3;
 use glam::{DVec2, DVec3};
 
 /// A step of both coordinates as small as this is the last, rad: the error after it is of its square times the
@@ -69,17 +70,26 @@ impl Envelope {
     /// Point of the flank that belongs to an angle about the head's axis, rad, and to the cradle angle at which it is
     /// generated, rad; without roll to the place on the edge in radii of the cone at the tips.
     pub fn at(&self, head_rad: f64, second: f64) -> FlankPoint {
+        self.at_moment(&self.motion(second), head_rad, second)
+    }
+
+    /// How the head moves when the second coordinate is this.
+    fn motion(&self, second: f64) -> RigidMotion3 {
+        self.settings.motion(if self.settings.plunges() { 0.0 } else { second })
+    }
+
+    /// As [`Self::at`], with the motion that belongs to the second coordinate.
+    fn at_moment(&self, motion: &RigidMotion3, head_rad: f64, second: f64) -> FlankPoint {
         let (normal, start_mm) = (self.surface.normal(head_rad), self.surface.point_mm(head_rad, 0.0));
         let along = self.surface.edge_direction(head_rad);
-        let (pose, cradle_rad, edge_mm) = if self.settings.plunges() {
-            let pose = self.settings.work_from_tool(0.0);
-            (pose, self.settings.cradle_angle_rad, second * self.surface.point_radius_mm)
+        let pose = motion.pose;
+        let (cradle_rad, edge_mm) = if self.settings.plunges() {
+            (self.settings.cradle_angle_rad, second * self.surface.point_radius_mm)
         } else {
-            let motion = self.settings.motion(second);
-            let from_work = motion.pose.rotation.transpose();
+            let from_work = pose.rotation.transpose();
             let v = from_work * motion.velocity_mm_per_s;
             let w = from_work * motion.angular_velocity_rad_per_s;
-            (motion.pose, second, -normal.dot(v + w.cross(start_mm)) / normal.dot(w.cross(along)))
+            (second, -normal.dot(v + w.cross(start_mm)) / normal.dot(w.cross(along)))
         };
         FlankPoint {
             point_mm: pose.point(start_mm + edge_mm * along),
@@ -122,8 +132,8 @@ impl Envelope {
         place: OnFlank,
         start: [f64; 2],
     ) -> Result<FlankPoint, NotConverged> {
-        let missing = |coordinates: DVec2| {
-            let point = self.at(coordinates.x, coordinates.y);
+        let missing = |motion: &RigidMotion3, coordinates: DVec2| {
+            let point = self.at_moment(motion, coordinates.x, coordinates.y);
             let [distance_mm, height_mm] = blank.cone_distance_and_height_mm(point.point_mm);
             let second = match place {
                 OnFlank::Height(wanted_mm) => wanted_mm - height_mm,
@@ -140,9 +150,12 @@ impl Envelope {
             residual: f64::INFINITY,
         };
         for _ in 0..MOST_STEPS {
-            let left = missing(coordinates);
-            let [by_head, by_second] =
-                [DVec2::X, DVec2::Y].map(|axis| (missing(coordinates + DIFFERENCE_RAD * axis) - left) / DIFFERENCE_RAD);
+            // One motion serves both angles about the head's axis.
+            let here = self.motion(coordinates.y);
+            let later = coordinates + DIFFERENCE_RAD * DVec2::Y;
+            let left = missing(&here, coordinates);
+            let by_head = (missing(&here, coordinates + DIFFERENCE_RAD * DVec2::X) - left) / DIFFERENCE_RAD;
+            let by_second = (missing(&self.motion(later.y), later) - left) / DIFFERENCE_RAD;
             let determinant = by_head.perp_dot(by_second);
             let step = DVec2::new(-left.perp_dot(by_second), -by_head.perp_dot(left)) / determinant;
             (lost.residual, lost.last_step) = (left.length(), step.length());
