@@ -3,6 +3,7 @@
 use super::round::SCENE;
 use crate::fixtures::command::{gearcut_in, read_json};
 use crate::fixtures::json_schema::assert_is_results;
+use crate::fixtures::picture::Picture;
 use std::fmt::Write as _;
 use std::path::Path;
 
@@ -48,9 +49,8 @@ fn a_budget_ranks_errors_and_writes_its_tables() {
 
 /// Mean places of red and of blue pixels left of the bar of colours, px from the left; `None` where there are none.
 fn red_and_blue_px(picture: &Path) -> [Option<f64>; 2] {
-    let picture = image::open(picture).expect("a picture").to_rgb8();
     let mut places = [Vec::new(), Vec::new()];
-    for (x, _, &image::Rgb([red, _, blue])) in picture.enumerate_pixels().filter(|(x, ..)| *x < LEFT_OF_BAR_PX) {
+    for ((x, _), [red, _, blue]) in Picture::open(picture).placed().filter(|((x, _), _)| *x < LEFT_OF_BAR_PX) {
         let apart = i32::from(red) - i32::from(blue);
         if apart.abs() > COLOURED {
             places[usize::from(apart < 0)].push(f64::from(x));

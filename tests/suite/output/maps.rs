@@ -2,13 +2,13 @@
 //!
 //! With `GEARCUT_KEEP=folder` the pictures are kept there for a look.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
+use crate::fixtures::picture::Picture;
 use gearcut::colormap::ColourScale;
 use gearcut::output::contact_sheet::{ContactSheet, Thumbnail, write_contact_sheet};
 use gearcut::output::grid::{MapAxis, MapGrid};
 use gearcut::output::map_png::{MapPicture, write_map_png};
-use image::RgbImage;
 
 /// Where pictures go: the folder that the user named, else one that vanishes.
 struct Album {
@@ -58,10 +58,6 @@ fn flank(grid: &MapGrid, phase: f64) -> Vec<f32> {
         .collect()
 }
 
-fn pixels(path: &Path) -> RgbImage {
-    image::open(path).expect("a PNG").into_rgb8()
-}
-
 fn picture<'a>(grid: &'a MapGrid, values: &'a [f32], scale: ColourScale) -> MapPicture<'a> {
     MapPicture {
         missing: "no pass came here",
@@ -84,16 +80,16 @@ fn known_cells_have_known_colours() {
     let scale = ColourScale::Sequential { low: 0.0, high: 40.0 };
     let path = album.path("six_cells.png");
     write_map_png(&path, &picture(&grid, &values, scale)).expect("a sound map");
-    let image = pixels(&path);
+    let image = Picture::open(&path);
     let (left, top, width, height) = (84, 58, 1080, 360);
     for (index, &value) in values.iter().enumerate() {
         let (u, v) = (index as u32 / 3, index as u32 % 3);
         // An eighth in from the cell's corner: the marks of the extremes stand in the middles.
         let x = left + (8 * v + 1) * width / 24;
         let y = top + height - 1 - (8 * u + 1) * height / 16;
-        assert_eq!(image.get_pixel(x, y).0, scale.colour(value), "cell {index}");
+        assert_eq!(image.pixel(x, y), scale.colour(value), "cell {index}");
     }
-    assert_eq!(image.get_pixel(left + width + 10, top + 100).0, [255, 255, 255], "paper beside the map");
+    assert_eq!(image.pixel(left + width + 10, top + 100), [255, 255, 255], "paper beside the map");
 }
 
 #[test]
@@ -106,16 +102,16 @@ fn flank_maps_are_equal_each_time_and_leave_no_label_at_the_edge() {
     let first = std::fs::read(&path).expect("just written");
     write_map_png(&path, &picture(&fine, &values, ColourScale::diverging_over([&values[..]]))).expect("a sound map");
     assert!(first == std::fs::read(&path).expect("just written"), "the same map gave other bytes");
-    assert_white_edge(&pixels(&path));
+    assert_white_edge(&Picture::open(&path));
 }
 
 /// A clipped label touches the border of the picture.
-fn assert_white_edge(image: &RgbImage) {
-    let (width, height) = image.dimensions();
+fn assert_white_edge(image: &Picture) {
+    let (width, height) = image.size_px;
     let on_edge = |x: u32, y: u32| x < 3 || y < 3 || x + 3 >= width || y + 3 >= height;
-    let stray = image.enumerate_pixels().find(|(x, y, pixel)| on_edge(*x, *y) && pixel.0 != [255; 3]);
+    let stray = image.placed().find(|((x, y), pixel)| on_edge(*x, *y) && *pixel != [255; 3]);
     assert!(stray.is_none(), "ink at the picture's edge: {stray:?}");
-    assert!(image.pixels().any(|pixel| pixel.0 != [255; 3]), "an empty picture");
+    assert!(image.pixels.iter().any(|pixel| *pixel != [255; 3]), "an empty picture");
 }
 
 #[test]
@@ -131,18 +127,18 @@ fn unusual_maps_are_drawn_too() {
         let values = flank(&grid, 1.0);
         let path = album.path(&format!("{name}.png"));
         write_map_png(&path, &picture(&grid, &values, ColourScale::sequential_over([&values[..]]))).expect(name);
-        assert_white_edge(&pixels(&path));
+        assert_white_edge(&Picture::open(&path));
     }
     let grid = grid(75, 300, 7.0, 30.0);
     let nothing = vec![f32::NAN; grid.count()];
     let path = album.path("no_values.png");
     write_map_png(&path, &picture(&grid, &nothing, ColourScale::diverging_over([&nothing[..]]))).expect("grey");
-    assert_white_edge(&pixels(&path));
+    assert_white_edge(&Picture::open(&path));
     // A scale narrower than the values: the bar shows points at both ends.
     let values = flank(&grid, 0.0);
     let path = album.path("beyond_the_scale.png");
     write_map_png(&path, &picture(&grid, &values, ColourScale::Diverging { limit: 1e-6 })).expect("clamped");
-    assert_white_edge(&pixels(&path));
+    assert_white_edge(&Picture::open(&path));
 }
 
 #[test]
@@ -178,9 +174,9 @@ fn a_whole_gear_is_drawn_on_one_sheet() {
     };
     let path = album.path("sheet.png");
     write_contact_sheet(&path, &sheet(&maps)).expect("84 maps");
-    assert_white_edge(&pixels(&path));
+    assert_white_edge(&Picture::open(&path));
     let few = album.path("sheet_of_three.png");
     write_contact_sheet(&few, &sheet(&maps[..3])).expect("3 maps");
-    assert_white_edge(&pixels(&few));
+    assert_white_edge(&Picture::open(&few));
     assert!(write_contact_sheet(&few, &sheet(&[])).is_err());
 }

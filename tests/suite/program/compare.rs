@@ -6,6 +6,7 @@ use std::path::Path;
 
 use crate::fixtures::command::gearcut_in;
 use crate::fixtures::json_schema::{assert_is_results, broken_rule};
+use crate::fixtures::picture::Picture;
 use gearcut::findings::Findings;
 use serde_json::{Value, json};
 
@@ -326,9 +327,8 @@ fn maps_show_what_differs() {
 
 /// Whether all cells of a sheet differ by this, um, the end of its scale: a field of one colour, as no other sheet has.
 fn has_field_of(sheet: &Path, um: f32) -> bool {
-    let picture = image::open(sheet).expect("a sheet").into_rgb8();
     let end = gearcut::colormap::ColourScale::Diverging { limit: um }.colour(um);
-    picture.pixels().filter(|pixel| pixel.0 == end).count() > 1000
+    Picture::open(sheet).pixels.into_iter().filter(|pixel| *pixel == end).count() > 1000
 }
 
 #[test]

@@ -4,6 +4,7 @@ use crate::fixtures::command::{
     assert_same_files, files, gearcut, gearcut_on_threads, read_json, scenes_of_all_shapes,
 };
 use crate::fixtures::json_schema::assert_is_results;
+use crate::fixtures::picture::Picture;
 use gearcut::output::surface_files::read_surface;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
@@ -112,8 +113,7 @@ mod slow {
         assert!(bytes("mesh/gear.glb").starts_with(b"glTF\x02\0\0\0"));
         assert_eq!(written.iter().filter(|(path, _)| path.starts_with("mesh/flanks")).count(), 48);
         for name in ["pictures/gear.png", "pictures/mark.png", "frames/frame_0003.png"] {
-            let picture = image::load_from_memory(bytes(name)).expect("a PNG").into_rgb8();
-            let colours: std::collections::BTreeSet<_> = picture.pixels().map(|p| p.0).collect();
+            let colours: std::collections::BTreeSet<_> = Picture::of(bytes(name)).pixels.into_iter().collect();
             assert!(colours.len() > 50, "{name} shows hardly anything: {} colours", colours.len());
         }
         // An animated PNG says in its acTL chunk how many frames it has.
