@@ -1,6 +1,6 @@
 //! A bevel gear from the command line: what a run writes, and that the same scene gives the same bytes.
 
-use crate::fixtures::command::{assert_same_files, files, gearcut, gearcut_on_threads, read_json};
+use crate::fixtures::command::{assert_same_files, check_as_it_is, files, gearcut_on_threads, read_json};
 use crate::fixtures::json_schema::assert_is_results;
 
 const COARSE: [&str; 12] = [
@@ -68,7 +68,7 @@ fn a_run_writes_the_same_files_on_one_thread_and_on_two() {
 
 #[test]
 fn check_says_what_a_bevel_engineer_asks() {
-    let outcome = gearcut(&["check", "scenes/bevel/five_linkage_printed.toml"]).done().says(&[
+    let outcome = check_as_it_is("scenes/bevel/five_linkage_printed.toml").done().says(&[
         "Spiral bevel gear, 62 teeth, outer module 4.16899 mm",
         "pitch 77.5833, face 78.4333, root 75.4333 deg",
         "concave, cut by outside blades, spiral angle 34.845 deg",

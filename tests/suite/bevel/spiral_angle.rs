@@ -3,7 +3,7 @@
 
 use super::cases::{blank, close, data, number, settings};
 use super::jobs::{job, job_of};
-use crate::fixtures::command::{gearcut, read_json};
+use crate::fixtures::command::{check_as_it_is, gearcut, read_json};
 use gearcut::bevel::cradle::CradleSettings;
 use gearcut::bevel::inferred::InferredCutter;
 use gearcut::cut::cpu::Cpu;
@@ -132,7 +132,7 @@ fn the_gear_has_the_spiral_angle() {
 /// The scene that is shipped says its settings with units, and a Formate gear may be set so as well.
 #[test]
 fn the_run_says_the_computed_settings() {
-    gearcut(&["check", SCENE]).done().says(&[
+    check_as_it_is(SCENE).done().says(&[
         "radial setting 71.0945 mm, cradle angle 61.3994 deg, sliding base -0.0003 mm",
         "computed from spiral angle, cutter radius and blank",
         "radius 76.2000 mm and spiral angle 35.0000 deg",

@@ -1,6 +1,6 @@
 //! `gearcut check`: facts, warnings, every committed scene, in a second.
 
-use crate::fixtures::command::{gearcut, gearcut_briefly, gearcut_in};
+use crate::fixtures::command::{check_as_it_is, gearcut, gearcut_briefly, gearcut_in};
 use gearcut::passes::SweepPlan;
 use gearcut::process::hobbing::{HobCutter, HobbingJob};
 use gearcut::process::{PROCESSES, load};
@@ -11,7 +11,7 @@ const PAPER: &str = "scenes/shaping/elliptical_normal.toml";
 
 #[test]
 fn the_papers_gear_is_described() {
-    let outcome = gearcut(&["check", PAPER]).done().says(&[
+    let outcome = check_as_it_is(PAPER).done().says(&[
         "42 teeth, module 3 mm, pressure angle 20 deg, face width 30 mm",
         "395.840616 mm for pi m z = 395.840674 mm: 0.0588 um too short",
         "28.868 mm at polar angle 0.00 deg and 2 more",
@@ -48,7 +48,8 @@ fn a_screen_holds_the_verdict_and_the_rest_is_asked_for() {
         &["check", "scenes/bevel/five_linkage_printed.toml"],
         &[&["check", PAPER][..], &many].concat(),
     ] {
-        let [brief, whole] = [gearcut_briefly, gearcut].map(|run| run(arguments));
+        let brief = gearcut_briefly(arguments);
+        let whole = if let ["check", scene] = arguments { check_as_it_is(scene) } else { gearcut(arguments) };
         let lines = |text: &str| text.lines().map(|line| line.chars().count().div_ceil(80).max(1)).sum::<usize>();
         let count = lines(&brief.out) + lines(&brief.err);
         println!("{arguments:?}: {count} lines, {} with --verbose", lines(&whole.out) + lines(&whole.err));
@@ -65,7 +66,7 @@ fn a_screen_holds_the_verdict_and_the_rest_is_asked_for() {
 
 #[test]
 fn a_circle_has_the_same_teeth_everywhere() {
-    gearcut(&["check", "scenes/shaping/circular_m3_z24.toml"]).done().says(&[
+    check_as_it_is("scenes/shaping/circular_m3_z24.toml").done().says(&[
         "36.000 mm everywhere; convex",
         "tip land                      2.146 mm on all teeth",
         "0.00 deg everywhere",
@@ -99,10 +100,13 @@ mod slow {
             for scene in
                 scenes.map(|entry| entry.expect("a file").path()).filter(|p| p.extension().is_some_and(|e| e == "toml"))
             {
-                // The forecast cuts pieces of a narrow face.
-                let narrow = ["--set", "gear.face_width_mm=4"];
-                let narrow = if process.name == "hobbing" { &narrow[..] } else { &[] };
-                let outcome = gearcut(&[&["check", &scene.display().to_string()][..], narrow].concat());
+                let path = scene.display().to_string();
+                let outcome = if process.name == "hobbing" {
+                    // The forecast cuts pieces of a narrow face.
+                    gearcut(&["check", &path, "--set", "gear.face_width_mm=4"])
+                } else {
+                    check_as_it_is(&path)
+                };
                 let outcome = outcome.done().says(&["Cost of the cut"]);
                 assert!(
                     !outcome.out.contains("NaN")

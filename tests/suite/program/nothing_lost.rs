@@ -232,7 +232,8 @@ fn a_gouge_is_a_fault_whatever_the_cutter() {
         let coarse = COARSE.iter().copied().filter(|setting| !setting.starts_with("fields.flank.profile_spacing"));
         let coarse = coarse.filter(|setting| !setting.starts_with("fields.blank"));
         let settings = settings.iter().map(String::as_str).chain(coarse).flat_map(|setting| ["--set", setting]);
-        let arguments: Vec<&str> = ["cut", ROUND, "--out"].into_iter().chain(out.to_str()).chain(settings).collect();
+        let arguments: Vec<&str> =
+            ["cut", ROUND, "--only", "numbers", "--out"].into_iter().chain(out.to_str()).chain(settings).collect();
         let told = gearcut(&arguments);
         assert_eq!(told.code, 3, "cutter of {cutter} teeth: {}", told.err);
         let results = read_json(&out.join("results.json"));
@@ -256,7 +257,8 @@ fn a_scene_misses_none_of_its_own_strokes() {
     ];
     let coarse = COARSE.iter().copied().filter(|setting| !setting.starts_with("fields.blank"));
     let settings = settings.into_iter().chain(coarse).flat_map(|setting| ["--set", setting]);
-    let arguments: Vec<&str> = ["cut", ROUND, "--out"].into_iter().chain(out.to_str()).chain(settings).collect();
+    let arguments: Vec<&str> =
+        ["cut", ROUND, "--only", "numbers", "--out"].into_iter().chain(out.to_str()).chain(settings).collect();
     gearcut(&arguments).done();
     let results = std::fs::read_to_string(out.join("results.json")).expect("a file");
     assert!(!results.contains("seem to be missing"), "{results}");

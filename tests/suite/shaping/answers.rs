@@ -1,6 +1,6 @@
 //! What is known before cutting, on the terminal, in the results and on the page of a run: the same answers.
 
-use crate::fixtures::command::{gearcut, read_json};
+use crate::fixtures::command::{check_as_it_is, gearcut, read_json};
 use crate::fixtures::expected::number;
 use crate::fixtures::json_schema::assert_is_results;
 use gearcut::process::load;
@@ -40,7 +40,7 @@ fn check_answers_what_is_asked_of_a_ring() {
     let limit_mm = section.number("module_limit").expect("known");
     assert!((limit_mm - 2.0 * 72.305_560_356 / 13.0).abs() < 1e-6, "{limit_mm}");
     assert!(ring::warnings(&section, 0.02).is_empty());
-    gearcut(&["check", "scenes/shaping/internal_pair_ring.toml"]).done().says(&[
+    check_as_it_is("scenes/shaping/internal_pair_ring.toml").done().says(&[
         "largest cutter that rolls     72 teeth",
         "largest cutter that clears    63 teeth",
         "smallest radius of curvature  72.31 mm",
