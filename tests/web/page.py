@@ -129,7 +129,7 @@ def scene_file(text, name="gear.toml"):
 class Opened:
     """A page with everything that it said and asked for."""
 
-    def __init__(self, browser, address, width, height, scheme):
+    def __init__(self, browser, address, width, height, scheme, until="shown?.idle"):
         self.context = browser.new_context(
             viewport={"width": width, "height": height}, color_scheme=scheme, reduced_motion="reduce"
         )
@@ -140,7 +140,7 @@ class Opened:
         own = (f"{origin}/", "data:", f"blob:{origin}/")
         self.page.on("request", lambda of: None if of.url.startswith(own) else self.asked.append(of.url))
         self.page.goto(address)
-        self.wait()
+        self.wait(until)
 
     def close(self):
         assert not self.said, f"the console says: {self.said}"
@@ -220,7 +220,7 @@ def check_heights(opened):
 
 def check_gpu(browser, address):
     """The same on WebGPU within 0.5 nm, and on the processor again once the device is lost."""
-    opened = Opened(browser, f"{address}?backend=gpu", 1000, 800, "light")
+    opened = Opened(browser, f"{address}?backend=gpu", 1000, 800, "light", until="shown?.cut")
     opened.wait("shown.backend !== undefined")
     words = opened.page.locator("#backend").inner_text()
     assert opened.shown("shown.backend") == "webgpu", words
@@ -404,7 +404,7 @@ def check_link(opened, browser, address):
     page.locator("#share").click()
     opened.wait("location.hash.startsWith('#scene=')")
     text = page.locator("#text").input_value()
-    other = Opened(browser, page.url, 1000, 800, "light")
+    other = Opened(browser, page.url, 1000, 800, "light", until="shown?.cut")
     assert other.page.locator("#text").input_value() == text, "the link has another scene"
     with other.page.expect_download() as download:
         other.page.locator("#download").click()
