@@ -197,7 +197,10 @@ gearcut.loaded.then((data) => {
   }
   const scene = new THREE.Scene();
   const gear = [flankBody, body, ...edges];
-  scene.add(...gear);
+  // A scene within the scene, to be hidden as one.
+  const finished = new THREE.Scene();
+  finished.add(...gear);
+  scene.add(finished);
 
   flankShape.computeBoundingSphere();
   const gearRadius = flankShape.boundingSphere.radius;
@@ -300,6 +303,7 @@ gearcut.loaded.then((data) => {
     const { left, top, width, height } = canvas.getBoundingClientRect();
     const at = new THREE.Vector2(((event.clientX - left) / width) * 2 - 1, 1 - ((event.clientY - top) / height) * 2);
     ray.setFromCamera(at, camera);
+    if (!finished.visible) return null;
     const [hit] = ray.intersectObjects([flankBody, body]);
     if (!hit || hit.object !== flankBody) return null;
     const mark = whose[hit.face.a];
@@ -435,5 +439,6 @@ gearcut.loaded.then((data) => {
     actions.home();
   };
   const view = { scene, camera, controls, canvas, overlays, widen, draw };
-  gearcut.onStage({ ...view, data, geometry, flankShape, metal, light, cut });
+  const looks = { bodyMaterial, edgeMaterial, edges, metal, light, cut };
+  gearcut.onStage({ ...view, ...looks, data, geometry, flankShape, finished });
 });

@@ -1,9 +1,10 @@
-// The tool over the gear, stroke by stroke or pass by pass, with what each takes.
+// The tool over the work, stroke by stroke or pass by pass, with what each takes.
 "use strict";
 gearcut.stage.then(({ data, scene, geometry, metal, light, widen, draw }) => {
   const { strokes } = gearcut.description;
   if (!strokes) return;
   const [slider, play, facts] = ["strokes", "strokes-play", "stroke-facts"].map((id) => document.getElementById(id));
+  const toggle = document.getElementById("strokes-work");
   const WIDTH = 13;
   const columns = new Float32Array(data.bytes, strokes.at, WIDTH * strokes.count);
   const of = (stroke) => Array.from({ length: WIDTH }, (_, column) => columns[column * strokes.count + stroke]);
@@ -42,6 +43,7 @@ gearcut.stage.then(({ data, scene, geometry, metal, light, widen, draw }) => {
   function show() {
     const place = Number(slider.value);
     tool.visible = place > 0;
+    gearcut.showWork(toggle.getAttribute("aria-pressed") === "true" ? place : 0);
     if (place === 0) {
       facts.textContent = "The finished gear; move to follow the tool " + strokes.noun + " by " + strokes.noun;
       return draw();
@@ -72,6 +74,10 @@ gearcut.stage.then(({ data, scene, geometry, metal, light, widen, draw }) => {
     play.textContent = "Play";
   };
   slider.max = strokes.count;
+  toggle.addEventListener("click", () => {
+    toggle.setAttribute("aria-pressed", String(toggle.getAttribute("aria-pressed") !== "true"));
+    show();
+  });
   slider.addEventListener("input", () => { stop(); show(); });
   play.addEventListener("click", () => {
     if (playing) return stop();

@@ -47,12 +47,14 @@ pub const PAPER_FILE: &str = "report.pdf";
 const STYLE: &str =
     concat!(include_str!("../../assets/report/page.css"), include_str!("../../assets/report/chart.css"));
 const THREE: &str = include_str!("../../assets/three/three.min.js");
-/// The page's own scripts, in order: data and colours, maps and picker, the gear, marks over it, its strokes.
-const SCRIPTS: [&str; 5] = [
+/// The page's own scripts, in order: data and colours, maps and picker, the gear, marks over it, the work while it is
+/// cut, its strokes.
+const SCRIPTS: [&str; 6] = [
     include_str!("../../assets/report/data.js"),
     include_str!("../../assets/report/maps.js"),
     include_str!("../../assets/report/gear.js"),
     include_str!("../../assets/report/marks.js"),
+    include_str!("../../assets/report/work.js"),
     include_str!("../../assets/report/strokes.js"),
 ];
 

@@ -329,8 +329,31 @@ def check_strokes(opened):
     becomes(opened, "gear-view", first, False, "the cutter does not move")
     assert facts.inner_text() != said, "another stroke tells the same"
     opened.page.locator("#gear .viewer").screenshot(path=opened.pictures / "stroke.png")
+    check_work(opened, slider, count)
     slider.fill("0")
     becomes(opened, "gear-view", before, True, "the cutter does not leave")
+
+
+def check_work(opened, slider, count):
+    """Along the axis the work covers less and less of the view; a button shows the finished gear instead."""
+    page = opened.page
+    page.locator("[data-view=front]").click()
+    shares = []
+    # The cutter is at the same side of the gear after whole turns.
+    for place in [1, count * 400 // 1100, count]:
+        slider.fill(str(place))
+        page.wait_for_timeout(500)
+        shares.append(drawn_share(opened))
+        opened.page.locator("#gear .viewer").screenshot(path=opened.pictures / f"work_{place}.png")
+    assert shares[0] > shares[1] + 0.01 and shares[1] > shares[2] > 0.1, f"the view is covered by {shares}"
+    page.locator("[data-view=home]").click()
+    slider.fill(str(count // 4))
+    page.wait_for_timeout(500)
+    worked = kept(opened, "gear-view")
+    page.locator("#strokes-work").click()
+    becomes(opened, "gear-view", worked, False, "the button does not show the finished gear")
+    page.locator("#strokes-work").click()
+    becomes(opened, "gear-view", worked, True, "the button does not show the work again")
 
 
 def check_marks_and_sections(opened):

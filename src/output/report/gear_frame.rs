@@ -41,6 +41,8 @@ pub fn gear_frame(viewer: &Viewer) -> Markup {
                             button type="button" id="strokes-play" aria-pressed="false" { "Play" }
                             input id="strokes" type="range" min="0" value="0" step="1" aria-label="Stroke of the tool"
                                 aria-describedby="stroke-facts";
+                            button type="button" id="strokes-work" aria-pressed="true"
+                                title="The work as it is then; otherwise the finished gear with its maps" { "Work" }
                             output id="stroke-facts" {}
                         }
                     }

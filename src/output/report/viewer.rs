@@ -8,6 +8,8 @@
 //! Maps with more than [`CELLS_PER_QUANTITY`] cells in all are thinned by a whole factor: the page stays small whatever
 //! the gear; the EXR maps beside it keep every cell.
 
+pub mod work;
+
 use std::io::Write as _;
 
 use base64::Engine as _;
@@ -21,6 +23,7 @@ use serde_json::{Value, json};
 use crate::colormap::{ColourScale, tables};
 use crate::output::grid::{MapAxis, MapGrid};
 use crate::surface::triangles::Triangles;
+use work::ViewerWork;
 
 /// Cells of one quantity over all flanks; three quantities that zlib cannot shrink stay below 3 MB in base64.
 pub const CELLS_PER_QUANTITY: usize = 350_000;
@@ -60,6 +63,8 @@ pub struct ViewerStrokes {
     pub parts: Vec<[usize; 2]>,
     /// Strokes in order of time; very many are thinned.
     pub strokes: Vec<ViewerStroke>,
+    /// The work as they leave it.
+    pub work: ViewerWork,
 }
 
 /// One stroke, or one pass.
@@ -273,6 +278,7 @@ impl Viewer {
                 "operations": of.operations,
                 "count": values.len(),
                 "at": block.add_f32(&columns),
+                "work": of.work.packed(&mut block),
             })
         });
         let colours = block.add(tables().as_flattened().as_flattened().iter().copied());

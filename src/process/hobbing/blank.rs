@@ -8,7 +8,9 @@ use crate::process::hobbing::rack_generation::FormPoint;
 use crate::steps::whole_blank;
 use gearcut_core::cut::Backend;
 use gearcut_core::cut::CutBlank;
+use gearcut_core::cut::cpu::blank_sweeps;
 use gearcut_core::cut::sweep_chips::PassChip;
+use gearcut_core::dexel::removal::RemovalWatch;
 use gearcut_core::dexel::{BlankField, BlankGrid};
 use gearcut_core::error::{Refusal, Result};
 use gearcut_core::gear::blank_outline::BlankOutline;
@@ -206,5 +208,20 @@ impl HobCutter<'_> {
             cut.left_mm3.push(cut.field.volumes_mm3());
         }
         Ok(Some(HobbedBlank { cut, chips, in_slices }))
+    }
+
+    /// The same natively, every cut shown to `watch`.
+    ///
+    /// # Errors
+    /// As of [`Self::sections`].
+    pub fn cut_blank_watched(&self, mut field: BlankField, watch: &RemovalWatch) -> Result<(), Refusal> {
+        let note = |slice, family, ray, ends| watch.note(slice, family, ray, ends);
+        for (index, passes) in self.operations.iter().enumerate() {
+            let sections = self.sections(index, true)?;
+            let ids = passes.first_pass..passes.end_pass();
+            // Nothing stops this, and the chips of so few slices are not asked for.
+            let _chips = blank_sweeps::cut_watched(&mut field, &sections, ids, &|| true, &note);
+        }
+        Ok(())
     }
 }

@@ -94,7 +94,7 @@ pub fn page(
     let page_gear = PageGear { words, mesh: ViewMesh::new(cutter)? };
     let mut page = steps::report::page(cutter, page_gear, found, &gear.maps, operation, sections);
     if let Some((viewer, blank)) = page.viewer.as_mut().zip(charts.blank) {
-        viewer.strokes = Some(passes::passes(cutter, blank));
+        viewer.strokes = Some(passes::passes(cutter, blank)?);
     }
     Ok(page)
 }

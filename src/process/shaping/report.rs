@@ -75,7 +75,7 @@ pub fn page(
     let operation = |of: &_| operation_words(of, operations);
     let mut page = steps::report::page(job, gear, found, &cut.maps, operation, sections);
     if let Some(viewer) = &mut page.viewer {
-        viewer.strokes = Some(strokes::strokes(job, &cut.chips));
+        viewer.strokes = Some(strokes::strokes(job, &cut.chips)?);
     }
     Ok(page)
 }

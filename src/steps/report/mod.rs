@@ -12,6 +12,7 @@ mod measured;
 pub mod paper;
 pub mod quantities;
 pub mod texture;
+pub mod work;
 
 use crate::findings::quantities::OPERATIONS;
 use crate::findings::quantities::cutting::{AXES, LIMIT, MARGIN, PEAK};

@@ -134,7 +134,7 @@ fn the_pages_hob_points_its_taking_tooth_to_the_work() {
     let cutter = HobCutter::new(&job).expect("passes");
     let field = job.blank_field().expect("rays");
     let blank = cutter.cut_blank(&Cpu::default(), field, &|| true).expect("cuts").expect("not stopped");
-    let page = passes(&cutter, &blank);
+    let page = passes(&cutter, &blank).expect("fits in memory");
     let cut = &blank.cut;
     let removed_mm3: f64 = cut.blank_mm3.iter().zip(&cut.left_mm3[0]).map(|(before, after)| before - after).sum();
     let taken_mm3: f64 = page.strokes.iter().map(|stroke| stroke.taken[0]).sum();

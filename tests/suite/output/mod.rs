@@ -6,3 +6,4 @@ mod folder;
 mod maps;
 mod meshes;
 mod progress;
+mod work;

@@ -1,11 +1,16 @@
 //! What goes into a cut of the blank field, and what comes out of it, whatever the backend.
 
 use crate::dexel::BlankField;
+use crate::dexel::intervals::End;
 use crate::math::planar_rays::Family;
 use crate::passes::StrokeSet;
 use crate::tool::PlanarTool;
 use crate::tool::closed_tooth::ClosedTooth;
 use glam::DVec2;
+
+/// Is shown what passes take on the native backend, as they take it: slice, family, ray, both ends of the cut. On one
+/// ray cuts come in order of time; rays of several tiles come at once.
+pub type WatchCuts<'a> = dyn Fn(usize, Family, usize, [End; 2]) + Sync + 'a;
 
 /// One operation over the blank field.
 pub struct BlankOperation<'a> {

@@ -21,7 +21,7 @@ use std::ops::Range;
 use std::sync::OnceLock;
 use sweep_chips::SweepsCut;
 
-pub use blank::{BlankCut, BlankOperation, BlankStats, CutBlank, Rub};
+pub use blank::{BlankCut, BlankOperation, BlankStats, CutBlank, Rub, WatchCuts};
 pub use by_stage::ByStage;
 pub use swept::{MakeSwept, SweptBy, SweptField, TakeSwept};
 

@@ -1,4 +1,4 @@
-//! The hob pass by pass, for the page's 3D view: where it is, and what each pass takes.
+//! The hob pass by pass, for the page's 3D view: where it is, what each pass takes, and the work after it.
 //!
 //! In: passes of all operations, what they took of the blank. Out: the teeth that cut, each by its edge and a thickness
 //! behind its rake face, on a round body without gashes, and the poses of the hob in the gear when the tooth of a pass
@@ -7,10 +7,12 @@
 use crate::output::report::viewer::{ViewerStroke, ViewerStrokes};
 use crate::process::hobbing::blank::HobbedBlank;
 use crate::process::hobbing::{HobCutter, HobbingJob};
+use crate::steps::report::work;
 use crate::surface::mesh::Mesh;
 use crate::surface::prism::{blade, prism};
 use crate::surface::triangles::Triangles;
 use gearcut_core::cut::sweep_chips::PassChip;
+use gearcut_core::error::Result;
 use gearcut_core::units::{TURN_RAD, UM_PER_MM};
 use glam::DVec2;
 use std::collections::BTreeSet;
@@ -25,7 +27,10 @@ const CHORD_MM: f64 = 0.05;
 const RIM_POINTS: u32 = 96;
 
 /// Passes of a job that take something.
-pub fn passes(cutter: &HobCutter, blank: &HobbedBlank) -> ViewerStrokes {
+///
+/// # Errors
+/// A field that does not fit in memory.
+pub fn passes(cutter: &HobCutter, blank: &HobbedBlank) -> Result<ViewerStrokes> {
     let job = cutter.job;
     let taking = cutter.operations.iter().zip(&blank.chips).enumerate().flat_map(|(operation, (set, chips))| {
         let mut taking: Vec<&PassChip> = chips.iter().filter(|chip| chip.volume_mm3() > 0.0).collect();
@@ -54,7 +59,9 @@ pub fn passes(cutter: &HobCutter, blank: &HobbedBlank) -> ViewerStrokes {
     }
     tool.add_mesh(&body(job, &tool));
     let operations = job.operations.iter().zip(cutter.operations.iter());
-    ViewerStrokes {
+    let last_passes: Vec<u32> = taking.iter().step_by(every).map(|(_, _, chip)| chip.pass).collect();
+    let uncut = work::field(&job.scene, &job.stock, false)?;
+    Ok(ViewerStrokes {
         tool,
         noun: "pass",
         operations: operations.map(|(of, set)| (of.spec.name.clone(), set.count() as usize)).collect(),
@@ -62,7 +69,8 @@ pub fn passes(cutter: &HobCutter, blank: &HobbedBlank) -> ViewerStrokes {
         names: job.hob.labels(),
         parts,
         strokes: strokes.collect(),
-    }
+        work: work::watched(uncut, &last_passes, |field, watch| Ok(cutter.cut_blank_watched(field, watch)?))?,
+    })
 }
 
 /// A cylinder below the drawn teeth, as long as the row of all teeth.

@@ -6,9 +6,12 @@ use crate::process::shaping::ShapingJob;
 use crate::process::shaping::linkage::CutterPose;
 use crate::process::shaping::target::tip_relief::TipRelief;
 use crate::process::shaping::target::{FlankEnd, TargetFlank};
-use gearcut_core::cut::{Backend, BlankCut, CutBlank, Rub};
+use gearcut_core::cut::cpu::blank;
+use gearcut_core::cut::{Backend, BlankCut, BlankOperation, CutBlank, Rub};
+use gearcut_core::dexel::removal::RemovalWatch;
 use gearcut_core::dexel::{BlankField, BlankGrid};
 use gearcut_core::error::{Refusal, Result};
+use gearcut_core::gear::blank_outline::BlankOutline;
 use gearcut_core::passes::StrokeSet;
 use gearcut_core::passes::planar::strokes::StrokeLaw;
 use gearcut_core::terms::Side;
@@ -76,6 +79,38 @@ impl ShapingJob {
             return self.cut_blank_along_helix(backend, field, advance);
         }
         self.planar().cut_blank(backend, field, |operation| self.return_strokes(operation), advance)
+    }
+
+    /// The same natively, return strokes left alone, every cut shown to `watch`.
+    pub fn cut_blank_watched(&self, field: BlankField, watch: &RemovalWatch) {
+        let reach_mm = BlankOutline::new(&self.blank).reach_mm();
+        let cut = |field: &mut BlankField, strokes: &StrokeSet, first_slice: usize| {
+            let teeth = self.planar().closed_teeth(strokes, reach_mm);
+            let operation = BlankOperation {
+                strokes,
+                returns: None,
+                tool: &self.cutter,
+                teeth: &teeth,
+                blank_reach_mm: reach_mm,
+                cull: true,
+            };
+            let note = |slice, family, ray, ends| watch.note(first_slice + slice, family, ray, ends);
+            // Nothing stops this, and what each pass removed is not needed.
+            let _removed = blank::cut_watched(field, &operation, &|| true, &note);
+        };
+        if self.helix.is_none() {
+            let mut field = field;
+            self.operations.iter().for_each(|operation| cut(&mut field, &operation.strokes, 0));
+            return;
+        }
+        let BlankField { grid, slices } = field;
+        for (index, (slice, &z_mm)) in slices.into_iter().zip(&grid.slices_z_mm).enumerate() {
+            let grid = BlankGrid { slices_z_mm: vec![0.0], ..grid.clone() };
+            let mut alone = BlankField { grid, slices: vec![slice] };
+            for operation in &self.operations {
+                cut(&mut alone, &self.strokes_in_section(operation, z_mm), index);
+            }
+        }
     }
 
     /// Slice by slice, each with the poses that the guide gives the cutter there.

@@ -1,4 +1,4 @@
-//! The cutter stroke by stroke, for the page's 3D view: where it stands, and what each stroke takes.
+//! The cutter stroke by stroke, for the page's 3D view: where it stands, what each stroke takes, and the work after it.
 //!
 //! The cutter is drawn over the gear's upper face, at the upper end of its stroke, where it hides no flank and its
 //! teeth stand over the spaces that they cut; its height is a drawing's, not the tool's.
@@ -7,8 +7,11 @@ use crate::output::report::viewer::{ViewerStroke, ViewerStrokes};
 use crate::process::shaping::ShapingJob;
 use crate::process::shaping::cut::chips::{ChipLedger, StrokeChips};
 use crate::process::shaping::cut::section::{CutSection, cutter_solid};
+use crate::steps::report::work;
 use crate::surface::triangles::Triangles;
+use gearcut_core::error::Result;
 use gearcut_core::frame::{Rigid2, Rigid3};
+use gearcut_core::tool::CuttingTool as _;
 use gearcut_core::units::UM_PER_MM;
 use glam::{DMat3, DVec2};
 
@@ -18,7 +21,10 @@ const MOST_STROKES: usize = 20_000;
 const ABOVE_FACE: [f64; 2] = [0.02, 0.22];
 
 /// The strokes of a job with their chips.
-pub fn strokes(job: &ShapingJob, chips: &ChipLedger) -> ViewerStrokes {
+///
+/// # Errors
+/// A field that does not fit in memory.
+pub fn strokes(job: &ShapingJob, chips: &ChipLedger) -> Result<ViewerStrokes> {
     let count = CutSection::strokes(job);
     let every = count.div_ceil(MOST_STROKES).max(1);
     let stroke = |stroke: usize| {
@@ -38,15 +44,24 @@ pub fn strokes(job: &ShapingJob, chips: &ChipLedger) -> ViewerStrokes {
         }
     };
     let operations = job.operations.iter().map(|operation| (operation.spec.name.clone(), operation.strokes.count()));
-    ViewerStrokes {
+    let shown = || (0..count).step_by(every);
+    // Pass ids count teeth of the cutter, stroke by stroke.
+    let last_passes: Vec<u32> = shown().map(|stroke| (stroke as u32 + 1) * job.cutter.blade_count() - 1).collect();
+    // The feed during a stroke makes less of a difference between sections than a pixel.
+    let uncut = work::field(&job.scene, &job.blank, job.helix.is_none())?;
+    Ok(ViewerStrokes {
         tool: cutter(job),
         noun: "stroke",
         operations: operations.collect(),
         words: "chip {0} mm², {1} µm thick, {2} N, space {3}",
         parts: Vec::new(),
         names: Vec::new(),
-        strokes: (0..count).step_by(every).map(stroke).collect(),
-    }
+        strokes: shown().map(stroke).collect(),
+        work: work::watched(uncut, &last_passes, |field, watch| {
+            job.cut_blank_watched(field, watch);
+            Ok(())
+        })?,
+    })
 }
 
 fn cutter(job: &ShapingJob) -> Triangles {

@@ -11,7 +11,7 @@
 //! After each stroke the cutter goes back, drawn off by the relief motion; if return poses are given, material that
 //! their teeth would enter is reported, and left where it is.
 
-use crate::cut::{BlankCut, BlankOperation, BlankStats, Rub};
+use crate::cut::{BlankCut, BlankOperation, BlankStats, Rub, WatchCuts};
 use crate::dexel::blank_field::{BlankField, RayMaterial};
 use crate::dexel::intervals::{self, End, Span};
 use crate::frame::Rigid2;
@@ -47,6 +47,16 @@ pub fn cut(
     operation: &BlankOperation,
     advance: &(dyn Fn() -> bool + Sync),
 ) -> Option<BlankCut> {
+    cut_watched(field, operation, advance, &|_, _, _, _| {})
+}
+
+/// The same, every cut shown to `watch`.
+pub fn cut_watched(
+    field: &mut BlankField,
+    operation: &BlankOperation,
+    advance: &(dyn Fn() -> bool + Sync),
+    watch: &WatchCuts,
+) -> Option<BlankCut> {
     let set = operation.strokes;
     let grid = field.grid.clone();
     let mut result =
@@ -70,7 +80,9 @@ pub fn cut(
         let area_per_length = grid.spacing_mm() * width_mm;
         let cuts: Vec<(Family, Option<RayTileCut>)> = tiles
             .into_par_iter()
-            .map(|tile| (tile.family, advance().then(|| tile.cut(operation, &passes, &returns, area_per_length))))
+            .map(|tile| {
+                (tile.family, advance().then(|| tile.cut(operation, [&passes, &returns], area_per_length, watch)))
+            })
             .collect();
         for (family, cut) in cuts {
             let cut = cut?;
@@ -91,13 +103,14 @@ pub fn rubs_of_tile(
     [slice, family, first]: [usize; 3],
     count: usize,
     operation: &BlankOperation,
-    [passes, returns]: [&[PlacedPass]; 2],
+    passes_and_returns: [&[PlacedPass]; 2],
 ) -> Vec<Rub> {
     let grid = &field.grid;
     let mut rays = field.slices[slice].rays[family][first..first + count].to_vec();
     let (row, family) = (&grid.rows[family], FAMILIES[family]);
     let tile = RayTile { family, row, first, rays: &mut rays, slice: slice as u32 };
-    tile.cut(operation, passes, returns, grid.spacing_mm() * grid.slice_widths_mm()[slice]).rubs
+    let volume_per_length = grid.spacing_mm() * grid.slice_widths_mm()[slice];
+    tile.cut(operation, passes_and_returns, volume_per_length, &|_, _, _, _| {}).rubs
 }
 
 /// Neighbouring rays of one family in one slice.
@@ -121,15 +134,16 @@ impl RayTile<'_> {
     fn cut(
         mut self,
         operation: &BlankOperation,
-        passes: &[PlacedPass],
-        returns: &[PlacedPass],
+        [passes, returns]: [&[PlacedPass]; 2],
         volume_per_length: f64,
+        watch: &WatchCuts,
     ) -> RayTileCut {
         let strip = if operation.cull {
             [self.row.at_mm(self.first), self.row.at_mm(self.first + self.rays.len() - 1)]
         } else {
             [f64::NEG_INFINITY, f64::INFINITY]
         };
+        let (slice, family) = (self.slice as usize, self.family);
         let (mut scratch, mut placed) = (Scratch::default(), PlacedScratch::default());
         let mut done = RayTileCut::default();
         let mut returns = reaching_strip(returns, operation.teeth, self.family, strip).peekable();
@@ -147,7 +161,8 @@ impl RayTile<'_> {
             }
             let tooth = operation.teeth[pass.edge].placed(&pass.work_from_blade, &mut placed);
             let id = operation.strokes.pass_id(pass.stroke as usize, pass.blade);
-            let removed_mm = self.take(&tooth, id, &mut scratch, &mut done.stats, |_| true, |_, _, _| {});
+            let shown = |ray, _: &[Span], ends| watch(slice, family, ray, ends);
+            let removed_mm = self.take(&tooth, id, &mut scratch, &mut done.stats, |_| true, shown);
             if removed_mm > 0.0 {
                 done.removed_mm.push((id, removed_mm));
             }
@@ -189,7 +204,7 @@ impl RayTile<'_> {
     }
 
     /// Takes what lies inside a curve from the rays that are wanted, as they are asked about in their order; gives the
-    /// length removed, mm. `chip` is shown each ray before: its place across, its spans, the ends of the cut.
+    /// length removed, mm. `chip` is shown each ray before: its number, its spans, the ends of the cut.
     pub fn take(
         &mut self,
         curve: &impl ClosedCurve,
@@ -197,7 +212,7 @@ impl RayTile<'_> {
         scratch: &mut Scratch,
         stats: &mut BlankStats,
         wanted: impl FnMut(usize) -> bool,
-        mut chip: impl FnMut(f64, &[Span], [End; 2]),
+        mut chip: impl FnMut(usize, &[Span], [End; 2]),
     ) -> f64 {
         let mut removed_mm = 0.0;
         let mut cuts = std::mem::take(&mut scratch.cuts);
@@ -209,7 +224,7 @@ impl RayTile<'_> {
             }
         });
         for (ray, from, to) in cuts.drain(..) {
-            chip(self.row.at_mm(self.first + ray), &self.rays[ray], [from, to]);
+            chip(self.first + ray, &self.rays[ray], [from, to]);
             let length_mm = intervals::subtract(&mut self.rays[ray], from, to);
             if length_mm > 0.0 {
                 removed_mm += length_mm;

@@ -12,8 +12,8 @@
 //! and plants a culling that is wrong.
 
 use super::blank::{RayTile, Scratch};
-use crate::cut::BlankStats;
 use crate::cut::sweep_chips::{ChipAccumulator, ChipSurfaces, PassChip, SweepsCut};
+use crate::cut::{BlankStats, WatchCuts};
 use crate::dexel::blank_field::{BlankField, BlankGrid, Slice};
 use crate::dexel::span_table::SpanTable;
 use crate::math::planar_rays::FAMILIES;
@@ -34,6 +34,17 @@ pub fn cut(
     passes: Range<u32>,
     advance: &(dyn Fn() -> bool + Sync),
 ) -> Option<SweepsCut> {
+    cut_watched(field, sections, passes, advance, &|_, _, _, _| {})
+}
+
+/// The same, every cut shown to `watch`.
+pub fn cut_watched(
+    field: &mut BlankField,
+    sections: &SweptSections,
+    passes: Range<u32>,
+    advance: &(dyn Fn() -> bool + Sync),
+    watch: &WatchCuts,
+) -> Option<SweepsCut> {
     let grid = &field.grid;
     let block = block_slices(grid, sections);
     let widths_mm = grid.slice_widths_mm();
@@ -51,7 +62,7 @@ pub fn cut(
                 chips: Vec::new(),
                 stats: BlankStats::default(),
             });
-            cut_block(grid, cuts.collect(), sections, advance)
+            cut_block(grid, cuts.collect(), sections, advance, watch)
         })
         .collect::<Option<_>>()?;
     let mut accumulator = ChipAccumulator::new(passes);
@@ -103,6 +114,7 @@ fn cut_block(
     mut slices: Vec<SliceCut>,
     sections: &SweptSections,
     advance: &(dyn Fn() -> bool + Sync),
+    watch: &WatchCuts,
 ) -> Option<Vec<(Vec<PassChip>, BlankStats)>> {
     let mut memory = SweepBuffers::default();
     let z_range_mm = [slices[0].z_mm, slices[slices.len() - 1].z_mm];
@@ -111,7 +123,7 @@ fn cut_block(
         for pass in sections.len() * share / shares..sections.len() * (share + 1) / shares {
             if !sections.culls() || memory.band.set(sections, pass, z_range_mm) {
                 for slice in &mut slices {
-                    slice.cut(grid, sections, pass, &mut memory);
+                    slice.cut(grid, sections, pass, &mut memory, watch);
                 }
             }
         }
@@ -123,7 +135,15 @@ fn cut_block(
 }
 
 impl SliceCut<'_> {
-    fn cut(&mut self, grid: &BlankGrid, sections: &SweptSections, pass: usize, memory: &mut SweepBuffers) {
+    fn cut(
+        &mut self,
+        grid: &BlankGrid,
+        sections: &SweptSections,
+        pass: usize,
+        memory: &mut SweepBuffers,
+        watch: &WatchCuts,
+    ) {
+        let index = self.index as usize;
         let SweepBuffers { band, section, outline, reach, near, tile: scratch, surfaces } = memory;
         let mut followed = false;
         if sections.culls() {
@@ -157,15 +177,17 @@ impl SliceCut<'_> {
         for (f, family) in FAMILIES.into_iter().enumerate() {
             let (Some(&first), Some(&last)) = (near[f].first(), near[f].last()) else { continue };
             let rays = &mut self.slice.rays[f][first..=last];
-            let mut tile = RayTile { family, row: &grid.rows[f], first, rays, slice: self.index };
+            let row = &grid.rows[f];
+            let mut tile = RayTile { family, row, first, rays, slice: self.index };
             let mut met = BlankStats::default();
             let mut next = near[f].iter().copied().peekable();
             let wanted = |ray: usize| {
                 while next.next_if(|near| *near < ray).is_some() {}
                 next.peek() == Some(&ray)
             };
-            let removed_mm = tile.take(section, section.pass, scratch, &mut met, wanted, |across_mm, spans, cut| {
-                surfaces.add(family, across_mm, spans, cut);
+            let removed_mm = tile.take(section, section.pass, scratch, &mut met, wanted, |ray, spans, cut| {
+                watch(index, family, ray, cut);
+                surfaces.add(family, row.at_mm(ray), spans, cut);
             });
             if sections.culls() {
                 // Counted above, when they were compared with what is left.
