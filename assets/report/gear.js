@@ -433,10 +433,11 @@ gearcut.loaded.then((data) => {
   resize();
   choose({ quantity: chosen.quantity, flank: chosen.flank });
   const metal = flankMaterial.uniforms.metal;
-  // Room for what stands beside the gear.
+  // Room for what is beside the gear; a view that the reader has chosen stays.
   const widen = (reach) => {
+    const isHome = camera.position.distanceTo(origin.clone().addScaledVector(home, fitting())) < 0.01 * radius;
     radius = Math.max(radius, reach);
-    actions.home();
+    if (isHome) actions.home();
   };
   const view = { scene, camera, controls, canvas, overlays, widen, draw };
   const looks = { bodyMaterial, edgeMaterial, edges, metal, light, cut };

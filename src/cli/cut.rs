@@ -7,7 +7,6 @@ use crate::interrupt::Interrupt;
 use crate::library::Job;
 use crate::process;
 use crate::progress::{Progress, ProgressMode};
-use crate::scene::draft;
 use crate::steps::parts::{Part, Parts};
 use gearcut_core::Error;
 
@@ -35,9 +34,6 @@ pub fn run(arguments: &CutArguments) -> Result<(), Failure> {
     let interrupt = Interrupt::listen().map_err(listening(&out))?;
     let choice = backend::chosen(arguments.run.compute.backend, arguments.on_gpu_failure)?;
     progress.note(&backend::note(&choice));
-    if arguments.draft {
-        progress.note(draft::DRAFT_WORDS);
-    }
     let scene = Arc::new(scene);
     let explained = |error| Failure::of_scene(&scene, error);
     let job = Job::new(Arc::clone(&scene)).map_err(explained)?.on(choice);

@@ -38,6 +38,10 @@ notices! {
     /// Extremes and means over the gear lack the other flanks.
     Stopped: Warning "cut.stopped", "howto.md", (),
         "stopped by Ctrl-C: figures cover the finished flanks only"; "Let the run end, or cut with --draft."
+    /// Numbers are those of a coarse cut.
+    Draft: Note "cut.draft", "howto.md", (),
+        "a draft: dexels 8, rays and cells of maps 4 times as far apart; deviations, chips and texture are rough";
+        "Cut without --draft for numbers that count."
     /// Part of the flanks is still the blank, and no number covers it.
     Untouched: Warning "flank.uncut", "hobbing.md", (dexels, why),
         "{dexels} dexels were reached by no pass: {why}"; "Let the tool travel or roll further."

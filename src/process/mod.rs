@@ -134,7 +134,9 @@ pub fn load(path: &Path, settings: &[String]) -> Result<LoadedScene, SceneErrors
 /// All problems of the scene, each with its place and a way out.
 pub fn load_draft(path: &Path, settings: &[String]) -> Result<LoadedScene, SceneErrors> {
     let whole = load(path, settings)?;
-    load(path, &[draft_settings(&whole.scene).as_slice(), settings].concat())
+    let mut draft = load(path, &[draft_settings(&whole.scene).as_slice(), settings].concat())?;
+    draft.scene.is_draft = true;
+    Ok(draft)
 }
 
 /// Reads a scene from text; see [`scene::parse`].

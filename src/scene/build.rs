@@ -68,6 +68,7 @@ pub(super) fn build(name: &str, process: &SceneProcess, base_dir: &Path, values:
         },
         report: report_head(values.view("report")),
         pictures: pictures?,
+        is_draft: false,
     })
 }
 

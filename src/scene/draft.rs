@@ -12,10 +12,6 @@ const DRAFT_DEXELS: f64 = 8.0;
 /// of its maps, each of which asks for a chip.
 const DRAFT_RAYS: f64 = 4.0;
 
-/// What is rough in a draft, in words.
-pub const DRAFT_WORDS: &str =
-    "draft: dexels 8, rays and cells of maps 4 times as far apart; deviations, chips and texture are rough";
-
 /// Settings that make the scene a draft, within the ranges of the keys.
 pub fn draft_settings(scene: &Scene) -> Vec<String> {
     let fields = &scene.fields;

@@ -34,6 +34,8 @@ pub struct Scene {
     pub report: ReportHead,
     /// Pictures to draw.
     pub pictures: Vec<Picture>,
+    /// Whether it is a [draft](super::draft): its numbers are rough.
+    pub is_draft: bool,
 }
 
 impl Gear {

@@ -9,6 +9,7 @@ use super::attempts::Attempts;
 use super::axes::{self, AxesOfOperation};
 use super::parts::Part;
 use crate::findings::notice::ranked;
+use crate::findings::notices::Draft;
 use crate::findings::{Findings, RESULTS_FILE};
 use crate::output::report::{PAPER_FILE, Page, REPORT_FILE};
 use crate::output::vector_page::VectorPage;
@@ -30,7 +31,10 @@ pub fn write<O: AxesOfOperation>(
     sheet: Option<VectorPage>,
 ) -> Result<()> {
     let Tools { progress, folder, parts, .. } = *tools;
-    let known = std::mem::take(&mut found.warnings);
+    let mut known = std::mem::take(&mut found.warnings);
+    if scene.is_draft {
+        known.push(Draft {}.notice());
+    }
     let list = |attempts: &Attempts| ranked(known.iter().cloned().chain(attempts.told()));
     if parts.has(Part::Axes) {
         let step = progress.step("axis programs", 1, "part");

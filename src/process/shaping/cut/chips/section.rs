@@ -182,8 +182,8 @@ impl<'a> SpaceSection<'a> {
             side.distance_mm(point, after, best_mm, self.deepest_mm, joined_mm)
         });
         // A chip that is all between edges of the same tooth meets no old surface; it is as thick as the length through
-        // it.
-        if nearest_mm.is_finite() { nearest_mm } else { through_mm }
+        // it. Old surface farther away than any run of this stroke is that of another chip.
+        if nearest_mm <= self.deepest_mm.max(through_mm) { nearest_mm } else { through_mm }
     }
 }
 
