@@ -10,7 +10,7 @@
 use crate::backend::Choice;
 use crate::findings::Findings;
 use crate::interrupt::Interrupt;
-use crate::output::folder::{NamedResult, OutputFolder};
+use crate::output::folder::{NamedResult, OutputFolder, SCENE_FOLDER};
 use crate::process::{CutDone, ProcessJob};
 use crate::progress::{Progress, ProgressMode};
 use crate::scene::LoadedScene;
@@ -162,7 +162,11 @@ impl<'a> Run<'a> {
             folder.force_to_disk()?;
             step.advance(1);
             step.finish();
-            folder.write_record(record::run_record(&tools, &done.work, done.findings.complete, &checksums))?;
+            let mut record = record::run_record(&tools, &done.work, done.findings.complete, &checksums);
+            if let Some(files) = scene.folder_of_files(out)? {
+                record.insert(SCENE_FOLDER.to_owned(), files.into());
+            }
+            folder.write_record(record)?;
             Ok(done)
         };
         let CutDone { findings, summary, work } = written().map_err(|error| folder.explain(error))?;

@@ -1,5 +1,7 @@
 //! `gearcut mate`: the scene of the gear that runs with a scene's gear.
 
+use std::path::Path;
+
 use crate::process;
 use crate::scene::Mate;
 use gearcut_core::gear::GearKind;
@@ -14,8 +16,10 @@ pub fn run(arguments: &MateArguments) -> Result<(), Failure> {
     let loaded = process::load(&arguments.scene.scene, &arguments.scene.settings)?;
     let kind = if arguments.internal { GearKind::Internal } else { GearKind::External };
     let wanted = Mate { teeth: arguments.teeth, kind };
+    // What goes to the terminal is meant for the current folder.
+    let folder = arguments.out.as_deref().and_then(Path::parent).unwrap_or(Path::new(""));
     // The refusal blames keys of the mate's scene, which does not exist yet: it is no place in the driver's file.
-    let mate = print::waiting("mate", "scene", || loaded.mate(wanted)).map_err(|refusal| {
+    let mate = print::waiting("mate", "scene", || loaded.mate(wanted, folder)).map_err(|refusal| {
         let words = if arguments.internal { "internal" } else { "external" };
         Failure::without_place(&format!("no {words} mate with {} teeth", wanted.teeth), &refusal)
     })?;

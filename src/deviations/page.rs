@@ -41,7 +41,7 @@ pub fn write(
     let page = Page {
         what: "deviations",
         subtitle: format!("{} measured points", laid.feet.len()),
-        operations: vec![gear_words(&loaded.scene.gear)],
+        operations: vec![gear_words(&loaded.scene)],
         done: "all points laid on the target",
         sections: [
             PageSection::new(

@@ -51,9 +51,9 @@ pub enum ColumnChart {
     Curve,
 }
 
-/// What a key reads as when it is given no title of its own.
+/// What a key reads as when it is given no title of its own; keys have the spelling of code.
 pub(super) fn title_of(key: &str) -> String {
-    key.replace('_', " ")
+    key.replace('_', " ").replace("center", "centre")
 }
 
 /// What a quantity is, whatever its value.

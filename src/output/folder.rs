@@ -43,6 +43,8 @@ pub const RUN_RECORD: &str = "run.json";
 pub const FILES: &str = "files";
 /// Key of the run record under which they are with their checksums.
 pub const CHECKSUMS: &str = "sha256";
+/// Key of the run record under which the folder of the files that the scene names is, seen from the results.
+pub const SCENE_FOLDER: &str = "scene_folder";
 /// What file managers write into folders that somebody looks at.
 const OF_FILE_MANAGERS: [&str; 4] = [".DS_Store", "Thumbs.db", "desktop.ini", ".directory"];
 

@@ -162,8 +162,8 @@ fn warnings(rolled: &RolledPair) -> Vec<Notice> {
     let smallest = rolled.backlash.iter().map(|play| UM_PER_MM * play.circumferential_mm).fold(f64::INFINITY, f64::min);
     if smallest < JAMS_UM {
         let by = match rolled.fit.no_involutes() {
-            Some(_) => "a thicker tooth in the cutter's drawing",
-            None => "gear.tooth_thickness_allowance_mm",
+            Some(_) => "draw the tool's tooth wider",
+            None => "gear.tooth_thickness_allowance_mm below 0",
         };
         warnings.push(Jams { missing_um: format!("{:.1}", -smallest), by }.notice());
     }

@@ -72,6 +72,8 @@ pub struct Fit {
     /// A named centre distance less the one at which the pitch curves close, mm; 0 on round gears, whose pitch curves
     /// follow it.
     pub named_off_mm: f64,
+    /// Whether both gears are round with involute teeth: their ratio is even at any distance.
+    pub round_involutes: bool,
     /// The gears whose teeth are drawn: they have no pressure angle, and gaps count along the pitch curves.
     pub drawn: [bool; 2],
     /// Sum (external) or difference (ring) of the numbers of a space and the tooth that stands in it.
@@ -138,11 +140,11 @@ impl Fit {
             addendum_mm: [a, b].map(Gear::addendum_mm),
             extra_thickness_mm: [a, b].map(Gear::extra_thickness_mm),
             own: teeth,
+            round_involutes: round && !is_drawn,
             drawn,
             phase: 0,
         };
-        if round
-            && !is_drawn
+        if fit.round_involutes
             && let Some(circles) = RollingCircles::of(&teeth, [a, b], named_mm)?
         {
             fit.pitch = circles.pair()?;

@@ -12,6 +12,7 @@ use crate::pair::assembly::{AssemblyErrors, Meshing, SectionFlanks};
 use crate::pair::flank_chain::{FlankChain, GearFlanks, nominal_section};
 use crate::pair::penetration::SpaceOutline;
 use crate::pair::pitch_pair::Member;
+use crate::process;
 use crate::scene::Scene;
 use crate::scene::model::Gear;
 use crate::steps::view_mesh::ViewMesh;
@@ -103,10 +104,12 @@ impl PairFlanks {
         let (mut ends, mut views) = (None, None);
         let sections = match source {
             FlankSource::Cut => {
+                // What one gear lacks is said before the other is cut.
+                let jobs = [process::prepare(scenes[0])?, process::prepare(scenes[1])?];
                 let cut = |at: usize| -> Result<GearInSections> {
                     // A root and two flanks for each tooth.
                     let stage = watch.stage(CUT[at], 3 * scenes[at].gear.teeth as usize, "flanks and roots")?;
-                    let gear = outline::cut(scenes[at], backend, &rows_mm, &stage)?;
+                    let gear = outline::cut(jobs[at].as_ref(), backend, &rows_mm, &stage)?;
                     stage.finish();
                     Ok(gear)
                 };

@@ -6,7 +6,7 @@ notices! {
     /// The pair cannot be assembled, or runs under load from both flanks.
     Jams: Warning "pair.jams", "pair.md", (missing_um, by),
         "the pair jams: {missing_um} um of backlash are missing; "
-        + "thin the teeth with {by}, or move the axes"
+        + "make the teeth thinner ({by}), or move the axes"
     /// The pair cannot turn through this position.
     Interference: Fault "pair.interference", "pair.md", (other, depth_um, place, own, angle_deg),
         "a tip of gear {other} is {depth_um} um deep in a {place} of gear {own} at the ratio of the pitch curves, at \

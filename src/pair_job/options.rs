@@ -187,12 +187,25 @@ impl PairOptions {
         if range_mm[1] <= range_mm[0] {
             return Err(Refusal::new("eccentricity_um", problem, "give smaller eccentricities"));
         }
-        let [one, other] = range_mm.map(|mm| UM_PER_MM * (fit.pitch.sign() * mm - fit.named_off_mm));
-        let way_out = format!(
-            "give {:.0} to {:.0} um; round gears roll at any --center-distance-mm at which their teeth meet",
-            one.min(other),
-            one.max(other)
-        );
+        let [one, other] = range_mm.map(|mm| fit.pitch.sign() * mm);
+        let (low_mm, high_mm) = (one.min(other), one.max(other));
+        // A named distance that is off is to blame before an error that is added to it.
+        if fit.named_off_mm != 0.0 {
+            let [low_mm, high_mm] =
+                [low_mm, high_mm].map(|mm| closing_mm + mm - self.center_distance_error_um / UM_PER_MM);
+            let way_out = format!(
+                "name {low_mm:.3} to {high_mm:.3} mm (--center-distance-mm or gear.center_distance_mm), or none for \
+                 {closing_mm:.6} mm"
+            );
+            return Err(Refusal::new("center_distance_mm", problem, way_out));
+        }
+        let [low_um, high_um] = [low_mm, high_mm].map(|mm| UM_PER_MM * mm);
+        let any = if fit.round_involutes {
+            "; involutes on round gears roll at any --center-distance-mm at which they meet"
+        } else {
+            ""
+        };
+        let way_out = format!("give {low_um:.0} to {high_um:.0} um of --center-distance-error-um{any}");
         Err(Refusal::new("center_distance_error_um", problem, way_out))
     }
 }

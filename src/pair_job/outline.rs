@@ -15,8 +15,7 @@ use super::generated::{FlankEnds, flank_ends};
 use super::watch::WatchedUnits;
 use crate::job::{CylindricalGear, GearJob};
 use crate::pair::flank_chain::GearFlanks;
-use crate::process;
-use crate::scene::Scene;
+use crate::process::ProcessJob;
 use crate::steps::view_mesh::ViewMesh;
 use gearcut_core::cut::Backend;
 use gearcut_core::dexel::NO_PASS;
@@ -56,13 +55,18 @@ pub struct GearInSections {
     pub view: ViewMesh,
 }
 
-/// Cuts the finished flanks and roots of a gear in the sections `rows_z_mm`.
+/// Cuts the finished flanks and roots of a gear that is made ready in the sections `rows_z_mm`.
 ///
 /// # Errors
 /// Geometry that cannot be cut; flanks that no pass has reached; a gear without sections; Ctrl-C.
-pub fn cut(scene: &Scene, backend: &dyn Backend, rows_z_mm: &[f64], stage: &WatchedUnits) -> Result<GearInSections> {
+pub fn cut(
+    job: &dyn ProcessJob,
+    backend: &dyn Backend,
+    rows_z_mm: &[f64],
+    stage: &WatchedUnits,
+) -> Result<GearInSections> {
     let mut cut = None;
-    process::prepare(scene)?.with_gear(&mut |gear| {
+    job.with_gear(&mut |gear| {
         cut = Some(cut_gear(gear, backend, rows_z_mm, stage)?);
         Ok(())
     })?;

@@ -5,6 +5,7 @@
 //! distance.
 
 use super::charts::{self, NamedLines};
+use super::fit::Fit;
 use super::options::PairOptions;
 use super::quantities::{
     BACKLASH, CENTER_DISTANCE, CONTACT, DOUBLE_FLANK, FLANKS_ROLLED, INTERFERENCE, PAIR, RATIO, TRANSMISSION_ERROR,
@@ -117,7 +118,7 @@ pub fn page(
         PageSection::new(
             "center-distance",
             "Centre distance",
-            "What 10 µm more do. Round gears turn as evenly at any distance; non-circular ones do not.",
+            distance_words(&rolled.fit),
             part(vec![table(&CENTER_DISTANCE), table(&PAIR)]),
         ),
     ];
@@ -130,11 +131,22 @@ pub fn page(
             rolled.period.moments.len(),
             plain(rolled.fit.pitch.center_distance_mm() + rolled.meshing.center_distance_error_mm()),
         ),
-        operations: gears.map(|(scene, role)| format!("{role}: {}. {}", scene.name, gear_words(&scene.gear))).collect(),
+        operations: gears.map(|(scene, role)| format!("{role}: {}. {}", scene.name, gear_words(scene))).collect(),
         done: "rolled over a whole period",
         viewer,
         sections: sections.into_iter().map(|section| with_marking(section, options)).chain(parts.end).collect(),
         ..page_of(found)
+    }
+}
+
+/// What the section on the centre distance says of these gears.
+fn distance_words(fit: &Fit) -> &'static str {
+    if fit.round_involutes {
+        "What 10 µm more do. Involutes on round gears turn as evenly at any distance."
+    } else if fit.no_involutes().is_some() {
+        "What 10 µm more do. Drawn teeth are made for one distance; at another the ratio changes with every tooth."
+    } else {
+        "What 10 µm more do. Non-circular gears turn less evenly at another distance than their own."
     }
 }
 

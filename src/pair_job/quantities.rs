@@ -102,7 +102,7 @@ rows! {
     CHANGE_OF_ERROR: "transmission_error", "arcsec",
         "largest change of the driving flanks' transmission error when the axes are moved 10 um further apart";
     RANGE_OF_CHANGE: "transmission_error_range", "arcsec",
-        "largest less smallest change of the transmission error by those 10 um: 0 on round gears"
+        "largest less smallest change of the transmission error by those 10 um: 0 between involutes on round gears"
         => titled("10 um: change of error, range"), shown();
     LEAST_MORE_PLAY: "smallest_backlash_change", "um",
         "smallest change of the circumferential backlash by those 10 um"

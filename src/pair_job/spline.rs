@@ -22,6 +22,7 @@ use super::watch::{CUT, Watch};
 use crate::job::rows_z_mm;
 use crate::measure::round_gear::is_round;
 use crate::pair::flank_chain::{FlankChain, GearFlanks, PolarFlank};
+use crate::process;
 use crate::scene::Scene;
 use gearcut_core::cut::Backend;
 use gearcut_core::error::{Refusal, Result};
@@ -99,9 +100,10 @@ pub fn fit(scenes: [&Scene; 2], options: &PairOptions, backend: &dyn Backend, wa
         Some(count) => rows_z_mm(face_mm, face_mm / (count as f64 - 1.0)),
     };
     let teeth = gears[0].teeth;
+    let jobs = [process::prepare(scenes[0])?, process::prepare(scenes[1])?];
     let cut = |at: usize| -> Result<Vec<Toothing>> {
         let stage = watch.stage(CUT[at], 3 * teeth as usize, "flanks and roots")?;
-        let sections = outline::cut(scenes[at], backend, &rows_mm, &stage)?.sections;
+        let sections = outline::cut(jobs[at].as_ref(), backend, &rows_mm, &stage)?.sections;
         stage.finish();
         Ok(sections.iter().map(|flanks| Toothing::new(flanks, gears[at].kind)).collect())
     };

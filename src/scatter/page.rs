@@ -154,7 +154,7 @@ fn page(scene: &Scene, scatter: &Scatter, found: &Findings, files: Vec<String>) 
             scatter.flank.tooth,
             scatter.flank.side.name()
         ),
-        operations: vec![gear_words(&scene.gear)],
+        operations: vec![gear_words(scene)],
         done: "all gears cut",
         sections,
         ..page_of(found)

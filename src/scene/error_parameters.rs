@@ -102,7 +102,7 @@ pub fn error_parameters(loaded: &LoadedScene, whole_lists: bool) -> Vec<ErrorPar
     }
     for &(stem, kind) in process.axes {
         let section = machine_errors::path(stem);
-        let name = stem.replace('_', " ");
+        let name = stem.replace('_', " ").replace("center", "centre");
         for source in of_axis(kind) {
             let what = format!("{name}: {}", source.what);
             parameters(loaded, &section, &what, source, kind, whole_lists, &mut found);

@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use super::errors::{Problem, SceneErrors, SourcePlace};
+use super::files::WayToFiles;
 use super::keys::join;
 use super::parameters::key_of;
 use super::points::{read_points, read_text};
@@ -152,6 +153,11 @@ fn imply<'a>(root: &mut Node, list: &str, elements: impl IntoIterator<Item = Vec
 }
 
 impl LoadedScene {
+    /// Folder of the files that it refers to.
+    pub fn base_dir(&self) -> &Path {
+        &self.base_dir
+    }
+
     /// The same text with more `--set` arguments behind those that it was read with, against the keys of `table`.
     ///
     /// # Errors
@@ -159,6 +165,21 @@ impl LoadedScene {
     pub fn with_settings(&self, settings: &[String], table: &KeyTable) -> Result<Self, SceneErrors> {
         let Sources { file, text, overrides } = &self.sources;
         parse(text, file, &self.base_dir, &[overrides, settings].concat(), table)
+    }
+
+    /// Folder of the files that it names, seen from a folder of results that need not be there yet; none where it
+    /// names no file.
+    ///
+    /// # Errors
+    /// A folder that no record can name.
+    pub fn folder_of_files(&self, results: &Path) -> Result<Option<String>, Refusal> {
+        if self.scene.process.files_read().is_empty() {
+            return Ok(None);
+        }
+        let beside = results.parent().unwrap_or(Path::new(""));
+        let way = WayToFiles::new(beside, &self.base_dir).path_of(".", "scene")?;
+        let way = way.trim_end_matches("/.");
+        Ok(Some(if Path::new(way).is_absolute() { way.to_owned() } else { format!("../{way}") }))
     }
 
     /// Where `key` was written; `None` for a default, a derived value or an unknown key.

@@ -5,15 +5,18 @@
 //! distance of the axes); module, pressure angle, tool, machine and operations are the driver's, so that both gears are
 //! cut alike.
 //!
-//! What the driver's file writes is copied as written; what holds there by default holds here by default. Counts per
+//! Files that the driver's scene names are those of the mate: their paths lead there from the folder that the text is
+//! meant for. What the driver's file writes otherwise is copied as written; what holds there by default holds here by default. Counts per
 //! turn of the work grow with the number of teeth, so that the feed per tooth stays. A helix changes its hand on an
 //! external mate and keeps it on a ring; a profile shift changes its sign. Left out is what belongs to the driver
 //! alone: its bore on a ring, places on its teeth (`[[texture]]`, `[[picture]]`, windows), programs and the name of its
 //! folder.
 
 use std::fmt::Write as _;
+use std::path::Path;
 
-use super::keys::{Role, join};
+use super::files::WayToFiles;
+use super::keys::{Kind, Role, join};
 use super::table::{KeyTable, TableSection};
 use super::values::Checked;
 use super::write::{value_text, walk_sections};
@@ -48,11 +51,12 @@ pub struct MateScene {
 }
 
 impl LoadedScene {
-    /// The scene of the gear that runs with this scene's gear.
+    /// The scene of the gear that runs with this scene's gear, as text for a file in `folder`.
     ///
     /// # Errors
-    /// This gear is a ring or a mate itself; no gear with so many teeth runs with it and closes.
-    pub fn mate(&self, mate: Mate) -> Result<MateScene, Refusal> {
+    /// This gear is a ring or a mate itself; no gear with so many teeth runs with it and closes; a file that no path
+    /// in the text can name.
+    pub fn mate(&self, mate: Mate, folder: &Path) -> Result<MateScene, Refusal> {
         let gear = &self.scene.gear;
         if !KeyTable::new(&[self.scene.process.process()]).knows("gear.pitch_curve") {
             return Err(Refusal::new(
@@ -85,17 +89,20 @@ impl LoadedScene {
         let driver = Driver { curve: gear.pitch_curve.clone(), teeth: gear.teeth, start_rad: None };
         let shape = PitchCurveShape::Mate { driver: Box::new(driver), kind: mate.kind };
         let curve = PitchCurve::new(&shape, gear.transverse_module_mm(), mate.teeth)?;
-        Ok(MateScene { text: Writer { driver: self, mate }.text(), center_distance_mm: curve.size_mm() })
+        let files = WayToFiles::new(folder, self.base_dir());
+        let text = Writer { driver: self, mate, files }.text()?;
+        Ok(MateScene { text, center_distance_mm: curve.size_mm() })
     }
 }
 
 struct Writer<'a> {
     driver: &'a LoadedScene,
     mate: Mate,
+    files: WayToFiles<'a>,
 }
 
 impl Writer<'_> {
-    fn text(&self) -> String {
+    fn text(&self) -> Result<String, Refusal> {
         let process = self.driver.scene.process.process();
         let own = KeyTable::new(&[process]);
         let mut out = format!(
@@ -107,22 +114,33 @@ impl Writer<'_> {
         );
         let sections =
             own.sections().iter().filter(|section| !PLACES.iter().any(|list| section.path.starts_with(list)));
-        walk_sections(sections, &self.driver.values, |section, path| self.section(&mut out, process, section, path));
-        out
+        let mut written = Ok(());
+        walk_sections(sections, &self.driver.values, |section, path| {
+            if written.is_ok() {
+                written = self.section(&mut out, process, section, path);
+            }
+        });
+        written.map(|()| out)
     }
 
     /// What the driver's file writes of a section that stands at `path` there.
-    fn section(&self, out: &mut String, process: &SceneProcess, section: &TableSection, path: &str) {
+    fn section(
+        &self,
+        out: &mut String,
+        process: &SceneProcess,
+        section: &TableSection,
+        path: &str,
+    ) -> Result<(), Refusal> {
         let implied = self.is_implied(path);
         if implied && !self.driver.values.is_any_set(OPERATIONS) {
-            return;
+            return Ok(());
         }
-        let mut lines = self.lines(process, section, path);
+        let mut lines = self.lines(process, section, path)?;
         let header = match section.path.strip_prefix("gear.pitch_curve") {
             Some("") => {
                 let teeth = self.driver.scene.gear.teeth;
                 let _ = write!(out, "\n[gear.pitch_curve.mate]\ndriver_teeth = {teeth}\n");
-                return;
+                return Ok(());
             }
             Some(curve) => format!("[gear.pitch_curve.mate.driver{curve}]"),
             None => section.header(),
@@ -136,6 +154,7 @@ impl Writer<'_> {
         if self.holds(section, path) && (!lines.is_empty() || stands) {
             let _ = write!(out, "\n{header}\n{lines}");
         }
+        Ok(())
     }
 
     /// Whether a path lies in an operation that the process put in, because the driver's file lists none. Without a
@@ -153,7 +172,7 @@ impl Writer<'_> {
     }
 
     /// The lines of the section's keys that are written and pass to the mate.
-    fn lines(&self, process: &SceneProcess, section: &TableSection, path: &str) -> String {
+    fn lines(&self, process: &SceneProcess, section: &TableSection, path: &str) -> Result<String, Refusal> {
         let values = &self.driver.values;
         let bore = |name: &str| name == "bore_diameter_mm" && self.mate.kind == GearKind::Internal;
         let stays = |name: &str| match section.path {
@@ -175,6 +194,10 @@ impl Writer<'_> {
                 continue;
             }
             let value = match held.value {
+                // All other paths than that of the results are of files beside the scene.
+                Checked::Text(ref name) if matches!(key.kind, Kind::Path) => {
+                    Checked::Text(self.files.path_of(name, &join(path, key.name))?)
+                }
                 Checked::Whole(count) if process.per_revolution.contains(&key.name) => {
                     Checked::Whole(self.scaled(count))
                 }
@@ -182,7 +205,7 @@ impl Writer<'_> {
             };
             let _ = writeln!(lines, "{} = {}", key.name, value_text(&value));
         }
-        lines
+        Ok(lines)
     }
 
     /// A count per turn of the driver for the mate.

@@ -16,6 +16,7 @@ pub mod draft;
 pub(crate) mod drawn_contour;
 pub(crate) mod drawn_profile;
 pub mod errors;
+mod files;
 mod foreign;
 mod loaded;
 pub(crate) mod machine_errors;

@@ -4,6 +4,7 @@ use crate::findings::Notice;
 use crate::findings::notices::{CurveClosure, CurveScaled};
 use crate::number_text::{plain, significant};
 use crate::output::text::Sheet;
+use crate::scene::Scene;
 use crate::scene::model::Gear;
 use gearcut_core::gear::{FormulaMeaning, GearKind, PitchCurve, PitchCurveShape, TableScaling};
 use gearcut_core::units::UM_PER_MM;
@@ -125,17 +126,21 @@ fn size_words(shape: &PitchCurveShape) -> (&'static str, bool) {
 }
 
 /// The gear in a line.
-pub fn gear_words(gear: &Gear) -> String {
+pub fn gear_words(scene: &Scene) -> String {
+    let gear = &scene.gear;
+    let teeth = match scene.process.other_teeth_key() {
+        Some(_) => "drawn teeth".to_owned(),
+        None => format!("pressure angle {} deg", plain(gear.pressure_angle_rad.to_degrees())),
+    };
     let helix = match gear.helix_angle_rad {
         0.0 => String::new(),
         angle => format!(", helix angle {} deg {}-hand", plain(angle.to_degrees()), gear.hand.name()),
     };
     let internal = if gear.kind == GearKind::Internal { "internal gear, " } else { "" };
     format!(
-        "{internal}{} teeth, module {} mm, pressure angle {} deg{helix}, face width {} mm",
+        "{internal}{} teeth, module {} mm, {teeth}{helix}, face width {} mm",
         gear.teeth,
         plain(gear.module_mm),
-        plain(gear.pressure_angle_rad.to_degrees()),
         plain(gear.face_width_mm)
     )
 }

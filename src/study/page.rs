@@ -165,7 +165,7 @@ fn page(of: StudyOf, rows: &StudyRows, (found, tree): (&StudyEffects, &Findings)
     Page {
         what: "study",
         subtitle: format!("{} cases of {} parameters", plan.cases(), rows.parameters.len()),
-        operations: vec![gear_words(&base.gear)],
+        operations: vec![gear_words(base)],
         done: "all cases made",
         sections,
         ..page_of(tree)

@@ -103,7 +103,7 @@ fn page(scene: &Scene, budget: &Budget, found: &Findings, maps: Vec<InfluenceShe
             budget.lines.len(),
             budget.grid.places()
         ),
-        operations: vec![gear_words(&scene.gear)],
+        operations: vec![gear_words(scene)],
         done: "all errors tried",
         sections,
         ..page_of(found)

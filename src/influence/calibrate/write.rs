@@ -221,7 +221,7 @@ fn page(scene: &Scene, found: &Calibration, measured: &MeasuredGear, tree: &Find
     Page {
         what: "calibration",
         subtitle: format!("{} parameters fitted to {} measured values", found.fitted.len(), found.values.len()),
-        operations: vec![gear_words(&scene.gear)],
+        operations: vec![gear_words(scene)],
         done: "fitted",
         sections: std::iter::once(PageSection::new(
             "numbers",

@@ -47,7 +47,7 @@ fn page(scene: &Scene, model: &ErrorModel, found: &Diagnosis, tree: &Findings, e
     Page {
         what: "diagnosis",
         subtitle: format!("{} measured places, {} errors tried", found.residuals_um.len(), model.sources.len()),
-        operations: vec![gear_words(&scene.gear)],
+        operations: vec![gear_words(scene)],
         done: "all errors tried",
         sections: [
             PageSection::new(

@@ -149,7 +149,7 @@ pub fn write(
     let page = Page {
         what: "fit of a spline",
         subtitle: "cut flanks, on one axis".to_owned(),
-        operations: parts.map(|(scene, role)| format!("{role}: {}. {}", scene.name, gear_words(&scene.gear))).collect(),
+        operations: parts.map(|(scene, role)| format!("{role}: {}. {}", scene.name, gear_words(scene))).collect(),
         done: "all teeth in their spaces",
         sections: std::iter::once(PageSection::new(
             "fit",

@@ -79,3 +79,20 @@ fn what_parts_the_teeth_is_refused_before_they_are_cut() {
     let one = PairOptions { sections: Some(1), parallelism_um: [10.0, 0.0], ..PairOptions::default() };
     assert!(one.sections(gears).expect_err("one section").to_string().contains("11"));
 }
+
+/// Tips of 2 mm on both gears reach 4 mm to either side of the 48 mm at which their pitch circles roll.
+#[test]
+fn drawn_teeth_are_refused_away_from_their_own_distance() {
+    let gear = member::read(Path::new("scenes/shaping/cycloid.toml"), &[]).expect("a scene");
+    let scenes = [&gear.scene; 2];
+    let refusal = |options: PairOptions| {
+        let fit = Fit::at_distance(scenes[0], scenes[1], 0, options.center_distance_mm).expect("they belong together");
+        options.mounting(&fit, scenes.map(|scene| &scene.gear)).expect_err("too far").way_out
+    };
+    let named = PairOptions { center_distance_mm: Some(60.0), ..PairOptions::default() };
+    let way_out = refusal(named);
+    assert!(way_out.contains("44.000 to 52.000 mm (--center-distance-mm"), "{way_out}");
+    assert!(way_out.contains("none for 48.000000 mm"), "{way_out}");
+    let off = PairOptions { center_distance_error_um: 12_000.0, ..PairOptions::default() };
+    assert_eq!(refusal(off), "give -4000 to 4000 um of --center-distance-error-um");
+}

@@ -36,7 +36,7 @@ pub fn print(sheet: &mut Sheet, job: &HobbingJob) -> Result<Vec<Notice>> {
     let operations = HobbingAxesReport::of_job(job);
     let cutter = HobCutter::new(job)?;
     let teeth = FormPoints::of(&cutter)?;
-    sheet.heading(&format!("{}: {}", job.scene.name, gear_words(&job.scene.gear)));
+    sheet.heading(&format!("{}: {}", job.scene.name, gear_words(&job.scene)));
     check_curve::print(sheet, &job.curve, &job.scene.gear, None);
     inspection::print(sheet, &cutter)?;
     print_hob(sheet, job);

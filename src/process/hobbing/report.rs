@@ -90,7 +90,7 @@ pub fn page(
             operation.value(&AXIAL_FEED).map_or_else(|| "–".to_owned(), plain)
         )
     };
-    let words = steps::report::facts::gear_words(&cutter.job.scene.gear);
+    let words = steps::report::facts::gear_words(&cutter.job.scene);
     let page_gear = PageGear { words, mesh: ViewMesh::new(cutter)? };
     let mut page = steps::report::page(cutter, page_gear, found, &gear.maps, operation, sections);
     if let Some((viewer, blank)) = page.viewer.as_mut().zip(charts.blank) {

@@ -40,7 +40,7 @@ pub fn print(sheet: &mut Sheet, job: &ShapingJob) -> Result<Vec<Notice>> {
     let facts = ToothFacts::of_job(job);
     let operations = OperationAxes::of_job(job);
 
-    sheet.heading(&format!("{}: {}", job.scene.name, gear_words(&job.scene.gear)));
+    sheet.heading(&format!("{}: {}", job.scene.name, gear_words(&job.scene)));
     check_curve::print(sheet, &job.curve, &job.scene.gear, Some(job.cutter.pitch_radius_mm));
     inspection::print(sheet, job)?;
     let other_gear = findings::program::not_of_the_gear(job, &operations);

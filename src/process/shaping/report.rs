@@ -71,7 +71,7 @@ pub fn page(
     sections.push(files::section(folder)?);
     sections.push(record(cut.report.flanks.len(), &cut.work, run));
     let operations = found.parts(&OPERATIONS).len();
-    let gear = PageGear { words: gear_words(&job.scene.gear), mesh: ViewMesh::new(job)? };
+    let gear = PageGear { words: gear_words(&job.scene), mesh: ViewMesh::new(job)? };
     let operation = |of: &_| operation_words(of, operations);
     let mut page = steps::report::page(job, gear, found, &cut.maps, operation, sections);
     if let Some(viewer) = &mut page.viewer {

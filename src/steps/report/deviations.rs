@@ -190,7 +190,7 @@ pub fn inspection_page(inspection: &Inspection, scene: &Scene, found: &Findings)
         notes.push("Limits of profile and helix are those of the transverse section times cos βb.".to_owned());
     }
     notes.extend(reasons.iter().flat_map(|(signs, why)| wrapped(&format!("No {signs}: {why}."), NOTE_LETTERS)));
-    sheet(inspection, &scene.name, &gear_words(&scene.gear), sizes, notes, roughness).page()
+    sheet(inspection, &scene.name, &gear_words(scene), sizes, notes, roughness).page()
 }
 
 /// Writes the inspector's sheet as `inspection.svg` and `inspection.pdf`.

@@ -5,13 +5,14 @@ use crate::findings::quantities::sizes::SIZES;
 use crate::machine::{Axis, Limits, Order};
 use crate::number_text::plain;
 use crate::output::report::{Block, PageTable};
-use crate::scene::model::Gear;
+use crate::scene::Scene;
 use crate::steps::inspection;
 use gearcut_core::gear::{GearKind, PitchCurve};
 use gearcut_core::units::UM_PER_MM;
 
 /// The gear in a line.
-pub fn gear_words(gear: &Gear) -> String {
+pub fn gear_words(scene: &Scene) -> String {
+    let gear = &scene.gear;
     let kind = match gear.kind {
         GearKind::External => "External",
         GearKind::Internal => "Internal",
@@ -21,13 +22,22 @@ pub fn gear_words(gear: &Gear) -> String {
         beta => format!("{kind} helical gear, {:.4}° {}-hand", beta.to_degrees(), gear.hand.name()),
     };
     format!(
-        "{kind}, {} teeth, module {} mm, pressure angle {}°, face width {} mm; pitch curve: {}",
+        "{kind}, {} teeth, module {} mm, {}, face width {} mm; pitch curve: {}",
         gear.teeth,
         plain(gear.module_mm),
-        plain(gear.pressure_angle_rad.to_degrees()),
+        if is_drawn(scene) { "drawn teeth".to_owned() } else { format!("pressure angle {}", pressure_angle(scene)) },
         plain(gear.face_width_mm),
         gear.pitch_curve.words(),
     )
+}
+
+/// Whether the teeth follow a drawing: no pressure angle is theirs.
+fn is_drawn(scene: &Scene) -> bool {
+    scene.process.other_teeth_key().is_some()
+}
+
+fn pressure_angle(scene: &Scene) -> String {
+    format!("{}°", plain(scene.gear.pressure_angle_rad.to_degrees()))
 }
 
 /// A table of names and values.
@@ -69,7 +79,8 @@ pub fn speed_limits<const N: usize>(names: [&str; N], axes: &[Axis; N], limits: 
 }
 
 /// The gear as a table.
-pub fn gear_table(gear: &Gear, curve: &PitchCurve) -> Block {
+pub fn gear_table(scene: &Scene, curve: &PitchCurve) -> Block {
+    let gear = &scene.gear;
     let facts = curve.facts();
     let shape = if facts.convex { "convex" } else { "concave in places" };
     let closing = match curve.sector_rad() {
@@ -87,7 +98,7 @@ pub fn gear_table(gear: &Gear, curve: &PitchCurve) -> Block {
             ("Smallest radius of curvature", format!("{:.3} mm, {shape}", facts.smallest_curvature_radius_mm)),
             closing,
             ("Module, teeth", format!("{}, {}", mm(gear.module_mm), gear.teeth)),
-            ("Pressure angle", format!("{}°", plain(gear.pressure_angle_rad.to_degrees()))),
+            ("Pressure angle", if is_drawn(scene) { "none: drawn teeth".to_owned() } else { pressure_angle(scene) }),
             ("Face width", mm(gear.face_width_mm)),
             match gear.kind {
                 GearKind::Internal => ("Rim outside the pitch curve", mm(gear.rim_mm)),

@@ -5,7 +5,7 @@ use crate::fixtures::json_schema::assert_is_results;
 use gearcut::gear::GearKind;
 use gearcut::pair_job::fit::Fit;
 use gearcut::pair_job::member;
-use gearcut::scene::Mate;
+use gearcut::scene::{LoadedScene, Mate};
 use std::path::Path;
 
 /// A small round gear, cut in no time.
@@ -133,6 +133,25 @@ fn a_folder_of_results_rolls_as_its_scene_does() {
     };
     assert_eq!(sections(&by_scene), sections(&by_folder));
     gearcut_in(folder.path(), &["pair", "out/a_with_a", "a.toml"]).failed(1, &["record of pair", "gearcut cut"]);
+}
+
+/// The contour of the cutter lies beside the scene: not in the current folder, and not in that of the results.
+#[test]
+fn files_beside_the_scene_are_found_for_its_mate_and_its_results() {
+    let a = member::read(Path::new("scenes/shaping/cycloid.toml"), &[]).expect("gear A");
+    let contour = |gear: &LoadedScene| {
+        let [file] = gear.scene.process.files_read()[..] else { panic!("one file") };
+        file.canonicalize().expect("it is there")
+    };
+    let b = member::mate(&a, Mate { teeth: 18, kind: GearKind::External }, &[]).expect("a mate");
+    assert_eq!(contour(&b), contour(&a));
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    let out = folder.path().join("deep/cycloid");
+    std::fs::create_dir_all(&out).expect("made");
+    let files = a.folder_of_files(&out).expect("a way to its files");
+    let record = serde_json::json!({ "command": "cut", "scene": a.resolved_toml(), "scene_folder": files });
+    std::fs::write(out.join("run.json"), record.to_string()).expect("written");
+    assert_eq!(contour(&member::read(&out, &[]).expect("cut before")), contour(&a));
 }
 
 #[test]

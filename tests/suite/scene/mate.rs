@@ -15,7 +15,7 @@ fn driver(name: &str, settings: &[&str]) -> LoadedScene {
 
 /// The mate's scene, read back in another folder than the driver's, and the distance of the axes, mm.
 fn mate(driver: &LoadedScene, teeth: u32, kind: GearKind) -> (Scene, f64) {
-    let mate = driver.mate(Mate { teeth, kind }).expect("a mate");
+    let mate = driver.mate(Mate { teeth, kind }, Path::new("/")).expect("a mate");
     let read = process::parse(&mate.text, "mate.toml", Path::new("/"), &[]);
     (read.unwrap_or_else(|errors| panic!("{errors}\n{}", mate.text)).scene, mate.center_distance_mm)
 }
@@ -86,6 +86,7 @@ fn every_driver_of_the_scenes_has_a_mate_that_closes() {
         }
         let (scene, _) = mate(&driver, gear.teeth, GearKind::External);
         closes(&scene, &driver.scene);
+        assert!(scene.process.files_read().iter().all(|file| file.is_file()), "{:?}", scene.process.files_read());
         assert_eq!(scene.process.operation_names(), driver.scene.process.operation_names());
         mated += 1;
     }
@@ -100,7 +101,7 @@ fn a_helix_changes_its_hand_outside_and_keeps_it_inside() {
     let (scene, _) = mate(&driver, teeth, GearKind::External);
     assert_eq!((scene.gear.hand, scene.gear.helix_angle_rad), (opposite, driver.scene.gear.helix_angle_rad));
     // No hob reaches into a ring: the scene is written, and its reader refuses it.
-    let ring = driver.mate(Mate { teeth: 3 * teeth, kind: GearKind::Internal }).expect("a mate");
+    let ring = driver.mate(Mate { teeth: 3 * teeth, kind: GearKind::Internal }, Path::new("/")).expect("a mate");
     assert!(
         process::parse(&ring.text, "mate.toml", Path::new("/"), &[]).unwrap_err().to_string().contains("a hob cuts")
     );
@@ -132,7 +133,7 @@ fn places_on_the_driver_stay_there() {
         "shaping/order_1",
         &["operation.finish.window_deg=[0.0, 40.0]", "output.folder='out/driver'", "gear.addendum_coefficient=0.9"],
     );
-    let text = driver.mate(Mate { teeth: 36, kind: GearKind::External }).expect("a mate").text;
+    let text = driver.mate(Mate { teeth: 36, kind: GearKind::External }, Path::new("/")).expect("a mate").text;
     for left_out in ["window_deg", "folder", "[[picture]]", "[[texture]]"] {
         assert!(!text.contains(left_out), "{text}");
     }
@@ -160,6 +161,13 @@ fn the_command_writes_a_scene_that_can_be_checked_and_replaces_none() {
     let text = std::fs::read_to_string(path).expect("written");
     process::prepare(&process::parse(&text, path, Path::new("/"), &[]).expect("a scene").scene).expect("it can be cut");
     gearcut(&arguments).failed(1, &["the file exists"]);
+    // Files beside the driver are found from the mate's folder.
+    let path = folder.path().join("cycloid.toml");
+    let arguments = ["mate", "scenes/shaping/cycloid.toml", "--teeth", "18", "--out"];
+    gearcut(&[&arguments[..], &[path.to_str().expect("a path")]].concat()).done();
+    let scene = process::load(&path, &[]).expect("a scene").scene;
+    assert_eq!(scene.process.files_read().len(), 1);
+    process::prepare(&scene).expect("its cutter's contour is found");
 }
 
 /// Unequal lobes: a driver of two lobes on 24 teeth, given by a formula, runs with a mate of three lobes on 36:
@@ -185,6 +193,7 @@ fn two_lobes_run_with_three() {
         assert!((r_1 + r_2 - center_distance_mm).abs() < 1e-6, "{r_1} + {r_2} not {center_distance_mm}");
     }
     // A driver whose lobes do not stand in the ratio of the teeth has no such mate.
-    let refusal = driver.mate(Mate { teeth: 30, kind: GearKind::External }).expect_err("two lobes and a half");
+    let refusal =
+        driver.mate(Mate { teeth: 30, kind: GearKind::External }, Path::new("/")).expect_err("two lobes and a half");
     assert!(refusal.problem.contains("looks different"), "{}", refusal.problem);
 }

@@ -37,7 +37,12 @@ fn cycloids_roll_evenly_at_their_distance_and_at_no_other() {
     assert!(even_um > 0.01 && even_um < 2.5, "{even_um} um");
     assert!(off_um > 4.0 * even_um, "{off_um} um, {even_um} um");
     // Drawn teeth have no key for their thickness.
-    assert!(right["warnings"].to_string().contains("a thicker tooth in the cutter's drawing"), "{}", right["warnings"]);
+    assert!(right["warnings"].to_string().contains("draw the tool's tooth wider"), "{}", right["warnings"]);
+    let page = std::fs::read_to_string(folder.path().join("right/report.html")).expect("a page");
+    assert!(page.contains("24 teeth, module 2 mm, drawn teeth") && page.contains("made for one distance"));
+    for of_involutes in ["turn as evenly at any distance", "pressure angle 20", "Center distance"] {
+        assert!(!page.contains(of_involutes), "{of_involutes}");
+    }
     // What the law of involutes gives has a reason in place of a number.
     for path in [
         &["transmission_error", "right", "peak_to_peak_normal"][..],

@@ -37,7 +37,7 @@ pub fn section(job: &HobbingJob, found: &Findings) -> PageSection {
     };
     let names = ["hob", "work", "X", "Y", "slide", "shift"];
     let speeds = speed_limits(names, &AXES, &dynamics::limits(limits));
-    let mut blocks = vec![gear_table(&job.scene.gear, &job.curve)];
+    let mut blocks = vec![gear_table(&job.scene, &job.curve)];
     blocks.extend(round_gear_table(found));
     blocks.extend([
         table(

@@ -58,7 +58,7 @@ pub fn section(job: &ShapingJob, found: &Findings) -> PageSection {
             if tool.pitch_errors_mm.is_empty() { "none".to_owned() } else { "given for each tooth".to_owned() },
         ),
     ];
-    let mut blocks = vec![gear_table(&job.scene.gear, &job.curve)];
+    let mut blocks = vec![gear_table(&job.scene, &job.curve)];
     blocks.extend(round_gear_table(found));
     blocks.extend([
         table("Shaper cutter", [own, of_all].concat()),
