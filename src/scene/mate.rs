@@ -6,11 +6,11 @@
 //! cut alike.
 //!
 //! Files that the driver's scene names are those of the mate: their paths lead there from the folder that the text is
-//! meant for. What the driver's file writes otherwise is copied as written; what holds there by default holds here by default. Counts per
-//! turn of the work grow with the number of teeth, so that the feed per tooth stays. A helix changes its hand on an
-//! external mate and keeps it on a ring; a profile shift changes its sign. Left out is what belongs to the driver
-//! alone: its bore on a ring, places on its teeth (`[[texture]]`, `[[picture]]`, windows), programs and the name of its
-//! folder.
+//! meant for. What the driver's file writes otherwise is copied as written; what holds there by default holds here by
+//! default. Counts per turn of the work grow with the number of teeth, so that the feed per tooth stays. A helix
+//! changes its hand on an external mate and keeps it on a ring; a profile shift changes its sign. Left out is what
+//! belongs to the driver alone: its bore on a ring, places on its teeth (`[[texture]]`, `[[picture]]`, windows),
+//! programs and the name of its folder.
 
 use std::fmt::Write as _;
 use std::path::Path;
