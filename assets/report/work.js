@@ -48,7 +48,7 @@ gearcut.stage.then(({ data, scene, finished, bodyMaterial, edgeMaterial, edges }
   const body = buffer(new THREE.Mesh(new THREE.BufferGeometry(), bodyMaterial));
   const outline = buffer(new THREE.LineSegments(new THREE.BufferGeometry(), edgeMaterial));
   edges.push(outline.drawn);
-  // A scene within the scene: it is shown or not, whatever a section does to the lines.
+  // A scene within the scene: it is shown or not; what a section does to the lines does not matter.
   const shown = new THREE.Scene();
   for (const { drawn } of [body, outline]) {
     drawn.frustumCulled = false;

@@ -1,11 +1,11 @@
-//! The work stroke by stroke on the page, whatever cuts it.
+//! The work stroke by stroke on the page, for every process that has strokes there.
 //!
 //! In: the blank, and what the native kernels say of every cut ([`RemovalWatch`]). Out: slabs of the gear with the
 //! place of the slider from which each node of their sections is gone. Where all sections are alike a single slab, the
 //! section in the middle of the face, is the whole face; otherwise several share it, sections of both end faces among
 //! them.
 //!
-//! The grid is as fine as the [`Slabs`] allow: the page grows by some 100 kB whatever the gear. What is measured comes
+//! The grid is as fine as the [`Slabs`] allow: the page grows by some 100 kB for any gear. What is measured comes
 //! from the fields of the job; nothing is read off this one.
 
 use crate::output::report::viewer::work::{OUTSIDE, STAYS, ViewerSlab, ViewerWork};

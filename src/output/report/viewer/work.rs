@@ -30,7 +30,7 @@ pub struct ViewerWork {
     pub slabs: Vec<ViewerSlab>,
 }
 
-/// A part of the face that one section stands for.
+/// A part of the face that is drawn by one section.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ViewerSlab {
     /// Where it begins and ends along the gear's axis, mm.

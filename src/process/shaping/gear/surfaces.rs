@@ -70,7 +70,7 @@ impl GearJob for ShapingJob {
         let some = vec![strokes.some(first..strokes.count().min(first + TRIAL_STROKES))];
         let mut uncut = self.planar().blank_field()?;
         if self.helix.is_some() {
-            // A slice alone stands for the whole face.
+            // One slice is cut in place of all.
             uncut.slices.truncate(1);
             uncut.grid.slices_z_mm = vec![0.0];
         }

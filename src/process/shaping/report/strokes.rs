@@ -1,4 +1,4 @@
-//! The cutter stroke by stroke, for the page's 3D view: where it stands, what each stroke takes, and the work after it.
+//! The cutter stroke by stroke, for the page's 3D view: where it is, what each stroke takes, and the work after it.
 //!
 //! The cutter is drawn over the gear's upper face, at the upper end of its stroke, where it hides no flank and its
 //! teeth stand over the spaces that they cut; its height is a drawing's, not the tool's.
