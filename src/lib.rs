@@ -207,5 +207,5 @@ pub use gearcut_gpu as gpu;
 /// bad. 130: stopped by Ctrl-C.
 #[cfg(feature = "command")]
 pub fn command() -> std::process::ExitCode {
-    cli::run(<cli::args::CommandLine as clap::Parser>::parse())
+    cli::run(cli::args::parsed())
 }

@@ -31,6 +31,13 @@ pub fn significant(value: f64, digits: u32) -> String {
     if text.trim_start_matches(['-', '0', '.']).is_empty() { "0".to_owned() } else { text }
 }
 
+/// The number that is meant by "0,25", "250um" or "2,5 mm"; none where the text is a number, or far from one.
+pub fn number_meant(typed: &str) -> Option<String> {
+    let typed = typed.trim();
+    let number = typed.trim_end_matches(|letter: char| !letter.is_ascii_digit()).replace(',', ".");
+    (number != typed && number.parse::<f64>().is_ok()).then_some(number)
+}
+
 /// How far a tool stays back from full depth, in words.
 pub fn from_full_depth(offset_mm: f64) -> String {
     match offset_mm {
@@ -56,6 +63,13 @@ mod tests {
         let words = [2.0, 0.0, -0.068_687, 1e-13].map(from_full_depth);
         let expected = ["2 mm short of full depth", "at full depth", "0.068687 mm beyond full depth", "at full depth"];
         assert_eq!(words, expected);
+    }
+
+    #[test]
+    fn a_comma_or_a_unit_does_not_hide_a_number() {
+        let meant = |typed| number_meant(typed).unwrap_or_default();
+        assert_eq!(["0,25", "250um", " -2,5 mm"].map(meant), ["0.25", "250", "-2.5"]);
+        assert_eq!(["", "um", "1,2,3", "[1, 2]", "three", "1.000,5", "1e-3"].map(number_meant), [const { None }; 7]);
     }
 
     #[test]

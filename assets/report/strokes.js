@@ -62,7 +62,7 @@ gearcut.stage.then(({ data, scene, geometry, metal, light, widen, draw }) => {
       return Number.isInteger(it) ? it : gearcut.number(it);
     };
     const words = taken[0] === 0 ? "takes nothing" : strokes.words.replace(/\{(\d)\}/g, value);
-    facts.textContent = `${name}: ${strokes.noun} ${own} of ${count - 1}, ${words}`;
+    facts.textContent = `${name}: ${strokes.noun} ${own} (0 to ${count - 1}), ${words}`;
     draw();
   }
 

@@ -3,6 +3,7 @@
 mod errors;
 mod export;
 mod pairs;
+mod parsed;
 mod reading;
 mod shared;
 mod studies;
@@ -21,6 +22,7 @@ pub use errors::{
 };
 pub use export::{ExportArguments, LengthUnitChoice};
 pub use pairs::{ContactArguments, FlankChoice, PairArguments};
+pub use parsed::parsed;
 pub use reading::{AxisChoice, ReadingArguments};
 pub use shared::{BackendChoice, ComputeArguments, GpuFailureChoice, RunArguments, SceneArguments, VerdictArguments};
 pub use studies::{CasesArguments, StudyArguments, SweepArguments};

@@ -335,7 +335,7 @@ pub(super) fn teeth_alike(a: &Gear, b: &Gear) -> Result<(), Refusal> {
         return Err(Refusal::new(
             "gear.helix_angle_deg",
             format!(
-                "gear A has a helix angle of {} deg and gear B of {} deg: their axes would cross",
+                "gear A has a helix angle of {:.4} deg and gear B of {:.4} deg: their axes would cross",
                 helix[0], helix[1]
             ),
             "give gears of one helix angle; axes are parallel here",

@@ -15,6 +15,7 @@ use super::tree::{KeyValue, Node, TomlValue, parse_document};
 use super::values::Values;
 use super::walk::walk;
 use super::{Scene, build, checks, foreign, overrides, write};
+use crate::number_text::number_meant;
 use gearcut_core::error::Refusal;
 
 /// A scene without problems, with the memory of where each value was written.
@@ -54,6 +55,14 @@ pub fn load(path: &Path, overrides: &[String], table: &KeyTable) -> Result<Loade
     parse(&text, &file, path.parent().unwrap_or(Path::new("")), overrides, table)
 }
 
+/// The number that a line may mean whose value cannot be read.
+fn way_out(text: &str, at: usize) -> Option<String> {
+    let start = text.get(..at)?.rfind('\n').map_or(0, |newline| newline + 1);
+    let (name, value) = text[start..].lines().next()?.split_once('=')?;
+    let number = number_meant(value.split('#').next()?)?;
+    Some(format!("write {} = {number}: a decimal point, and no unit, which the name has", name.trim()))
+}
+
 /// Reads a scene from text; `file_name` is printed in messages and names the scene, `base_dir` holds the files it
 /// refers to.
 ///
@@ -72,7 +81,9 @@ pub fn parse(
         Ok(root) => root,
         Err(errors) => {
             for (span, message) in errors {
-                let way_out = "a scene is TOML: [section] lines and name = value lines, each name once".to_owned();
+                let way_out = way_out(text, span.start).unwrap_or_else(|| {
+                    "a scene is TOML: [section] lines and name = value lines, each name once".to_owned()
+                });
                 problems.add(&At::Scene(span), format!("not TOML: {message}"), way_out);
             }
             return Err(SceneErrors::new(problems.list));

@@ -10,6 +10,7 @@ use super::keys::{self, Role, join};
 use super::sources::At;
 use super::table::{KeyTable, TableSection};
 use super::tree::{KeyValue, Node, TomlValue, parse_value};
+use crate::number_text::number_meant;
 
 /// Puts argument number `index` into `root`.
 pub(super) fn apply(root: &mut Node, table: &KeyTable, index: usize, argument: &str) -> Result<(), Problem> {
@@ -18,11 +19,15 @@ pub(super) fn apply(root: &mut Node, table: &KeyTable, index: usize, argument: &
         message,
         way_out: way_out.to_owned(),
     };
-    let Some((key, _)) = argument.split_once('=') else {
+    let Some((key, written)) = argument.split_once('=') else {
         return Err(refuse("a setting is KEY=VALUE".to_owned(), "write for example --set gear.module_mm=2.5"));
     };
     let value = parse_value(index, argument, key.len() + 1).map_err(|reason| {
-        refuse(format!("the value cannot be read: {reason}"), "write the value as in the scene file")
+        let number = number_meant(written).map(|number| format!("write {number}: a decimal point, and no unit"));
+        refuse(
+            format!("the value cannot be read: {reason}"),
+            number.as_deref().unwrap_or("write the value as in the scene file"),
+        )
     })?;
     let path = key.trim().replace('[', ".").replace(']', "");
     let names: Vec<&str> = path.split('.').map(str::trim).collect();

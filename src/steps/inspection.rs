@@ -184,7 +184,7 @@ pub fn print(sheet: &mut Sheet, job: &dyn CylindricalGear) -> Result<()> {
         return Ok(());
     };
     sheet.heading("Round gear");
-    let brief = ["d_b", "d_a", "d_f", "x", "W_k"];
+    let brief = ["d_b", "d_a", "d_f", "x", "k", "W_k"];
     for [title, sign, value] in size_rows(&sizes(&round, &job.scene().measure, None)) {
         if !sheet.is_brief() || brief.contains(&sign.as_str()) {
             summary::line(sheet, &format!("{} {sign}", title.to_lowercase()), &value);

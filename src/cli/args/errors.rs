@@ -83,10 +83,10 @@ pub struct DeviationsArguments {
     #[arg(long, value_enum, default_value = "turn")]
     pub fit: FitChoice,
     /// Radius of the probe's ball, where the points are its centres.
-    #[arg(long, value_name = "MM", default_value_t = 0.0, allow_negative_numbers = true)]
+    #[arg(long, value_name = "MM", default_value_t = 0.0)]
     pub probe_radius_mm: f64,
     /// Section of a drawing, from the middle of the face.
-    #[arg(long, value_name = "MM", default_value_t = 0.0, allow_negative_numbers = true)]
+    #[arg(long, value_name = "MM", default_value_t = 0.0)]
     pub section_mm: f64,
     /// Layer of a drawing that has the points.
     #[arg(long, value_name = "NAME")]

@@ -11,6 +11,7 @@ const FILES: [&str; 6] = ["dxf", "tool_dxf", "step", "points", "qif", "wire"];
 /// Arguments of `export`.
 #[derive(Debug, Args)]
 #[command(group = ArgGroup::new("files").required(true).multiple(true).args(FILES))]
+#[command(group = ArgGroup::new("lists").multiple(true).args(["points", "qif"]))]
 pub struct ExportArguments {
     /// The scene.
     #[command(flatten)]
@@ -31,22 +32,22 @@ pub struct ExportArguments {
     #[arg(long, value_name = "FILE")]
     pub qif: Option<PathBuf>,
     /// Places along the profile and along the tooth at which the points lie; 200x1 scans the profile, 1x200 the helix.
-    #[arg(long, value_name = "NxN", default_value = "9x5", value_parser = point_grid)]
+    #[arg(long, value_name = "NxN", default_value = "9x5", value_parser = point_grid, requires = "lists")]
     pub grid: PointGrid,
     /// Program of wire erosion round the section to write, for LinuxCNC.
     #[arg(long, value_name = "FILE", conflicts_with = "teeth")]
     pub wire: Option<PathBuf>,
     /// Diameter of the wire.
-    #[arg(long, value_name = "UM", default_value_t = 250.0)]
+    #[arg(long, value_name = "UM", default_value_t = 250.0, requires = "wire")]
     pub wire_diameter_um: f64,
     /// Spark gap between wire and gear.
-    #[arg(long, value_name = "UM", default_value_t = 20.0)]
+    #[arg(long, value_name = "UM", default_value_t = 20.0, requires = "wire")]
     pub gap_um: f64,
     /// From the start hole to the path, straight.
-    #[arg(long, value_name = "MM", default_value_t = 3.0)]
+    #[arg(long, value_name = "MM", default_value_t = 3.0, requires = "wire")]
     pub lead_mm: f64,
     /// Largest feed of the wire.
-    #[arg(long, value_name = "MM", default_value_t = 3.0)]
+    #[arg(long, value_name = "MM", default_value_t = 3.0, requires = "wire")]
     pub feed_mm_per_min: f64,
     /// Largest distance between what is written and the curve, 0.01 to 1000.
     #[arg(long, value_name = "UM", default_value_t = 1.0)]
@@ -58,7 +59,7 @@ pub struct ExportArguments {
     #[arg(long, value_name = "FROM..TO", value_parser = tooth_range)]
     pub teeth: Option<ToothRange>,
     /// Place of the section along the tooth, from the middle of the face.
-    #[arg(long, value_name = "MM", default_value_t = 0.0, allow_negative_numbers = true)]
+    #[arg(long, value_name = "MM", default_value_t = 0.0)]
     pub section_mm: f64,
     /// Unit of length of the files.
     #[arg(long, value_enum, default_value_t = LengthUnitChoice::Mm)]

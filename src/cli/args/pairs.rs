@@ -21,16 +21,16 @@ pub struct ContactArguments {
     #[arg(long, value_name = "KEY=VALUE")]
     pub set_pinion: Vec<String>,
     /// Offset of the pinion's axis (E).
-    #[arg(long, value_name = "UM", default_value_t = 0.0, allow_negative_numbers = true)]
+    #[arg(long, value_name = "UM", default_value_t = 0.0)]
     pub e_um: f64,
     /// Pinion along its axis, away from the apex (P).
-    #[arg(long, value_name = "UM", default_value_t = 0.0, allow_negative_numbers = true)]
+    #[arg(long, value_name = "UM", default_value_t = 0.0)]
     pub p_um: f64,
     /// Gear along its axis, away from the apex (G).
-    #[arg(long, value_name = "UM", default_value_t = 0.0, allow_negative_numbers = true)]
+    #[arg(long, value_name = "UM", default_value_t = 0.0)]
     pub g_um: f64,
     /// Error of the shaft angle (Sigma).
-    #[arg(long, value_name = "DEG", default_value_t = 0.0, allow_negative_numbers = true)]
+    #[arg(long, value_name = "DEG", default_value_t = 0.0)]
     pub sigma_deg: f64,
     /// Thickness of the marking compound of contact ellipses.
     #[arg(long, value_name = "UM", default_value_t = 6.35)]
@@ -80,29 +80,29 @@ pub struct PairArguments {
     #[arg(long, value_name = "MM")]
     pub center_distance_mm: Option<f64>,
     /// Added to that distance.
-    #[arg(long, value_name = "UM", default_value_t = 0.0, allow_negative_numbers = true)]
+    #[arg(long, value_name = "UM", default_value_t = 0.0)]
     pub center_distance_error_um: f64,
     /// How far gear A's pitch curve sits off its axis of rotation.
     #[arg(long, value_name = "UM", default_value_t = 0.0)]
     pub eccentricity_a_um: f64,
     /// Polar angle of gear A at which it sits out.
-    #[arg(long, value_name = "DEG", default_value_t = 0.0, allow_negative_numbers = true)]
+    #[arg(long, value_name = "DEG", default_value_t = 0.0)]
     pub eccentricity_a_at_deg: f64,
     /// How far gear B's pitch curve sits off its axis of rotation.
     #[arg(long, value_name = "UM", default_value_t = 0.0)]
     pub eccentricity_b_um: f64,
     /// Polar angle of gear B at which it sits out.
-    #[arg(long, value_name = "DEG", default_value_t = 0.0, allow_negative_numbers = true)]
+    #[arg(long, value_name = "DEG", default_value_t = 0.0)]
     pub eccentricity_b_at_deg: f64,
     /// Teeth by which gear B is turned on, modulo its teeth: other teeth meet.
-    #[arg(long, value_name = "TEETH", default_value_t = 0, allow_negative_numbers = true)]
+    #[arg(long, value_name = "TEETH", default_value_t = 0)]
     pub phase_teeth: i64,
     /// How far the axes come apart from end to end of the common face, in their plane (ISO/TR 10064-3); at most 10 um
     /// for each mm of it.
-    #[arg(long, value_name = "UM", default_value_t = 0.0, allow_negative_numbers = true)]
+    #[arg(long, value_name = "UM", default_value_t = 0.0)]
     pub parallelism_in_plane_um: f64,
     /// How far they come apart across their plane.
-    #[arg(long, value_name = "UM", default_value_t = 0.0, allow_negative_numbers = true)]
+    #[arg(long, value_name = "UM", default_value_t = 0.0)]
     pub parallelism_out_of_plane_um: f64,
     /// Thickness of the marking compound of contact patterns.
     #[arg(long, value_name = "UM", default_value_t = 6.0)]

@@ -21,7 +21,7 @@ pub struct ReadingArguments {
     #[arg(long)]
     pub use_mask: bool,
     /// Leave out the points in this rectangle; may be repeated.
-    #[arg(long, value_names = ["X0", "X1", "Y0", "Y1"], num_args = 4, allow_negative_numbers = true)]
+    #[arg(long, value_names = ["X0", "X1", "Y0", "Y1"], num_args = 4)]
     pub mask_um: Vec<f64>,
     /// Leave out points farther from the median of 5 x 5 points than so many standard deviations, such as 6.
     #[arg(long, value_name = "SIGMAS")]
@@ -36,7 +36,7 @@ pub struct ReadingArguments {
     #[arg(long, value_enum, value_name = "AXIS")]
     pub mirror: Option<AxisChoice>,
     /// Keep this rectangle only.
-    #[arg(long, value_names = ["X0", "X1", "Y0", "Y1"], num_args = 4, allow_negative_numbers = true)]
+    #[arg(long, value_names = ["X0", "X1", "Y0", "Y1"], num_args = 4)]
     pub crop_to_um: Vec<f64>,
     /// Turn the surface counter-clockwise, from +x towards +y, or until its lay runs along x.
     #[arg(long, value_name = "DEG|lay", allow_hyphen_values = true)]

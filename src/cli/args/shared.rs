@@ -62,7 +62,7 @@ impl VerdictArguments {
 pub enum BackendChoice {
     /// A real GPU where there is one (cut: for what it cuts faster), else the processor.
     Auto,
-    /// A GPU, or fail.
+    /// A GPU, or a software adapter where there is none; fail without either.
     Gpu,
     /// The processor, in double precision.
     Cpu,

@@ -37,7 +37,7 @@ pub struct TextureArguments {
     #[arg(long, value_name = "UM", default_value_t = 0.0)]
     pub crop_um: f64,
     /// Give Smr also at this height over the mean plane; may be repeated.
-    #[arg(long, value_name = "UM", allow_negative_numbers = true)]
+    #[arg(long, value_name = "UM")]
     pub at_height_um: Vec<f64>,
     /// Give Smc, Vm and Vv also at this material ratio; may be repeated.
     #[arg(long, value_name = "PERCENT")]

@@ -50,6 +50,18 @@ fn wrong_usage_ends_with_2() {
 }
 
 #[test]
+fn a_number_that_is_none_has_a_way_out() {
+    let wire = ["export", "scenes/shaping/circular_m3_z24.toml", "--wire", "gear.ngc", "--gap-um"];
+    let gap = |typed| gearcut(&[&wire[..], &[typed]].concat());
+    gap("12,5").failed(2, &["'12,5'", "write 12.5"]);
+    gap("20um").failed(2, &["'20um'", "write 20:"]);
+    assert!(!gap("narrow").failed(2, &["'narrow'"]).err.contains("write"));
+    gap("-5").failed(1, &["--gap-um", "-5 is not 0 to 500"]);
+    gearcut(&["export", "scenes/shaping/circular_m3_z24.toml", "--dxf", "gear.dxf", "--gap-um", "5"])
+        .failed(2, &["--wire <FILE>"]);
+}
+
+#[test]
 fn a_missing_scene_ends_with_1_and_a_way_out() {
     for command in ["check", "axes", "cut"] {
         let outcome = gearcut(&[command, "no_such_scene.toml"]).failed(1, &["no_such_scene.toml", "way out:"]);
