@@ -7,9 +7,10 @@
 //! touch at the largest of these rotations; at the left flanks it is the smallest. Ends of the chains belong to the
 //! search, so tip corners that touch beside the path of contact are found like everything else.
 //!
-//! The largest value is looked for at every point of both chains. Between straight pieces that is all there is (to the
-//! sag of a chord); on smooth flanks a golden-section search goes on from the best point to rounding. No iteration can
-//! miss: it starts from a value that is attained and never leaves it for a smaller one.
+//! The largest value is looked for at every point of both chains; an angle is computed only where a sine shows that the
+//! point may ask for more than those before. Between straight pieces that is all there is (to the sag of a chord); on
+//! smooth flanks a golden-section search goes on from the best point to rounding. No iteration can miss: it starts from
+//! a value that is attained and never leaves it for a smaller one.
 //!
 //! Road not taken: solving for equal normals. It needs curvature, fails at corners and on scallops, and finds any
 //! stationary point.
@@ -100,6 +101,28 @@ fn wrapped(angle_rad: f64) -> f64 {
     angle_rad - TAU * (angle_rad / TAU).round()
 }
 
+/// Points of the driver that are asked first: the nearer the best of them comes, the fewer angles are computed.
+const FIRST_ASKED: usize = 16;
+/// x is at most sin x + this sin^3 x up to a right angle, where both are equal: pi / 2 - 1.
+const SINE_CUBED: f64 = std::f64::consts::FRAC_PI_2 - 1.0;
+/// More than rounding of sines and angles.
+const ROUNDING_RAD: f64 = 1e-12;
+/// Down to this value, points that ask for half a turn more show a negative cosine.
+const LEAST_COMPARED_RAD: f64 = -1.0;
+
+/// A point of either chain and what the driven flank has at its radius.
+struct Opposite {
+    /// Place along the driver's chain.
+    place: f64,
+    /// Number of the driven chain's point, if it is one of those.
+    driven_point: Option<usize>,
+    point_mm: DVec2,
+    radius_mm: f64,
+    /// Polar angle of the driven flank there, and number of the radius beside it.
+    angle_rad: f64,
+    beside: usize,
+}
+
 /// One flank of each gear, and how they stand.
 struct Facing<'a> {
     driver: &'a FlankChain,
@@ -124,6 +147,24 @@ impl<'a> Facing<'a> {
         Some(self.push_at(point_mm, self.driven.angle_rad(point_mm.distance(self.axis_mm))?))
     }
 
+    /// Turns the direction of a point, as seen from that of the driven flank beside it, into the rotation that it asks
+    /// for beyond `value`.
+    fn beyond(&self, value: f64) -> DVec2 {
+        let Self { stand, pushing, .. } = self;
+        DVec2::from_angle(-pushing * (stand.sign * stand.phi_1_rad + stand.phi_2_rad) - value)
+    }
+
+    /// Whether a point may ask for more than the value that `beyond` was made for.
+    fn may_exceed(&self, beyond: DVec2, at: &Opposite) -> bool {
+        let way = self.pushing * self.stand.sign;
+        let (from_axis_mm, own) = (at.point_mm - self.axis_mm, self.driven.direction(at.beside));
+        let turned = beyond.rotate(DVec2::new(own.dot(from_axis_mm), way * own.perp_dot(from_axis_mm)));
+        let sine = turned.y / at.radius_mm;
+        let most_rad = sine + SINE_CUBED * sine.max(0.0).powi(3);
+        let apart_rad = way * (at.angle_rad - self.driven.angle_of_point(at.beside));
+        turned.x <= 0.0 || most_rad + ROUNDING_RAD >= apart_rad
+    }
+
     /// The same where the driven flank's angle there is known.
     fn push_at(&self, point_mm: DVec2, angle_rad: f64) -> f64 {
         let d = point_mm - self.axis_mm;
@@ -133,7 +174,7 @@ impl<'a> Facing<'a> {
 
     /// Every point of either chain that has something opposite. Both chains are walked side by side: the cost is the
     /// number of their points.
-    fn visit(&self, mut visit: impl FnMut(Probe)) {
+    fn visit(&self, mut visit: impl FnMut(Opposite)) {
         let (driver, driven) = (self.driver, self.driven);
         let radii = &driven.radii_mm;
         let mut radius = driver.points_mm[0].distance(self.axis_mm);
@@ -141,14 +182,21 @@ impl<'a> Facing<'a> {
         let mut beyond = 0;
         for (i, &point_mm) in driver.points_mm.iter().enumerate() {
             beyond = driven.first_beyond(beyond, radius);
-            if let Some(angle_rad) = driven.angle_before(beyond, radius) {
-                visit(Probe { place: i as f64, driven_point: None, push_rad: self.push_at(point_mm, angle_rad) });
+            if let Some((beside, angle_rad)) = driven.angle_before(beyond, radius) {
+                let place = i as f64;
+                visit(Opposite { place, driven_point: None, point_mm, radius_mm: radius, angle_rad, beside });
             }
             let Some(next) = driver.points_mm.get(i + 1).map(|point| point.distance(self.axis_mm)) else { break };
             let mut offer = |k: usize| {
                 let place = i as f64 + (radii[k] - radius) / (next - radius);
-                let push_rad = self.push_at(driver.at(place), driven.angle_of_point(k));
-                visit(Probe { place, driven_point: Some(driven.chain_point(k)), push_rad });
+                visit(Opposite {
+                    place,
+                    driven_point: Some(driven.chain_point(k)),
+                    point_mm: driver.at(place),
+                    radius_mm: radii[k],
+                    angle_rad: driven.angle_of_point(k),
+                    beside: k,
+                });
             };
             if next > radius {
                 (beyond..radii.len()).take_while(|&k| radii[k] < next).for_each(&mut offer);
@@ -165,7 +213,9 @@ impl<'a> Facing<'a> {
 pub fn probes(driver: &FlankChain, driven: &PolarFlank, stand: &PairPose, side: Side, mut visit: impl FnMut(Probe)) {
     for run in &driven.runs {
         if let Some(facing) = Facing::new(driver, run, stand, side) {
-            facing.visit(&mut visit);
+            facing.visit(|Opposite { place, driven_point, point_mm, angle_rad, .. }| {
+                visit(Probe { place, driven_point, push_rad: facing.push_at(point_mm, angle_rad) });
+            });
         }
     }
 }
@@ -191,13 +241,28 @@ pub fn touch(driver: &FlankChain, driven: &PolarFlank, stand: &PairPose, side: S
 /// What a run of the driven flank asks for, and the places of the touch along the driver's chain and its own.
 fn first_on(facing: &Facing) -> Option<[f64; 3]> {
     let Facing { driver, driven, .. } = facing;
-    let mut best: Option<(f64, f64)> = None;
-    facing.visit(|probe| {
-        if best.is_none_or(|(value, _)| probe.push_rad > value) {
-            best = Some((probe.push_rad, probe.place));
+    let mut best = (f64::NEG_INFINITY, 0.0);
+    for first in 0..=FIRST_ASKED {
+        let place = (driver.last() * first as f64 / FIRST_ASKED as f64).floor();
+        let value = facing.push_rad(driver.at(place)).unwrap_or(f64::NEG_INFINITY);
+        if value > best.0 {
+            best = (value, place);
+        }
+    }
+    let mut beyond = facing.beyond(best.0);
+    facing.visit(|at| {
+        if best.0 < LEAST_COMPARED_RAD || facing.may_exceed(beyond, &at) {
+            let value = facing.push_at(at.point_mm, at.angle_rad);
+            if value > best.0 {
+                best = (value, at.place);
+                beyond = facing.beyond(value);
+            }
         }
     });
-    let (mut value, mut place) = best?;
+    let (mut value, mut place) = best;
+    if value == f64::NEG_INFINITY {
+        return None;
+    }
     if driver.is_smooth() {
         (value, place) = climbed(&|place| facing.push_rad(driver.at(place)), value, place, driver.last());
     }

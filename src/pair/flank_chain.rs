@@ -118,6 +118,8 @@ pub struct PolarRun {
     /// Radii, increasing, mm.
     pub radii_mm: Vec<f64>,
     angles_rad: Vec<f64>,
+    /// The same as unit vectors.
+    directions: Vec<DVec2>,
     /// dpsi/drho, rad per mm; none on a flank with kinks.
     slopes: Option<Vec<f64>>,
     /// Number, along the chain, of the point with the smallest radius.
@@ -161,7 +163,8 @@ impl PolarRun {
         }
         let slope = |p: DVec2, t: DVec2| p.perp_dot(t) / (p.length() * p.dot(t));
         let slopes = tangents.map(|tangents| order.iter().map(|&i| slope(points_mm[i], tangents[i])).collect());
-        Self { radii_mm, angles_rad, slopes, first: order[0], outward }
+        let directions = order.iter().map(|&i| points_mm[i].normalize()).collect();
+        Self { radii_mm, angles_rad, directions, slopes, first: order[0], outward }
     }
 
     /// Number of the first radius beyond a given one, walking there from `near`.
@@ -176,13 +179,20 @@ impl PolarRun {
         k
     }
 
-    /// Polar angle at a radius before which the radius number `beyond` is the first larger one; none beyond the ends.
-    pub fn angle_before(&self, beyond: usize, radius_mm: f64) -> Option<f64> {
+    /// Polar angle at a radius before which the radius number `beyond` is the first larger one, and the number of a
+    /// radius beside it; none beyond the ends.
+    pub fn angle_before(&self, beyond: usize, radius_mm: f64) -> Option<(usize, f64)> {
         let last = self.radii_mm.len() - 1;
         if beyond == 0 || (beyond > last && radius_mm > self.radii_mm[last]) {
             return None;
         }
-        Some(self.angle_in(beyond.min(last) - 1, radius_mm))
+        let index = beyond.min(last) - 1;
+        Some((index, self.angle_in(index, radius_mm)))
+    }
+
+    /// Direction of the point with the radius number `index` from the axis.
+    pub fn direction(&self, index: usize) -> DVec2 {
+        self.directions[index]
     }
 
     /// Polar angle of the point with the radius number `index`.

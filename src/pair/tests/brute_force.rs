@@ -2,6 +2,7 @@
 //! windows, no bounds, no refinement.
 
 use super::*;
+use crate::pair::contact::{PairPose, probes, touch};
 use crate::pair::flank_chain::PolarFlank;
 use crate::pair::pitch_pair::ConjugatePoint;
 use serde_json::json;
@@ -89,6 +90,44 @@ fn near(chains: &[Vec<glam::DVec2>], axis: glam::DVec2, phi: f64) -> Vec<Vec<gla
     chains.iter().map(|c| c.iter().filter(close).copied().collect()).collect()
 }
 
+/// Flanks with kinks touch at one of their points: that of all points which asks for most, however far they are off.
+#[test]
+fn points_without_an_angle_ask_for_less() {
+    let design = data("p02_s0_nominal")["design"].clone();
+    let pair = pair_of(&design);
+    let tips = addendum_mm(&design);
+    let wavy = |chain: &FlankChain| {
+        let place = |i: usize| f64::from(i as u32) * chain.last() / 300.0;
+        let wave = |i: usize| 1e-3 * glam::DVec2::from_angle(f64::from((i * i % 17) as u32));
+        FlankChain::straight((0..=300).map(|i| chain.at(place(i)) + wave(i)).collect())
+    };
+    let [driver, driven] = [Member::Driver, Member::Driven].map(|of| thinned(&pair, of, tips, 0.05).each(wavy));
+    let driven = driven.each(PolarFlank::new);
+    let mut touches = 0;
+    for i in 0..12_u32 {
+        let at = pair.at(0.513 * f64::from(i));
+        let stand = PairPose {
+            phi_1_rad: at.phi_1_rad,
+            axis_2_mm: pair.axis_mm(Member::Driven) + glam::DVec2::new(0.1 * f64::from(i % 3), 0.02),
+            // Up to a whole turn off: what the flanks ask for goes round with it.
+            phi_2_rad: at.phi_2_rad + TAU / 12.0 * f64::from(i),
+            sign: 1.0,
+        };
+        let middle = (at.arc_mm / pair.pitch_mm()).round() as i64;
+        for (side, tooth) in
+            [Side::Left, Side::Right].into_iter().flat_map(|side| (-5..=5).map(move |k| (side, middle + k)))
+        {
+            let (driver, driven) = (driver.get(side, tooth), driven.get(side, tooth));
+            let mut most = f64::NEG_INFINITY;
+            probes(driver, driven, &stand, side, |probe| most = most.max(probe.push_rad));
+            let found = touch(driver, driven, &stand, side).map_or(f64::NEG_INFINITY, |of| -side.sign() * of.error_rad);
+            assert!(found == most, "{side:?} {tooth}, position {i}: {found}, and {most} of all points");
+            touches += usize::from(found.is_finite());
+        }
+    }
+    assert!(touches > 60, "{touches} pairs of flanks have radii in common");
+}
+
 #[test]
 fn kinked_chains_touch_at_their_corners() {
     // A driver's flank with one crest of 1 um between two of its points, against the exact flank: the crest touches.
@@ -103,13 +142,13 @@ fn kinked_chains_touch_at_their_corners() {
     let points = vec![beside(0.43).point_mm, crest.point_mm + 1e-3 * crest.normal, beside(0.45).point_mm];
     let kinked = FlankChain::straight(points);
     let polar = PolarFlank::new(driven.get(Side::Right, 4));
-    let stand = crate::pair::contact::PairPose {
+    let stand = PairPose {
         phi_1_rad: at.phi_1_rad,
         axis_2_mm: pair.axis_mm(Member::Driven),
         phi_2_rad: at.phi_2_rad,
         sign: 1.0,
     };
-    let touch = crate::pair::contact::touch(&kinked, &polar, &stand, Side::Right).expect("a touch");
+    let touch = touch(&kinked, &polar, &stand, Side::Right).expect("a touch");
     let error_um = 1e3 * touch.error_rad * pair.arm_mm(&at, Side::Right);
     assert!((error_um - 1.0).abs() < 1e-3, "{error_um}");
 }
