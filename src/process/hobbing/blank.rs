@@ -145,9 +145,7 @@ impl HobCutter<'_> {
     /// # Errors
     /// None for hobs: their teeth look away from their axis.
     pub fn sections(&self, operation: usize, cull: bool) -> Result<SweptSections, Refusal> {
-        let reach_mm = BlankOutline::new(&self.job.stock).reach_mm();
-        let passes = &self.operations[operation];
-        SweptSections::new(passes, reach_mm, self.job.scene.gear.face_width_mm, cull)
+        self.some_sections(operation, cull, |_| true)
     }
 
     /// The same of so many passes in the middle of the operation.
@@ -157,9 +155,7 @@ impl HobCutter<'_> {
     pub(super) fn middle_sections(&self, operation: usize, count: u32) -> Result<SweptSections, Refusal> {
         let passes = &self.operations[operation];
         let first = passes.first_pass + passes.count().saturating_sub(count) / 2;
-        let reach_mm = BlankOutline::new(&self.job.stock).reach_mm();
-        let is_among = |pass: &BladePass| (first..first + count).contains(&pass.pass);
-        SweptSections::of_some(is_among, passes, reach_mm, self.job.scene.gear.face_width_mm, true)
+        self.some_sections(operation, true, |pass| (first..first + count).contains(&pass.pass))
     }
 
     /// The same of the passes that go through tooth spaces of these numbers, counted as the teeth before them.
@@ -170,15 +166,24 @@ impl HobCutter<'_> {
         let hob = &self.job.hob;
         let passes = &self.operations[operation];
         let [teeth, starts, gashes] = [self.job.scene.gear.teeth, hob.starts, hob.gashes].map(f64::from);
-        let goes_through = |pass: &BladePass| {
+        self.some_sections(operation, true, |pass| {
             let tooth = &hob.teeth[passes.places[pass.rank as usize].blade as usize];
             // Whole turns since the tooth's own passage: each carries its thread one start further.
             let turns = (pass.tool_angle_rad / TURN_RAD - tooth.passage as f64 / gashes).round();
             let space = f64::from(tooth.start) + starts * turns;
             spaces.iter().any(|&of| (space - of as f64).rem_euclid(teeth) == 0.0)
-        };
+        })
+    }
+
+    fn some_sections(
+        &self,
+        operation: usize,
+        cull: bool,
+        wanted: impl Fn(&BladePass) -> bool + Sync,
+    ) -> Result<SweptSections, Refusal> {
         let reach_mm = BlankOutline::new(&self.job.stock).reach_mm();
-        SweptSections::of_some(goes_through, passes, reach_mm, self.job.scene.gear.face_width_mm, true)
+        let face_width_mm = self.job.scene.gear.face_width_mm;
+        SweptSections::new(wanted, &self.operations[operation], reach_mm, face_width_mm, cull)
     }
 
     /// Runs all operations over the uncut blank; `advance` is called as often as there are slices, in every operation,

@@ -138,5 +138,5 @@ fn sections(
     wanted: impl Fn(&BladePass) -> bool + Sync,
     cull: bool,
 ) -> Result<SweptSections, Refusal> {
-    SweptSections::of_some(wanted, passes, reach_mm, 0.0, cull)
+    SweptSections::new(wanted, passes, reach_mm, 0.0, cull)
 }

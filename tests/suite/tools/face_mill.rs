@@ -212,6 +212,6 @@ fn a_plunging_head_leaves_what_the_last_blade_of_each_kind_leaves() {
 #[test]
 fn rays_through_the_whole_blank_refuse_blades_along_the_axis() {
     let passes = FaceMill::default().passes(0.0, [-1.0, 8.0]);
-    let refused = SweptSections::new(&passes, 100.0, 10.0, true).err().expect("no sections");
+    let refused = SweptSections::new(|_| true, &passes, 100.0, 10.0, true).err().expect("no sections");
     assert!(refused.to_string().contains("does not look straight away from the tool's axis"), "{refused}");
 }

@@ -119,7 +119,7 @@ fn sections_have_the_edge_of_their_tooth() {
     let sections = |blades: Blades| {
         let tool = hob.tool(blades);
         let passes = hob.passes(&tool);
-        let sections = SweptSections::new(&passes, 1e3, 10.0, false).expect("a hob");
+        let sections = SweptSections::new(|_| true, &passes, 1e3, 10.0, false).expect("a hob");
         let mut of_passes = Vec::new();
         for index in 0..sections.len() {
             let mut section = SweptSection::default();

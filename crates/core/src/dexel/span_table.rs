@@ -11,8 +11,15 @@
 //! The road not taken: the spans themselves, searched by halves. A list of its own for every ray costs two misses of
 //! the cache and a search whose branches no processor predicts: some 50 ns, against 2.
 
+#![expect(
+    clippy::inline_always,
+    reason = "the instruction set of the dispatching function holds only for what is inlined into it"
+)]
+
 use super::blank_field::RayMaterial;
 use super::intervals::Span;
+use crate::math::ray_reach::RayReach;
+use pulp::Arch;
 
 /// Spans of a row: a ray through a gear of 35 teeth meets six at most.
 const SPANS: usize = 8;
@@ -41,9 +48,16 @@ impl SpanTable {
         self.rows[ray] = Row::new(spans);
     }
 
+    /// Rays on which material may lie between the places that a curve can have there.
+    pub fn held(&self, reach: &RayReach, into: &mut Vec<usize>) {
+        into.clear();
+        Arch::new().dispatch(Holding { table: self, reach, into });
+    }
+
     /// Whether material may lie between two places of a ray; the lower one is larger where there is nothing to ask.
     #[allow(clippy::needless_bitwise_bool, reason = "no branch: all eight spans are compared at once")]
-    pub fn may_hold(&self, ray: usize, [from_mm, to_mm]: [f64; 2]) -> bool {
+    #[inline(always)]
+    fn may_hold(&self, ray: usize, [from_mm, to_mm]: [f64; 2]) -> bool {
         let row = &self.rows[ray];
         let (from_mm, to_mm) = (from_mm as f32, to_mm as f32);
         let mut held = false;
@@ -51,6 +65,26 @@ impl SpanTable {
             held |= (*low_mm < to_mm) & (*high_mm > from_mm);
         }
         held
+    }
+}
+
+/// A reach about to be compared, called through the instruction set dispatch.
+struct Holding<'a> {
+    table: &'a SpanTable,
+    reach: &'a RayReach,
+    into: &'a mut Vec<usize>,
+}
+
+impl pulp::NullaryFnOnce for Holding<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        for (ray, places_mm) in self.reach.rays.clone().zip(&self.reach.places_mm) {
+            if self.table.may_hold(ray, *places_mm) {
+                self.into.push(ray);
+            }
+        }
     }
 }
 

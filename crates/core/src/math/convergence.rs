@@ -10,6 +10,8 @@
 //!   with it hold only where that is small;
 //! - [`super::planar_rays`] is the inner loop of whole blanks: it stays within the ends of a part of a curve and halves
 //!   it to the last bit should Newton's method not arrive;
+//! - `passes::sections::swept_pose` follows some ten million edge points, eight at once or one after the other; where
+//!   Newton's method does not arrive, the range is halved;
 //! - `passes::spatial::sweep`: a polynomial is inverted by a fixed number of steps, tested over all arguments;
 //! - `tool::edge`: the foot of a rough edge's normal by four steps, each of which leaves a tenth at most of the one
 //!   before, of a shift below a micrometre;

@@ -69,12 +69,9 @@ impl VisitSearch<'_> {
                 continue;
             }
             reach.set(outline, family, &grid.rows[f]);
-            for (ray, places_mm) in reach.rays.clone().zip(&reach.places_mm) {
-                let tile = ray / TILE_RAYS;
-                if near[f].last() != Some(&tile) && left.tables[f].may_hold(ray, *places_mm) {
-                    near[f].push(tile);
-                }
-            }
+            left.tables[f].held(reach, &mut near[f]);
+            near[f].iter_mut().for_each(|ray| *ray /= TILE_RAYS);
+            near[f].dedup();
         }
         !near.iter().all(Vec::is_empty) && (followed || sections.section(pass, z_mm, section))
     }

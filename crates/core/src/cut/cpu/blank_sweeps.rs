@@ -155,10 +155,7 @@ impl SliceCut<'_> {
             for (f, family) in FAMILIES.into_iter().enumerate() {
                 reach.set(outline, family, &grid.rows[f]);
                 self.stats.visited += reach.rays.len() as u64;
-                let left = &self.left[f];
-                near[f].clear();
-                let may_hold = |(ray, places_mm): &(usize, &[f64; 2])| left.may_hold(*ray, **places_mm);
-                near[f].extend(reach.rays.clone().zip(&reach.places_mm).filter(may_hold).map(|(ray, _)| ray));
+                self.left[f].held(reach, &mut near[f]);
             }
             if near.iter().all(Vec::is_empty) {
                 return;

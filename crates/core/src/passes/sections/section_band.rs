@@ -20,9 +20,15 @@
 //! section. The second derivative itself would spare the tolerance, some micrometres; few passes miss what is left by
 //! so little.
 
+#![expect(
+    clippy::inline_always,
+    reason = "the instruction set of the dispatching function holds only for what is inlined into it"
+)]
+
 use crate::math::ray_reach::LooseOutline;
 use crate::passes::sections::swept_sections::{SweptSection, SweptSections, sagitta_mm};
 use glam::DVec2;
+use pulp::Arch;
 
 /// How much of a piece's length counts as travel on top of the slice's distance: third derivatives. Found by trial, no
 /// proof. Too small, a pass is culled in a slice where it would have taken up to the missing micrometres of tolerance.
@@ -73,6 +79,11 @@ impl SectionBand {
     /// Takes over pass `index`; slices are asked for within `z_range_mm`. `false`: the pass crosses none of them where
     /// the blank may be.
     pub fn set(&mut self, sections: &SweptSections, index: usize, z_range_mm: [f64; 2]) -> bool {
+        Arch::new().dispatch(BandToSet { band: self, sections, index, z_range_mm })
+    }
+
+    #[inline(always)]
+    fn set_lanes(&mut self, sections: &SweptSections, index: usize, z_range_mm: [f64; 2]) -> bool {
         let pass = &sections.passes[index];
         let outline = sections.outline_of(pass);
         let ends_mm = z_range_mm.map(|z_mm| pass.behind_mm(z_mm));
@@ -89,8 +100,7 @@ impl SectionBand {
         self.travel_per_mm = pass.travel_per_mm();
         self.first = *reached.nodes.start();
         let mut rate_mm = DVec2::ZERO;
-        let behind_mm = pass.behind_mm(self.z_mm);
-        let found = sections.walk(pass, self.z_mm, behind_mm, reached.nodes, |index, node, crossing| {
+        let found = sections.walk_abreast(pass, self.z_mm, reached.nodes, |index, node, crossing| {
             if let Some(before) = self.nodes.last() {
                 let end_rate_mm = crossing.rate(outline.rates_mm[index - 1][1]);
                 self.sagittas_mm.push(sagitta_mm([before.place_mm, crossing.place_mm], &[rate_mm, end_rate_mm]));
@@ -164,5 +174,22 @@ impl SectionBand {
         into.corners_mm.extend(closing.map(|(place_mm, _)| place_mm));
         into.tolerances_mm.extend([closing[0].1, closing[0].1.max(closing[1].1), closing[1].1]);
         InSlice::Within
+    }
+}
+
+/// A band about to be set, called through the instruction set dispatch.
+struct BandToSet<'a> {
+    band: &'a mut SectionBand,
+    sections: &'a SweptSections,
+    index: usize,
+    z_range_mm: [f64; 2],
+}
+
+impl pulp::NullaryFnOnce for BandToSet<'_> {
+    type Output = bool;
+
+    #[inline(always)]
+    fn call(self) -> bool {
+        self.band.set_lanes(self.sections, self.index, self.z_range_mm)
     }
 }

@@ -23,12 +23,19 @@
 //! The road not taken: rays against segments with two unknowns each, as flanks are cut. Rays of a slice lie side by
 //! side, and one walk along the outline finds the crossings of all of them.
 
+#![expect(
+    clippy::inline_always,
+    reason = "the instruction set of the dispatching function holds only for what is inlined into it"
+)]
+
 use super::swept_pose::{SliceCrossing, Sweeping};
 use crate::error::Refusal;
 use crate::math::planar_rays::{ClosedCurve, Family, Piece};
+use crate::passes::spatial::sweep_roots::LANES;
 use crate::passes::spatial::turning_passes::{BladePass, TurningPasses};
 use crate::tool::edge::{Edge, Segment};
 use glam::{DVec2, DVec3};
+use pulp::Arch;
 use rayon::prelude::*;
 use std::ops::RangeInclusive;
 
@@ -135,20 +142,12 @@ pub struct SweepHeading {
 }
 
 impl SweptSections {
-    /// Passes of an operation for a blank within `reach_mm` of the gear axis, over the face; all of them, wherever they
-    /// are, if not `cull`.
+    /// The `wanted` passes of an operation for a blank within `reach_mm` of the gear axis, over the face; all of them,
+    /// wherever they are, if not `cull`.
     ///
     /// # Errors
     /// Blades that do not look away from the tool's axis: sections are closed towards it, through the tool's body.
-    pub fn new(set: &TurningPasses, reach_mm: f64, face_width_mm: f64, cull: bool) -> Result<Self, Refusal> {
-        Self::of_some(|_| true, set, reach_mm, face_width_mm, cull)
-    }
-
-    /// The same of those passes that are `wanted`.
-    ///
-    /// # Errors
-    /// As [`Self::new`].
-    pub fn of_some(
+    pub fn new(
         wanted: impl Fn(&BladePass) -> bool + Sync,
         set: &TurningPasses,
         reach_mm: f64,
@@ -256,16 +255,22 @@ impl SweptSections {
     /// Section of pass `index` at a place along the face, into memory that is reused. `false`: the pass does not cross
     /// the slice where the blank may be.
     pub fn section(&self, index: usize, z_mm: f64, into: &mut SweptSection) -> bool {
+        Arch::new().dispatch(Following { sections: self, index, z_mm, into })
+    }
+
+    #[inline(always)]
+    fn follow(&self, index: usize, z_mm: f64, into: &mut SweptSection) -> bool {
         let pass = &self.passes[index];
         let behind_mm = pass.behind_mm(z_mm);
         let Some(reached) = self.reached(pass, behind_mm) else { return false };
         let outline = self.outline_of(pass);
         let tip = (behind_mm / outline.tip_mm).asin();
+        let [axis, out, centre_mm] = pass.axis_out_and_centre(tip);
         into.pass = pass.pass;
         into.heading = SweepHeading {
             travel_per_mm: pass.travel_per_mm() / tip.cos(),
-            axis_and_out: pass.axis_and_out(tip),
-            centre_mm: pass.place_mm(tip, DVec2::ZERO, self.twist_rad_per_mm) - z_mm * DVec3::Z,
+            axis_and_out: [axis, out],
+            centre_mm: centre_mm - z_mm * DVec3::Z,
             tip_and_depth_mm: [outline.tip_mm, outline.depth_mm],
         };
         into.pieces.clear();
@@ -317,9 +322,10 @@ impl SweptSections {
         (first < last).then_some(ReachedEdge { nodes: first..=last, least_mm })
     }
 
-    /// Follows ends of pieces to the moments at which they go through a slice: `visit` gets the index, the point of the
-    /// edge and its crossing. `false`: one of them has no such moment.
-    pub(super) fn walk(
+    /// Follows ends of pieces to the moments at which they go through a slice, each from the one before: `visit` gets
+    /// the index, the point of the edge and its crossing. `false`: one of them has no such moment.
+    #[inline(always)]
+    fn walk(
         &self,
         pass: &Sweeping,
         z_mm: f64,
@@ -337,6 +343,45 @@ impl SweptSections {
         }
         true
     }
+
+    /// The same of a smooth pass, eight ends at once; places are the same but for rounding.
+    #[inline(always)]
+    pub(super) fn walk_abreast(
+        &self,
+        pass: &Sweeping,
+        z_mm: f64,
+        nodes: RangeInclusive<usize>,
+        mut visit: impl FnMut(usize, DVec2, &SliceCrossing),
+    ) -> bool {
+        let (first, last) = nodes.into_inner();
+        let nodes_mm = &self.outline_of(pass).nodes_mm;
+        for start in (first..=last).step_by(LANES) {
+            // Lanes beyond the last end repeat it.
+            let lanes: [DVec2; LANES] = std::array::from_fn(|l| nodes_mm[(start + l).min(last)]);
+            let Some(crossings) = pass.crossings(&lanes, self.twist_rad_per_mm, z_mm) else { return false };
+            for (l, crossing) in crossings.iter().enumerate().take(last + 1 - start) {
+                visit(start + l, lanes[l], crossing);
+            }
+        }
+        true
+    }
+}
+
+/// A section on its way, called through the instruction set dispatch.
+struct Following<'a> {
+    sections: &'a SweptSections,
+    index: usize,
+    z_mm: f64,
+    into: &'a mut SweptSection,
+}
+
+impl pulp::NullaryFnOnce for Following<'_> {
+    type Output = bool;
+
+    #[inline(always)]
+    fn call(self) -> bool {
+        self.sections.follow(self.index, self.z_mm, self.into)
+    }
 }
 
 /// Part of the edge that may meet the blank in a slice.
@@ -349,6 +394,7 @@ pub(super) struct ReachedEdge {
 
 /// Largest distance of a piece from its chord, from the rates over its parameter at both ends: a cubic stays within the
 /// polygon of its control points.
+#[inline(always)]
 pub(super) fn sagitta_mm(nodes_mm: [DVec2; 2], rates_mm: &[DVec2; 2]) -> f64 {
     let across = (nodes_mm[1] - nodes_mm[0]).normalize_or_zero();
     across.perp_dot(rates_mm[0]).abs().max(across.perp_dot(rates_mm[1]).abs()) / 3.0 + 1e-9
