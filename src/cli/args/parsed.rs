@@ -27,7 +27,7 @@ fn takes_values(arg: &clap::Arg) -> bool {
 }
 
 fn with_way_out(mut error: Error) -> Error {
-    let is_number = std::error::Error::source(&error).is_some_and(|source| source.is::<ParseFloatError>());
+    let is_number = std::error::Error::source(&error).is_some_and(<dyn std::error::Error>::is::<ParseFloatError>);
     let number = match error.get(ContextKind::InvalidValue) {
         Some(ContextValue::String(typed)) if is_number => number_meant(typed),
         _ => None,
