@@ -167,14 +167,6 @@ impl MotionTable {
         Rigid3 { rotation: DMat3::from_cols_array(&[a, b, c, d, e, f, g, h, i]), translation_mm: DVec3::new(x, y, z) }
     }
 
-    /// The way of one point of the work in the head.
-    pub fn path(&self, point_mm: DVec3) -> PointPath<'_> {
-        let of_term = |[a, b, c, d, e, f, g, h, i, x, y, z]: [f64; ENTRIES]| {
-            (DMat3::from_cols_array(&[a, b, c, d, e, f, g, h, i]) * point_mm + DVec3::new(x, y, z)).to_array()
-        };
-        PointPath { ends_rad: &self.ends_rad, panels: self.panels.iter().map(|panel| panel.map(of_term)).collect() }
-    }
-
     /// How far a point of the work moves in the head at most per radian of the tool, mm, and how far the work turns,
     /// rad: bounds from the polynomials' coefficients over all panels, whatever gear and feeds they stand for.
     pub fn largest_rates(&self, point_mm: DVec3) -> [f64; 2] {
@@ -241,22 +233,6 @@ fn rate(coefficients: [f64; TERMS], order: usize, at: f64) -> f64 {
         let falling: f64 = (k + 1 - order..=k).map(|factor| factor as f64).product();
         value * at + falling * coefficients[k]
     })
-}
-
-/// Where a point of the work stands in the head at any tool angle: three polynomials where a pose has twelve, for who
-/// asks about one point at many angles.
-#[derive(Debug, Clone)]
-pub struct PointPath<'a> {
-    ends_rad: &'a [f64],
-    panels: Vec<[[f64; 3]; TERMS]>,
-}
-
-impl PointPath<'_> {
-    /// Place in the head, mm: that of the pose, but for rounding.
-    pub fn at(&self, tool_angle_rad: f64) -> DVec3 {
-        let (panel, u) = panel_at(self.ends_rad, tool_angle_rad, 0..self.panels.len());
-        DVec3::from_array(horner(&self.panels[panel], u))
-    }
 }
 
 /// The panel among some whose law holds at a tool angle, and where in it, -1 to 1; beyond their ends the last one.
@@ -343,12 +319,6 @@ mod tests {
         assert_eq!(table.pieces([0.9, 17.2]), 0..2);
         assert_eq!(table.pieces([17.3, 90.0]), 2..3);
         assert_eq!([0, 1].map(|piece| table.piece_rad(piece)), [[f64::NEG_INFINITY, 1.0], [1.0, 17.3]]);
-        for point in [DVec3::ZERO, DVec3::new(80.0, -60.0, 12.0)] {
-            let path = table.path(point);
-            for angle in (0..90).map(|i| -3.1 + 0.5 * f64::from(i)) {
-                assert!(path.at(angle).distance(table.head_from_work(angle).point(point)) < 1e-12);
-            }
-        }
         // The measure is alive: another motion is seen.
         assert!(table.error_mm(150.0, |angle| pose(angle + 1e-9)) > 1e-9);
     }

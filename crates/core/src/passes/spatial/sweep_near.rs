@@ -6,9 +6,11 @@
 //! tool's axis and its place along it are those of the blade's edge, and its angle about the axis is s (and what a
 //! helical gash adds). Over an interval of swept angles the ball's centre stays within speed x half the interval of
 //! where it is in the middle, and every point of the ball within its radius of the centre: where even this reaches none
-//! of the three, the interval is clear. An interval that is not is halved, down to where halving shows little more; a
-//! pass is near if such an interval is left. The tool angles at which the ball stands in the room that all blades sweep
-//! are looked for first, once for all passes.
+//! of the three, the interval is clear. The tool angles at which the ball may be in the room that all blades sweep are
+//! halved down to where halving shows little more. In each interval that is left the ball's angle about the axis names
+//! the passes whose rake faces may be there, a run of neighbours in time; those are near whose own blade reaches the
+//! ball. Road not taken: halving the sweep of every pass, which takes twice as long, since neighbours ask nearly the
+//! same.
 //!
 //! The speed is bounded by the motion table's own polynomials ([`MotionTable::largest_rates`]), so that nothing here
 //! rests on module, starts, teeth or the pitch curve's shape: every step is a bound, for candidates and for the brute
@@ -17,11 +19,11 @@
 //!
 //! [`MotionTable::largest_rates`]: super::motion::MotionTable::largest_rates
 
-use super::motion::PointPath;
 use super::sweep::LARGEST_T;
-use super::turning_passes::{BladePass, TurningPasses};
+use super::turning_passes::{BladePass, BladePlace, TurningPasses};
 use glam::DVec3;
 use std::f64::consts::{PI, TAU};
+use std::ops::Range;
 
 /// What the sweeps of tiles may err against the motion table where they go on beyond their tiles, mm: within them it is
 /// picometres. A thousandth would do; this much costs nothing.
@@ -31,6 +33,8 @@ const MARGIN_MM: f64 = 0.1;
 const SHORTEST_SHARE: f64 = 0.6;
 /// Balls smaller than this count as this large there, mm.
 const SMALLEST_MM: f64 = 1.0;
+/// Added to tool angles between which passes are looked up, rad: blades of one gash may differ by rounding.
+const ROUNDING_RAD: f64 = 1e-6;
 
 /// A ball in the work.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -54,137 +58,122 @@ impl Ball {
     }
 }
 
-/// Passes whose blade may hold a point of `whole` and of one of its parts (each within `whole`), in time order.
+/// Passes whose blade may hold a point of one of some balls, all within `whole`, in time order.
 pub fn near_passes(set: &TurningPasses, whole: &Ball, parts: &[Ball]) -> Vec<BladePass> {
     let [speed_mm, turn_rad] = set.motion.largest_rates(whole.center_mm);
-    let room = Room::of_blades(set);
-    let moving = |ball: &Ball, within: &[[f64; 2]]| {
-        let speed_mm = speed_mm + turn_rad * ball.center_mm.distance(whole.center_mm);
-        let path = set.motion.path(ball.center_mm);
-        let near_rad = near_angles(&path, &room, ball, speed_mm, within);
-        MovingBall { ball: *ball, path, speed_mm, near_rad }
-    };
-    let whole = moving(whole, &[set.motion.range_rad()]);
-    let parts: Vec<_> = parts.iter().map(|part| moving(part, &whole.near_rad)).collect();
-    (0..set.count())
-        .map(|index| set.pass(index))
-        .filter(|pass| may_hold(set, pass, &whole) && parts.iter().any(|part| may_hold(set, pass, part)))
-        .collect()
+    let blades: Vec<Room> = set.places.iter().map(|place| Room::of_blade(set, place)).collect();
+    let room = blades.iter().fold(Room::NONE, Room::with);
+    let mut within: Vec<[f64; 2]> = Vec::new();
+    halve_angles(set, &room, whole, speed_mm, &[set.motion.range_rad()], |moment| match within.last_mut() {
+        Some(last) if last[1] == moment.angles_rad[0] => last[1] = moment.angles_rad[1],
+        _ => within.push(moment.angles_rad),
+    });
+    let mut near = vec![false; set.count() as usize];
+    for part in parts {
+        let speed_mm = speed_mm + turn_rad * part.center_mm.distance(whole.center_mm);
+        halve_angles(set, &room, part, speed_mm, &within, |moment| {
+            for index in moment.held_by(set).into_iter().flatten() {
+                near[index as usize] |= blades[set.pass(index).rank as usize].reaches(moment);
+            }
+        });
+    }
+    (0..set.count()).filter(|&index| near[index as usize]).map(|index| set.pass(index)).collect()
 }
 
-/// A ball in the work, as the head sees it.
-struct MovingBall<'a> {
-    ball: Ball,
-    /// The way of its centre.
-    path: PointPath<'a>,
-    /// How far its centre moves at most per radian of the tool, mm.
-    speed_mm: f64,
-    /// Tool angles at which it is in the room that the blades sweep, rad: intervals in order.
-    near_rad: Vec<[f64; 2]>,
-}
-
-/// What the blades of a tool sweep in the head: a ring about its axis.
+/// A ring about the tool's axis in the head: what blades sweep.
+#[derive(Clone, Copy)]
 struct Room {
     radii_mm: [f64; 2],
     axial_mm: [f64; 2],
 }
 
 impl Room {
-    fn of_blades(set: &TurningPasses) -> Self {
-        let mut room =
-            Self { radii_mm: [f64::INFINITY, f64::NEG_INFINITY], axial_mm: [f64::INFINITY, f64::NEG_INFINITY] };
-        // One turn of the tool has every blade in its place.
-        for pass in (0..set.count().min(set.places.len() as u32)).map(|index| set.pass(index)) {
-            let (place, edge) = (set.place(&pass), set.edge(&pass));
-            let radius_mm = place.radial_mm + edge.center_mm.x;
-            let axial_mm = place.axial_mm + place.y_sign * edge.center_mm.y;
-            for (ends_mm, middle_mm) in [(&mut room.radii_mm, radius_mm), (&mut room.axial_mm, axial_mm)] {
-                ends_mm[0] = ends_mm[0].min(middle_mm - edge.reach_mm);
-                ends_mm[1] = ends_mm[1].max(middle_mm + edge.reach_mm);
-            }
+    const NONE: Self =
+        Self { radii_mm: [f64::INFINITY, f64::NEG_INFINITY], axial_mm: [f64::INFINITY, f64::NEG_INFINITY] };
+
+    fn of_blade(set: &TurningPasses, place: &BladePlace) -> Self {
+        let edge = set.edges.edge_of(place.blade);
+        let around = |middle_mm: f64| [middle_mm - edge.reach_mm, middle_mm + edge.reach_mm];
+        Self {
+            radii_mm: around(place.radial_mm + edge.center_mm.x),
+            axial_mm: around(place.axial_mm + place.y_sign * edge.center_mm.y),
         }
-        room
+    }
+
+    fn with(self, other: &Self) -> Self {
+        let both = |a: [f64; 2], b: [f64; 2]| [a[0].min(b[0]), a[1].max(b[1])];
+        Self { radii_mm: both(self.radii_mm, other.radii_mm), axial_mm: both(self.axial_mm, other.axial_mm) }
+    }
+
+    /// Whether a point of the ball may be in it.
+    fn reaches(&self, moment: &MovingBall) -> bool {
+        let misses = |at: f64, range: [f64; 2]| at - moment.around_mm > range[1] || at + moment.around_mm < range[0];
+        !misses(moment.distance_mm, self.radii_mm) && !misses(moment.at_mm.z, self.axial_mm)
     }
 }
 
-/// Down to which half interval it is worth to look; a speed that is not a number ends the halving.
-fn is_fine(half_rad: f64, ball: &Ball, speed_mm: f64) -> bool {
-    let is_coarse = half_rad * speed_mm > SHORTEST_SHARE * ball.radius_mm.max(SMALLEST_MM);
-    !is_coarse
+/// A ball in the work over an interval of tool angles, as the head sees it.
+struct MovingBall {
+    angles_rad: [f64; 2],
+    /// Its centre in the middle of the interval, and that one's distance from the tool's axis.
+    at_mm: DVec3,
+    distance_mm: f64,
+    /// No point of the ball is ever further from there.
+    around_mm: f64,
 }
 
-/// Tool angles of some intervals in order at which a ball may be in the room of all blades, wherever they stand: most
-/// passes work on other teeth, and are told from these angles alone.
-fn near_angles(path: &PointPath, room: &Room, ball: &Ball, speed_mm: f64, within: &[[f64; 2]]) -> Vec<[f64; 2]> {
-    let mut near: Vec<[f64; 2]> = Vec::new();
+impl MovingBall {
+    /// Passes whose rake faces may hold a point of the ball meanwhile, wherever their edges are in them.
+    fn held_by(&self, set: &TurningPasses) -> [Range<u32>; 3] {
+        let [from, to] = self.angles_rad;
+        let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));
+        let seen_rad = if self.around_mm < self.distance_mm { (self.around_mm / self.distance_mm).asin() } else { PI };
+        // Gashes wind about the axis: what they add where any edge may hold a point of the ball.
+        let edges = set.edges.edges().iter();
+        let wound_mm = edges.map(|edge| edge.center_mm.y.abs() + edge.reach_mm).fold(0.0, f64::max) + self.around_mm;
+        let free_rad = seen_rad + set.rake_twist_rad_per_mm.abs() * wound_mm + half;
+        let ahead_rad = self.at_mm.y.atan2(self.at_mm.x);
+        // A tile's middle is held within half a sweep, what a tile holds at most a quarter turn from there.
+        let most_rad = set.half_window_rad + 2.0 * LARGEST_T.atan() + half;
+        [-TAU, 0.0, TAU].map(|turn| {
+            // All of the window where the ball is not a number.
+            let swept = [(ahead_rad + turn - free_rad).max(-most_rad), (ahead_rad + turn + free_rad).min(most_rad)];
+            if swept[0] >= swept[1] {
+                return 0..0;
+            }
+            let [a, b] = swept.map(|angle| middle - set.turn * angle);
+            set.between(a.min(b) - ROUNDING_RAD, a.max(b) + ROUNDING_RAD)
+        })
+    }
+}
+
+/// Halves intervals of tool angles, given in order, down to those in which a ball may be in a room, and gives each of
+/// these.
+fn halve_angles(
+    set: &TurningPasses,
+    room: &Room,
+    ball: &Ball,
+    speed_mm: f64,
+    within: &[[f64; 2]],
+    mut near: impl FnMut(&MovingBall),
+) {
+    // Blade and ball move towards each other; a speed that is not a number ends the halving.
+    let finest_mm = SHORTEST_SHARE * ball.radius_mm.max(SMALLEST_MM);
     let mut open: Vec<[f64; 2]> = within.iter().rev().copied().collect();
     while let Some([from, to]) = open.pop() {
         let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));
-        let at = path.at(middle);
+        let at_mm = set.motion.head_from_work(middle).point(ball.center_mm);
         let around_mm = ball.radius_mm + speed_mm * half + MARGIN_MM;
-        let distance_mm = at.truncate().length();
-        if distance_mm - around_mm > room.radii_mm[1]
-            || distance_mm + around_mm < room.radii_mm[0]
-            || at.z - around_mm > room.axial_mm[1]
-            || at.z + around_mm < room.axial_mm[0]
-        {
+        let moment = MovingBall { angles_rad: [from, to], at_mm, distance_mm: at_mm.truncate().length(), around_mm };
+        if !room.reaches(&moment) {
             continue;
         }
-        if is_fine(half, ball, speed_mm) {
-            match near.last_mut() {
-                Some(last) if last[1] == from => last[1] = to,
-                _ => near.push([from, to]),
-            }
-        } else {
+        if half * (speed_mm + room.radii_mm[1]) > finest_mm {
             open.extend([[middle, to], [from, middle]]);
+        } else {
+            near(&moment);
         }
     }
-    near
-}
-
-/// Whether a pass's blade may hold a point of a ball.
-fn may_hold(set: &TurningPasses, pass: &BladePass, moving: &MovingBall) -> bool {
-    let MovingBall { ball, path, speed_mm, near_rad } = moving;
-    let (place, edge) = (set.place(pass), set.edge(pass));
-    let middle_mm = place.radial_mm + edge.center_mm.x;
-    let [innermost_mm, tip_mm] = [middle_mm - edge.reach_mm, middle_mm + edge.reach_mm];
-    // A tile's middle is held within half a sweep, what a tile holds at most a quarter turn from there.
-    let most_rad = set.half_window_rad + 2.0 * LARGEST_T.atan();
-    // The window is symmetric to the tool's direction.
-    let window = [pass.tool_angle_rad - most_rad, pass.tool_angle_rad + most_rad];
-    let first = near_rad.partition_point(|near| near[1] < window[0]);
-    let in_window = near_rad[first..].iter().take_while(|near| near[0] <= window[1]);
-    let mut open: Vec<[f64; 2]> = in_window
-        .map(|near| {
-            let ends = [near[0].max(window[0]), near[1].min(window[1])];
-            let swept = ends.map(|angle| set.turn * (angle - pass.tool_angle_rad));
-            [swept[0].min(swept[1]), swept[0].max(swept[1])]
-        })
-        .collect();
-    while let Some([from, to]) = open.pop() {
-        let (swept, half) = (0.5 * (from + to), 0.5 * (to - from));
-        let at = path.at(pass.tool_angle_rad + set.turn * swept);
-        let around_mm = ball.radius_mm + speed_mm * half + MARGIN_MM;
-        let distance_mm = at.truncate().length();
-        let y_mm = place.y_sign * (at.z - place.axial_mm);
-        if distance_mm - around_mm > tip_mm
-            || distance_mm + around_mm < innermost_mm
-            || (y_mm - edge.center_mm.y).abs() - around_mm > edge.reach_mm
-        {
-            continue;
-        }
-        let seen_rad = if around_mm < distance_mm { (around_mm / distance_mm).asin() } else { PI };
-        let twist = set.rake_twist_rad_per_mm;
-        let ahead = (at.y.atan2(at.x) - twist * y_mm - swept + PI).rem_euclid(TAU) - PI;
-        if ahead.abs() > seen_rad + twist.abs() * around_mm + half {
-            continue;
-        }
-        if is_fine(half, ball, speed_mm + tip_mm) {
-            return true;
-        }
-        open.extend([[swept, to], [from, swept]]);
-    }
-    false
 }
 
 #[cfg(test)]

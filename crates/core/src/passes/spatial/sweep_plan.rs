@@ -25,8 +25,8 @@ use std::sync::Arc;
 
 /// All cells of a tile.
 const ALL_CELLS: u16 = u16::MAX;
-/// Parts of a field in each direction whose balls are looked at first. It decides about time alone.
-const PARTS: usize = 2;
+/// Parts of a field along its rows whose balls are looked at first. It decides about time alone.
+const PARTS: usize = 4;
 /// Surroundings reach this much further than the ends of nine rays, for what bulges between them: a surface of radius
 /// rho bulges by a / (2 rho) of the reach over a region that reaches a, so that 5 % holds up to a = rho / 10. For
 /// larger regions it was found by trial; the comparison with all passes in `tests/suite/hobbing/spatial.rs` stands for
@@ -286,14 +286,9 @@ impl SweepPlanner<'_> {
 
     /// Balls of parts of the field: together they are much slimmer than one of the whole.
     fn parts(&self) -> Vec<Ball> {
-        let ranges = |lines: usize| {
-            let step = lines.div_ceil(PARTS);
-            (0..lines).step_by(step).map(move |from| from..(from + step).min(lines))
-        };
-        ranges(self.field.columns())
-            .flat_map(|columns| ranges(self.field.rows()).map(move |rows| (columns.clone(), rows)))
-            .map(|(columns, rows)| self.ball(columns, rows))
-            .collect()
+        let (columns, rows) = (self.field.columns(), self.field.rows());
+        let step = rows.div_ceil(PARTS);
+        (0..rows).step_by(step).map(|from| self.ball(0..columns, from..(from + step).min(rows))).collect()
     }
 
     /// Segments of a pass's blade.

@@ -148,6 +148,21 @@ impl SweepRecord {
 
 #[inline(always)]
 fn places(record: &SweepRecord, paths: &Paths, height_mm: &Lanes, steps: usize, last_t: f64) -> [Lanes; 4] {
+    if record.twist_rad_per_mm == 0.0 {
+        places_of::<false>(record, paths, height_mm, steps, last_t)
+    } else {
+        places_of::<true>(record, paths, height_mm, steps, last_t)
+    }
+}
+
+#[inline(always)]
+fn places_of<const TWISTED: bool>(
+    record: &SweepRecord,
+    paths: &Paths,
+    height_mm: &Lanes,
+    steps: usize,
+    last_t: f64,
+) -> [Lanes; 4] {
     let (mut t, mut rho, mut y) = ([0.0; LANES], [0.0; LANES], [0.0; LANES]);
     let mut step_t = [0.0; LANES];
     for _ in 0..steps {
@@ -159,10 +174,13 @@ fn places(record: &SweepRecord, paths: &Paths, height_mm: &Lanes, steps: usize, 
                     + u * (c[1][row][l] + u * (c[2][row][l] + u * c[3][row][l]))
                     + height_mm[l] * (d[0][row][l] + u * (d[1][row][l] + u * d[2][row][l]))
             };
-            let (r, q, along) = (at(0), at(1), at(2));
-            let [s, c1] = small_turn(record.twist_rad_per_mm * along);
-            let big = r + record.radius_mm;
-            let (big, q) = (big + c1 * big + s * q, q + c1 * q - s * big);
+            let (r, mut q, along) = (at(0), at(1), at(2));
+            let mut big = r + record.radius_mm;
+            // Nine divisions, which would be most of a step.
+            if TWISTED {
+                let [s, c1] = small_turn(record.twist_rad_per_mm * along);
+                (big, q) = (big + c1 * big + s * q, q + c1 * q - s * big);
+            }
             let distance = (big * big + q * q).sqrt();
             let next = q / (big + distance);
             step_t[l] = next - t[l];

@@ -175,16 +175,27 @@ impl TurningPasses {
     #[must_use]
     pub fn with_parts_of_turns(mut self) -> Self {
         let ends_rad = self.motion.range_rad();
-        let [from, to] = [ends_rad[0] + self.half_window_rad, ends_rad[1] - self.half_window_rad];
-        // A turn's blades by their angle: how many of them come before an angle of the tool.
-        let turn_of = |angle: f64| (angle / TAU).floor();
-        let before =
-            |angle: f64| self.places.partition_point(|place| TAU * turn_of(angle) + place.lag_rad < angle) as u32;
-        let (first_turn, skipped) = (turn_of(from), before(from));
-        let whole = ((turn_of(to) - first_turn).max(0.0)) as u32 * self.places.len() as u32;
-        (self.count, self.skipped, self.first_turn) =
-            ((whole + before(to)).saturating_sub(skipped), skipped, first_turn as i64);
+        let [from, to] =
+            [ends_rad[0] + self.half_window_rad, ends_rad[1] - self.half_window_rad].map(|a| self.blades_before(a));
+        let blades = self.places.len().max(1) as i64;
+        (self.first_turn, self.skipped) = (from.div_euclid(blades), from.rem_euclid(blades) as u32);
+        self.count = (to - from).max(0) as u32;
         self
+    }
+
+    /// How many blades have passed the head's x axis up to a tool angle, from tool angle 0 on.
+    fn blades_before(&self, tool_angle_rad: f64) -> i64 {
+        let turn = (tool_angle_rad / TAU).floor();
+        let of_turn = self.places.partition_point(|place| TAU * turn + place.lag_rad < tool_angle_rad);
+        turn as i64 * self.places.len() as i64 + of_turn as i64
+    }
+
+    /// Places in the order of time of the passes whose blades point along the head's x axis between two tool angles.
+    pub fn between(&self, from_rad: f64, to_rad: f64) -> Range<u32> {
+        let first = self.first_turn * self.places.len() as i64 + i64::from(self.skipped);
+        let [from, to] =
+            [from_rad, to_rad].map(|angle| (self.blades_before(angle) - first).clamp(0, self.count.into()));
+        from as u32..to as u32
     }
 
     /// The first passes alone, so many of them at most.
