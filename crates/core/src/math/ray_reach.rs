@@ -8,24 +8,12 @@
 //! there no further from the chord's line than tolerance x sqrt(1 + slope^2) along the ray, nor beyond the chord's ends
 //! by more than the tolerance.
 //!
-//! Eight sides are prepared at once; the rays that each meets follow one by one. The road not taken: eight rays at once
-//! as well. A side meets a handful of them, and every vector waits for the one that the side before it wrote, partly
-//! over the same rays.
-
-#![expect(
-    clippy::inline_always,
-    reason = "the instruction set of the dispatching function holds only for what is inlined into it"
-)]
+//! The road not taken: eight sides at once, or eight rays. A side meets a handful of rays, one by one in any case, and
+//! what is prepared for it in vectors goes through memory first: a sixth more time.
 
 use crate::math::planar_rays::{ClosedCurve, Family, RayRow};
 use glam::DVec2;
-use pulp::Arch;
-use std::array::from_fn;
 use std::ops::Range;
-
-/// Sides that are prepared together.
-const LANES: usize = 8;
-type Lanes = [f64; LANES];
 
 /// Rays within this share of their distance of a piece's end count as met: division rounds.
 const ROUNDING_RAYS: f64 = 1e-9;
@@ -62,133 +50,69 @@ pub struct RayReach {
     pub rays: Range<usize>,
     /// Least and largest place on each of them, mm; the least is larger where it cannot cross.
     pub places_mm: Vec<[f64; 2]>,
-    sides: Vec<Sides>,
-}
-
-/// Eight sides of an outline.
-#[derive(Debug, Default)]
-struct Sides {
-    /// First ray that each may meet, and the one behind the last: whole numbers.
-    rays: [Lanes; 2],
-    /// Place of its line on the first of them, and how it moves on from ray to ray, mm.
-    first_mm: Lanes,
-    step_mm: Lanes,
-    /// How far from that line the curve may cross a ray, mm.
-    tolerance_mm: Lanes,
-    /// Places that it does not leave, mm.
-    ends_mm: [Lanes; 2],
 }
 
 impl RayReach {
     /// Takes the place of what was known before.
     pub fn set(&mut self, outline: &LooseOutline, family: Family, row: &RayRow) {
-        Arch::new().dispatch(ReachToSet { reach: self, outline, family, row });
-    }
-
-    #[inline(always)]
-    fn set_lanes(&mut self, outline: &LooseOutline, family: Family, row: &RayRow) {
+        let per_mm = row.spacing_mm.recip();
+        // Whole numbers of 32 bits: processors turn places into no others in one step.
+        let from_ray = |across_mm: f64| {
+            let place = ((across_mm - row.first_mm) * per_mm - ROUNDING_RAYS).max(0.0);
+            let below = place as i32;
+            (below as usize + usize::from(place > f64::from(below))).min(row.count)
+        };
+        let to_ray = |across_mm: f64| {
+            let place = (across_mm - row.first_mm) * per_mm + ROUNDING_RAYS + 1.0;
+            (place.max(0.0) as i32 as usize).min(row.count)
+        };
         let LooseOutline { corners_mm, tolerances_mm } = outline;
-        let count = corners_mm.len();
-        self.sides.clear();
-        let mut ends = [f64::INFINITY, 0.0];
-        for first in (0..count).step_by(LANES) {
-            // Lanes beyond the last side repeat it.
-            let at: [usize; LANES] = from_fn(|l| (first + l).min(count - 1));
-            let from = at.map(|i| corners_mm[i]);
-            let to = at.map(|i| corners_mm[if i + 1 < count { i + 1 } else { 0 }]);
-            let [along, across] =
-                [Family::along, Family::across].map(|of| [from, to].map(|p| p.map(|p| of(family, p))));
-            let sides = Sides::new(along, across, at.map(|i| tolerances_mm[i]), row);
-            ends[0] = sides.rays[0].iter().fold(ends[0], |a, b| least(a, *b));
-            ends[1] = sides.rays[1].iter().fold(ends[1], |a, b| largest(a, *b));
-            self.sides.push(sides);
+        let mut ends_mm = [f64::INFINITY, f64::NEG_INFINITY];
+        for (index, (corner, tolerance_mm)) in corners_mm.iter().zip(tolerances_mm).enumerate() {
+            let tolerance_mm = tolerance_mm.max(tolerances_mm[index.checked_sub(1).unwrap_or(tolerances_mm.len() - 1)]);
+            let across_mm = family.across(*corner);
+            ends_mm = [ends_mm[0].min(across_mm - tolerance_mm), ends_mm[1].max(across_mm + tolerance_mm)];
         }
-        let [from, to] = ends.map(|ray| ray as usize);
-        self.rays = from.min(to)..to;
+        self.rays = from_ray(ends_mm[0])..to_ray(ends_mm[1]);
         self.places_mm.clear();
         self.places_mm.resize(self.rays.len(), [f64::INFINITY, f64::NEG_INFINITY]);
-        for (sides, rest) in self.sides.iter().zip((1..=count).rev().step_by(LANES)) {
-            for l in 0..LANES.min(rest) {
-                sides.widen(l, self.rays.start, &mut self.places_mm);
+        let Some(&last) = corners_mm.last().filter(|_| !self.rays.is_empty()) else { return };
+        // Sides are taken by their ends: the first one is that from the last corner to the first.
+        let (mut start, mut tolerance_mm) = (last, tolerances_mm[tolerances_mm.len() - 1]);
+        for (corner, next_tolerance_mm) in corners_mm.iter().zip(tolerances_mm) {
+            let [a, b] = [start, *corner].map(|p| [family.across(p), family.along(p)]);
+            let side_tolerance_mm = tolerance_mm;
+            (start, tolerance_mm) = (*corner, *next_tolerance_mm);
+            let from = from_ray(a[0].min(b[0]) - side_tolerance_mm);
+            let to = to_ray(a[0].max(b[0]) + side_tolerance_mm);
+            if from >= to {
+                continue;
+            }
+            let low_mm = a[1].min(b[1]) - side_tolerance_mm - ROUNDING_MM;
+            let high_mm = a[1].max(b[1]) + side_tolerance_mm + ROUNDING_MM;
+            let run = [b[0] - a[0], b[1] - a[1]];
+            let slope = run[1] / run[0];
+            // Along the rays a side's ends alone are taken: rounding would be stretched beyond bounds.
+            let (slope, along_tolerance_mm) = if run[1].abs() < LARGEST_SLOPE * run[0].abs() {
+                (slope, side_tolerance_mm * (1.0 + slope * slope).sqrt() + ROUNDING_MM)
+            } else {
+                (0.0, f64::INFINITY)
+            };
+            let (first_mm, step_mm) = (a[1] + slope * (row.at_mm(from) - a[0]), slope * row.spacing_mm);
+            for (i, places_mm) in self.places_mm[from - self.rays.start..to - self.rays.start].iter_mut().enumerate() {
+                let near_mm = first_mm + step_mm * i as f64;
+                places_mm[0] = least(places_mm[0], largest(near_mm - along_tolerance_mm, low_mm));
+                places_mm[1] = largest(places_mm[1], least(near_mm + along_tolerance_mm, high_mm));
             }
         }
     }
 }
 
-impl Sides {
-    /// From places along and across the rays of the ends of each side.
-    #[inline(always)]
-    fn new(along: [Lanes; 2], across: [Lanes; 2], tolerances_mm: Lanes, row: &RayRow) -> Self {
-        let (per_mm, count) = (row.spacing_mm.recip(), row.count as f64);
-        let mut sides = Self::default();
-        for l in 0..LANES {
-            let (a, b, tolerance_mm) = ([across[0][l], along[0][l]], [across[1][l], along[1][l]], tolerances_mm[l]);
-            let from = (least(a[0], b[0]) - tolerance_mm - row.first_mm) * per_mm - ROUNDING_RAYS;
-            let to = (largest(a[0], b[0]) + tolerance_mm - row.first_mm) * per_mm + ROUNDING_RAYS + 1.0;
-            // Whole numbers of 32 bits: processors turn places into no others in one step.
-            let [from, to] = [from, to].map(|place| least(largest(place, 0.0), count));
-            let [below, to] = [from, to].map(|place| f64::from(place as i32));
-            let from = below + if from > below { 1.0 } else { 0.0 };
-            (sides.rays[0][l], sides.rays[1][l]) = (from, to);
-            sides.ends_mm[0][l] = least(a[1], b[1]) - tolerance_mm - ROUNDING_MM;
-            sides.ends_mm[1][l] = largest(a[1], b[1]) + tolerance_mm + ROUNDING_MM;
-            let run = [b[0] - a[0], b[1] - a[1]];
-            // Along the rays a side's ends alone are taken: rounding would be stretched beyond bounds.
-            let crosses = run[1].abs() < LARGEST_SLOPE * run[0].abs();
-            let slope = run[1] / run[0];
-            let slope = if crosses { slope } else { 0.0 };
-            let along_mm = tolerance_mm * (1.0 + slope * slope).sqrt() + ROUNDING_MM;
-            sides.tolerance_mm[l] = if crosses { along_mm } else { f64::INFINITY };
-            sides.first_mm[l] = a[1] + slope * (row.first_mm + from * row.spacing_mm - a[0]);
-            sides.step_mm[l] = slope * row.spacing_mm;
-        }
-        sides
-    }
-
-    /// Widens places on rays, the first of them ray `start`, by what one side can reach.
-    #[inline(always)]
-    fn widen(&self, side: usize, start: usize, places_mm: &mut [[f64; 2]]) {
-        let [from, to] = [0, 1].map(|end: usize| self.rays[end][side] as usize);
-        let (first_mm, step_mm, tolerance_mm) = (self.first_mm[side], self.step_mm[side], self.tolerance_mm[side]);
-        let [low_mm, high_mm] = [0, 1].map(|end: usize| self.ends_mm[end][side]);
-        // A side meets a handful of rays: by themselves, since vectors would wait for those of the side before.
-        let mut rays_on = 0.0;
-        if from >= to {
-            return;
-        }
-        for places_mm in &mut places_mm[from - start..to - start] {
-            let near_mm = first_mm + step_mm * rays_on;
-            places_mm[0] = least(places_mm[0], largest(near_mm - tolerance_mm, low_mm));
-            places_mm[1] = largest(places_mm[1], least(near_mm + tolerance_mm, high_mm));
-            rays_on += 1.0;
-        }
-    }
-}
-
-/// A reach about to be set, called through the instruction set dispatch.
-struct ReachToSet<'a> {
-    reach: &'a mut RayReach,
-    outline: &'a LooseOutline,
-    family: Family,
-    row: &'a RayRow,
-}
-
-impl pulp::NullaryFnOnce for ReachToSet<'_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn call(self) {
-        self.reach.set_lanes(self.outline, self.family, self.row);
-    }
-}
-
 /// Of two numbers; `f64::min` and `f64::max` also look whether they are any, and take three times as long.
-#[inline(always)]
 fn least(a: f64, b: f64) -> f64 {
     if a < b { a } else { b }
 }
 
-#[inline(always)]
 fn largest(a: f64, b: f64) -> f64 {
     if a > b { a } else { b }
 }
