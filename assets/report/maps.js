@@ -196,7 +196,7 @@ gearcut.loaded.then((data) => {
     const lines = [["evaluated, u", `${number(from)} to ${number(to)} mm`]];
     if (count) lines.push(["smallest", reading(low)], ["mean", reading(sum / count)], ["largest", reading(high)]);
     else lines.push(["values", "none"]);
-    if (!Number.isNaN(below)) lines.push(["largest below that", reading(below)]);
+    if (!Number.isNaN(below)) lines.push(["largest below the evaluated part", reading(below)]);
     for (const [name, words] of lines) {
       const [term, number_] = [document.createElement("dt"), document.createElement("dd")];
       term.textContent = name;

@@ -62,9 +62,10 @@ notices! {
         "Check the units, or fit another error."
     /// Any size of it would fit as well.
     Unidentified: Warning "fit.unidentified", "budget.md", (parameter),
-        "{parameter} cannot be identified: the measured values say nothing of it, or no more than of the others \
-         together";
-        "Measure what it changes, or fit fewer errors."
+        "{parameter} cannot be identified: the measured values do not change with it about the size that the scene \
+         has, or no more than with the others together";
+        "Measure what it changes, or fit fewer errors. Largest values, such as F_r, have a kink at 0: \
+         begin there with a little of the error (--set)."
     /// The sizes are not those of the best fit.
     CalibrationBeyond: Warning "fit.unsettled", "budget.md", (),
         "the fit has not settled: the measured values draw it beyond the ranges of keys, or to gears that cannot be \

@@ -49,7 +49,11 @@ pub fn load(path: &Path, overrides: &[String], table: &KeyTable) -> Result<Loade
         SceneErrors::new(vec![Problem {
             place: SourcePlace::File { file: file.clone() },
             message: format!("cannot read the scene: {why}"),
-            way_out: format!("give the path of a scene file; `gearcut new {first}` writes one to start from"),
+            way_out: if path.is_file() {
+                "a scene is text in UTF-8: save it as that".to_owned()
+            } else {
+                format!("give the path of a scene file; `gearcut new {first}` writes one to start from")
+            },
         }])
     })?;
     parse(&text, &file, path.parent().unwrap_or(Path::new("")), overrides, table)

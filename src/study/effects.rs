@@ -8,7 +8,8 @@
 //! of few cases scatter by chance, and that would count as an effect: it is taken off (Kelley, *Proc. Nat. Acad. Sci.*
 //! 21, 1935). Cases of a balanced design scatter less than that, so that the 95 % interval ends above the index without
 //! it: half of it on either side is that of a jackknife that leaves a twentieth of the cases out (Kott, *J. Off. Stat.*
-//! 17, 2001). What all shares together lack of 100 % is what parameters do together, and chance.
+//! 17, 2001). What all shares together lack of 100 % is what parameters do together, and chance. In a whole grid every
+//! part has the same values of all other parameters: no chance is in its mean, and the index is exact for the grid.
 //!
 //! The total index is the share that is lost where a parameter is fixed: half the mean square of what the quantity
 //! changes between two cases that differ in this parameter alone, over the variance (Jansen, *Comput. Phys. Commun.*
@@ -26,6 +27,15 @@ const GROUPS: usize = 20;
 /// Values that differ by less, in the unit of their quantity or as a share of them, are the same but for rounding: the
 /// centre distance of a round gear has accelerations of 1e-20 mm/s^2.
 const ROUNDING: f64 = 1e-12;
+
+/// Which cases of a study an effect is found from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum StudiedCases {
+    /// Every value of each parameter with every value of the others.
+    WholeGrid,
+    /// Samples of ranges, or a grid with holes.
+    Some,
+}
 
 /// What a parameter does to a quantity.
 #[derive(Debug, Clone, PartialEq)]
@@ -62,8 +72,8 @@ pub struct VarianceShare {
 }
 
 impl Effect {
-    /// Of values of a parameter, as texts, and of a quantity, one for each case.
-    pub fn of(values: &[&str], quantity: &[f64]) -> Self {
+    /// Of values of a parameter, as texts, and of a quantity, one for each case; of a whole grid, or of some cases.
+    pub fn of(values: &[&str], quantity: &[f64], cases: StudiedCases) -> Self {
         let numbers: Option<Vec<f64>> = values.iter().map(|value| value.parse().ok()).collect();
         let parts = parted(values, numbers.as_deref());
         let part_of = |cases: &Vec<usize>| {
@@ -75,7 +85,7 @@ impl Effect {
             };
             EffectPart { at, number, mean: mean(cases.iter().map(|&case| quantity[case])), cases: cases.len() }
         };
-        let share = if parts.len() > 1 { first_order(&parts, quantity) } else { None };
+        let share = if parts.len() > 1 { first_order(&parts, quantity, cases) } else { None };
         Self { parts: parts.iter().map(part_of).collect(), share, total: None }
     }
 
@@ -115,8 +125,11 @@ fn parted(values: &[&str], numbers: Option<&[f64]>) -> Vec<Vec<usize>> {
     (0..count).map(|part| order[part * order.len() / count..(part + 1) * order.len() / count].to_vec()).collect()
 }
 
-fn first_order(parts: &[Vec<usize>], quantity: &[f64]) -> Option<VarianceShare> {
+fn first_order(parts: &[Vec<usize>], quantity: &[f64], cases: StudiedCases) -> Option<VarianceShare> {
     let [index, with_chance] = indices_without(parts, quantity, &|_| true)?;
+    if cases == StudiedCases::WholeGrid {
+        return Some(VarianceShare { index: with_chance, interval: [with_chance; 2] });
+    }
     let half = half_interval(quantity.len(), |counts| Some(indices_without(parts, quantity, counts)?[0]));
     Some(VarianceShare { index, interval: [index - half, with_chance + half] })
 }
@@ -191,7 +204,7 @@ mod tests {
         let index = |dimension: usize| {
             let values: Vec<String> = points.iter().map(|point| format!("{:?}", point[dimension])).collect();
             let values: Vec<&str> = values.iter().map(String::as_str).collect();
-            Effect::of(&values, &quantity).share.expect("cases enough")
+            Effect::of(&values, &quantity, StudiedCases::Some).share.expect("cases enough")
         };
         (0..dimensions).map(index).collect()
     }
@@ -278,28 +291,51 @@ mod tests {
         let quantity: Vec<f64> = cases.iter().map(|(n, _)| scallop(n)).collect();
         let [strokes_of, cutters]: [Vec<&str>; 2] =
             [cases.iter().map(|of| of.0).collect(), cases.iter().map(|of| of.1).collect()];
-        let effect = Effect::of(&strokes_of, &quantity);
+        let effect = Effect::of(&strokes_of, &quantity, StudiedCases::WholeGrid);
         assert_eq!(effect.parts.iter().map(|part| part.at.as_str()).collect::<Vec<_>>(), strokes);
         assert!(effect.parts.iter().all(|part| (part.mean - scallop(&part.at)).abs() < 1e-12 && part.cases == 3));
         assert!((effect.share.expect("cases enough").index - 1.0).abs() < 1e-12);
         assert!((effect.swing() - scallop("600") + scallop("4800")).abs() < 1e-12);
-        let none = Effect::of(&cutters, &quantity);
-        assert!(none.share.expect("cases enough").index < 0.0 && none.swing() < 1e-12);
-        let words = Effect::of(&["normal", "traditional", "normal", "traditional"], &[1.0, 3.0, 1.0, 3.0]);
+        let none = |cases| Effect::of(&cutters, &quantity, cases);
+        let [grid, some] = [StudiedCases::WholeGrid, StudiedCases::Some].map(none);
+        let [grid_share, some_share] = [&grid, &some].map(|of| of.share.expect("cases enough"));
+        assert!(grid_share.index.abs() < 1e-12 && grid_share.interval == [grid_share.index; 2]);
+        assert!(some_share.index < -0.01, "what chance may have added is taken off");
+        assert!(grid.swing() < 1e-12);
+        let words =
+            Effect::of(&["normal", "traditional", "normal", "traditional"], &[1.0, 3.0, 1.0, 3.0], StudiedCases::Some);
         assert_eq!(words.parts.iter().map(|part| part.at.as_str()).collect::<Vec<_>>(), ["normal", "traditional"]);
         assert_eq!(words.swing(), 2.0);
     }
 
+    /// x + 2 y + x y over x of 0, 1, 2 and y of 0, 1: by hand the means along x are 1 + 1.5 x, with the variance 1.5,
+    /// those along y are 1 + 3 y, with 2.25, and the whole variance is 47/12: the sixth that is left is what both do
+    /// together.
+    #[test]
+    fn shares_of_a_grid_are_those_by_hand() {
+        let cases = ["0", "1", "2"].into_iter().flat_map(|x| ["0", "1"].map(|y| (x, y)));
+        let cases: Vec<(&str, &str)> = cases.collect();
+        let number = |text: &str| text.parse::<f64>().expect("a number");
+        let value = |&(x, y): &(&str, &str)| number(x) + 2.0 * number(y) + number(x) * number(y);
+        let quantity: Vec<f64> = cases.iter().map(value).collect();
+        let share =
+            |values: Vec<&str>| Effect::of(&values, &quantity, StudiedCases::WholeGrid).share.expect("enough").index;
+        let [x, y] = [share(cases.iter().map(|of| of.0).collect()), share(cases.iter().map(|of| of.1).collect())];
+        let whole = 47.0 / 12.0;
+        assert!((x - 1.5 / whole).abs() < 1e-12 && (y - 2.25 / whole).abs() < 1e-12, "{x} and {y} of {whole}");
+    }
+
     #[test]
     fn what_cannot_be_found_is_not_stated() {
-        assert_eq!(Effect::of(&["1", "2", "3"], &[1.0, 2.0, 3.0]).share, None, "three cases are no study");
+        let of = |values: &[&str], quantity: &[f64]| Effect::of(values, quantity, StudiedCases::Some);
+        assert_eq!(of(&["1", "2", "3"], &[1.0, 2.0, 3.0]).share, None, "three cases are no study");
         let words: Vec<String> = (0..80).map(|case| format!("word {}", case % 40)).collect();
         let words: Vec<&str> = words.iter().map(String::as_str).collect();
-        let many = Effect::of(&words, &(0..80).map(f64::from).collect::<Vec<_>>());
+        let many = of(&words, &(0..80).map(f64::from).collect::<Vec<_>>());
         assert_eq!((many.share, many.parts.len(), many.swing()), (None, 1, 0.0), "40 words are no range");
-        let alike = Effect::of(&["1", "1", "2", "2"], &[5.0; 4]);
+        let alike = of(&["1", "1", "2", "2"], &[5.0; 4]);
         assert_eq!((alike.share, alike.swing()), (None, 0.0));
-        let rounding = Effect::of(&["1", "1", "2", "2"], &[1e-20, 2e-20, 6e-20, 7e-20]);
+        let rounding = of(&["1", "1", "2", "2"], &[1e-20, 2e-20, 6e-20, 7e-20]);
         assert_eq!((rounding.share, rounding.swing()), (None, 0.0));
         assert_eq!([total(&[]), total(&[[1.0, 2.0, 3.0]]), total(&[[5.0; 3]; 4])], [None; 3]);
     }

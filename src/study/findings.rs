@@ -4,7 +4,7 @@
 //! time against each quantity, where a time is kept. Cases without a value are left out of what is said of it; which
 //! quantities have none, and why, is a table, and a notice says that there is one.
 
-use super::effects::{Effect, VarianceShare, total};
+use super::effects::{Effect, StudiedCases, VarianceShare, total};
 use super::kept::counted_missing;
 use super::map::is_of_map;
 use super::notices::{CasesFailed, ManyWords, ValuesMissing};
@@ -56,6 +56,8 @@ impl<'a> StudyEffects<'a> {
             let points: Vec<(usize, f64)> =
                 numbers.iter().copied().filter(|&(place, _)| plan.is_a_point(rows.cases[place])).collect();
             let quantity: Vec<f64> = points.iter().map(|(_, value)| *value).collect();
+            let is_whole = plan.is_a_grid() && points.len() as u64 == plan.cases();
+            let cases = if is_whole { StudiedCases::WholeGrid } else { StudiedCases::Some };
             let at: BTreeMap<usize, f64> = numbers.iter().copied().collect();
             let on = rows.parameters.iter().enumerate().map(|(number, parameter)| {
                 let values: Vec<&str> = points.iter().map(|&(place, _)| parameter.cells[place].as_str()).collect();
@@ -65,7 +67,7 @@ impl<'a> StudyEffects<'a> {
                     Some([first, *second?, *between?])
                 });
                 let pairs: Vec<[f64; 3]> = pairs.collect();
-                (parameter, Effect { total: total(&pairs), ..Effect::of(&values, &quantity) })
+                (parameter, Effect { total: total(&pairs), ..Effect::of(&values, &quantity, cases) })
             });
             (*column, on.filter(|(_, effect)| effect.parts.len() > 1).collect())
         };

@@ -235,6 +235,11 @@ impl StudyPlan {
         self.place(case).2 < FIRST_OF_PAIRS
     }
 
+    /// Whether every value of each parameter comes with every value of the others.
+    pub fn is_a_grid(&self) -> bool {
+        self.shares.iter().all(Option::is_none)
+    }
+
     /// Of the first point of each pair, by the number of the parameter: its second point, and the case that differs
     /// from it in this parameter alone. None of other cases, designs and parameters.
     pub fn partners(&self, case: u64, parameter: usize) -> Option<[u64; 2]> {

@@ -22,7 +22,8 @@ rows! {
     CASE: "case", "1", "number of the case, from 0";
     QUANTITY: "quantity", "", "kept quantity, by its path in results.json";
     FIRST_ORDER: "first_order_share", "%",
-        "share of the quantity's variance over all cases that the parameter makes alone; below 0 by chance"
+        "share of the quantity's variance over all cases that the parameter makes alone; exact of a whole grid, else \
+         below 0 by chance"
         => titled("share of the variance"), symbol("S_i"), source("Sobol 1993"), or(&[NO_SHARE]);
     FIRST_ORDER_LOW: "first_order_low", "%", "lower end of the share's 95 % interval" => or(&[NO_SHARE]);
     FIRST_ORDER_HIGH: "first_order_high", "%", "upper end of the share's 95 % interval" => or(&[NO_SHARE]);

@@ -76,17 +76,18 @@ fn sources(model: &ErrorModel, found: &Diagnosis) -> PageTable {
     for named in &found.named {
         let source = &model.sources[named.source];
         let same: Vec<String> = named.same_as.iter().map(|&other| model.sources[other].title()).collect();
-        for (parameter, fitted) in source.parameters.iter().zip(&named.fitted) {
+        for (index, (parameter, fitted)) in source.parameters.iter().zip(&named.fitted).enumerate() {
+            // Shares are those of all components together.
+            let of_source = |percent: f64| match index {
+                0 => format!("{} %", significant(100.0 * percent, 3)),
+                _ => "with the one above".to_owned(),
+            };
             rows.push(vec![
                 parameter.title.clone(),
                 "fitted".to_owned(),
                 sized(found, *fitted, &unit::signs(parameter.unit)).replace('-', "−"),
-                format!("{} %", significant(100.0 * named.alone, 3)),
-                if found.intervals_hold() {
-                    format!("{} %", significant(100.0 * named.weight, 3))
-                } else {
-                    "–".to_owned()
-                },
+                of_source(named.alone),
+                if found.intervals_hold() { of_source(named.weight) } else { "–".to_owned() },
                 if same.is_empty() { "–".to_owned() } else { same.join("; ") },
             ]);
         }

@@ -55,7 +55,8 @@ rows! {
     SURE: "sure", "%",
         "weight of the sets of sources with this one, of all that explain the deviations about as well"
         => or(&[NO_INTERVAL]);
-    ALONE: "alone", "%", "share of the squared deviations that no other named source explains";
+    ALONE: "alone", "%",
+        "share of the squared deviations that no other named source explains, all components of the source together";
     SAME_AS: "same_as", "", "sources that would explain as much in its place";
 }
 
