@@ -17,6 +17,7 @@ use super::contact::{PairPose, Touch, touch};
 use super::flank_chain::{FlankChain, GearFlanks, PolarFlank};
 use super::pitch_pair::{PitchPair, PitchPoint};
 use gearcut_core::error::Refusal;
+use gearcut_core::gear::GearKind;
 use gearcut_core::terms::Side;
 
 /// Teeth beside the one at the pitch point that are asked whether they touch.
@@ -107,7 +108,15 @@ impl GearsInSection {
     /// Labels of the teeth that may touch when `pitch` is the pitch point.
     pub fn near(&self, pitch: &PitchPoint, pitch_mm: f64) -> impl Iterator<Item = i64> + use<> {
         let at = ((pitch.arc_mm - self.shift_mm) / pitch_mm).round() as i64;
-        labels(&self.driver, &self.driven, at)
+        labels(&self.driver, &self.driven, at, TEETH_BESIDE)
+    }
+
+    /// Labels of the teeth whose tips may be in their mate. A ring has its tip circle cross the driver's far from the
+    /// line of centres, where flanks that touch nothing may cross as well: there all teeth are looked at.
+    pub fn crossing(&self, pitch: &PitchPoint, pair: &PitchPair) -> impl Iterator<Item = i64> + use<> {
+        let at = ((pitch.arc_mm - self.shift_mm) / pair.pitch_mm()).round() as i64;
+        let beside = if pair.teeth().driven == GearKind::Internal { i64::MAX } else { TEETH_BESIDE };
+        labels(&self.driver, &self.driven, at, beside)
     }
 }
 
@@ -201,10 +210,15 @@ impl Meshing {
     }
 }
 
-/// Labels round the tooth `at`; a tooth has one place on a small gear, so no label is given twice.
-fn labels<A, B>(driver: &GearFlanks<A>, driven: &GearFlanks<B>, at: i64) -> impl Iterator<Item = i64> + use<A, B> {
+/// Labels up to `beside` from the tooth `at`; a tooth has one place on a small gear, so no label is given twice.
+fn labels<A, B>(
+    driver: &GearFlanks<A>,
+    driven: &GearFlanks<B>,
+    at: i64,
+    beside: i64,
+) -> impl Iterator<Item = i64> + use<A, B> {
     let most = driver.right.len().min(driven.right.len()) as i64;
-    let beside = TEETH_BESIDE.min((most - 1) / 2);
+    let beside = beside.min((most - 1) / 2);
     at - beside..=at + beside
 }
 
@@ -219,7 +233,7 @@ pub fn first_touch(
     side: Side,
     at: i64,
 ) -> Result<SideTouch, Refusal> {
-    let pairs = labels(driver, driven, at).filter_map(|tooth| {
+    let pairs = labels(driver, driven, at, TEETH_BESIDE).filter_map(|tooth| {
         let touch = touch(driver.get(side, tooth), driven.get(side, tooth), stand, side)?;
         Some(ToothTouch { tooth, section: 0, touch })
     });

@@ -5,8 +5,10 @@
 //!
 //! Law: the space between two teeth is a chain of points from the tip of its one flank through the root to the tip of
 //! the other, with the material on its left (external gear). A corner is inside where the nearest place of the chain
-//! has it on that side; its depth is the distance. Conjugate flanks touch their mate's corner at the end of the path of
-//! contact, so a depth of nothing is what a sound pair shows.
+//! has it on that side; its depth is the distance from there, or from the tip curve of both teeth where that is nearer.
+//! Over the tip curve it is clear: far from the line of centres the driver's teeth pass over those of a ring. The curve
+//! has a radius that is linear in the polar angle between the tips of both flanks, a circle on round gears. Conjugate
+//! flanks touch their mate's corner at the end of the path of contact, so a depth of nothing is what a sound pair shows.
 
 use glam::DVec2;
 
@@ -70,7 +72,17 @@ impl SpaceOutline {
         let at = index as f64 + share;
         let on_first = at < self.first as f64 - 0.5;
         let place = if on_first { ((self.first - 1) as f64 - at).max(0.0) } else { (at - self.first as f64).max(0.0) };
-        Some(CornerDepth { depth_mm: square.sqrt() * left_mm.signum() * self.inside, on_first, place })
+        let depth_mm = square.sqrt() * left_mm.signum() * self.inside;
+        let depth_mm = if depth_mm > 0.0 { depth_mm.min(self.below_tips_mm(corner_mm)) } else { depth_mm };
+        Some(CornerDepth { depth_mm, on_first, place })
+    }
+
+    /// How far a place is below the tip curve of the teeth on both sides of the space, towards their roots, mm.
+    fn below_tips_mm(&self, place_mm: DVec2) -> f64 {
+        let [first, second] = [self.points_mm[0], self.points_mm[self.points_mm.len() - 1]];
+        let share = first.angle_to(place_mm) / first.angle_to(second);
+        let tip_mm = first.length() + share * (second.length() - first.length());
+        self.inside * (tip_mm - place_mm.length())
     }
 }
 
@@ -82,7 +94,8 @@ mod tests {
     /// its right one with a ridge of 30 degrees. The side is that of the polygon which a chord over the tips closes.
     #[test]
     fn a_step_or_a_ridge_in_the_outline_turns_no_side() {
-        let point = DVec2::new;
+        // The axis of the ring is above.
+        let point = |x: f64, y: f64| DVec2::new(x, y - 30.0);
         let left = vec![point(-0.2, 0.0), point(-1.0, 1.0), point(-1.0 - 12e-6, 1.0), point(-2.0, 3.0)];
         let right = vec![point(0.2, 0.0), point(1.2, 0.6), point(0.7, 1.1), point(1.2, 1.0), point(2.0, 3.0)];
         let [first, second] = [&left, &right].map(|points_mm| FlankChain::straight(points_mm.clone()));

@@ -6,7 +6,9 @@
 //! Law: every corner has its own way through the mate's space, and is looked at in every position. Where it is deeper
 //! than in the positions before and after, its depth is followed between them, as long as it may yet exceed the deepest
 //! that is known: it gains no more there than it has gained from the lower neighbour. Cut fillets have a wave for each
-//! stroke, so that it is looked at in many places before the deepest is followed.
+//! stroke, so that it is looked at in many places before the deepest is followed. In a ring the corners of all teeth
+//! are looked at: with few teeth of difference they come in and go out far from the line of centres, and may meet the
+//! ring's there (trochoidal interference).
 //!
 //! Teeth that are thinner than nominal leave the driven gear a play in which it evades; the depth tells what it has to
 //! evade, and the transmission error tells whether it did.
@@ -88,9 +90,8 @@ impl InGear<'_> {
 
     /// Depths of all corners in a position, mm.
     fn depths_mm(&self, pitch: &PitchPoint) -> Vec<(ToothCorner, f64)> {
-        let pitch_mm = self.meshing.pitch.pitch_mm();
         let corners = self.meshing.sections.iter().enumerate().flat_map(|(section, gears)| {
-            let labels = gears.near(pitch, pitch_mm);
+            let labels = gears.crossing(pitch, &self.meshing.pitch);
             labels.flat_map(move |label| [Side::Right, Side::Left].map(|tip| ToothCorner { section, label, tip }))
         });
         corners.filter_map(|corner| Some((corner, self.depth(pitch, corner)?.depth_mm))).collect()

@@ -6,6 +6,7 @@ mod generated;
 mod mounted;
 mod parallelism;
 mod refusals;
+mod ring_tips;
 mod scallops;
 mod spline;
 mod working;
