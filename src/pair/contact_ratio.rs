@@ -57,7 +57,7 @@ pub fn path_of_contact(
             Ok(pair.height(member, own, pitch.phi_1_rad)?.0 < height_mm)
         };
         let travel_mm = passing(pair.pitch_mm(), below, || {
-            format!("the line of action does not reach a tip {height_mm} mm over the pitch curve")
+            format!("the line of action does not reach a tip {height_mm:.3} mm over the pitch curve")
         })?;
         Ok::<f64, Refusal>(towards * travel_mm)
     };

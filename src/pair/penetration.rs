@@ -6,9 +6,10 @@
 //! Law: the space between two teeth is a chain of points from the tip of its one flank through the root to the tip of
 //! the other, with the material on its left (external gear). A corner is inside where the nearest place of the chain
 //! has it on that side; its depth is the distance from there, or from the tip curve of both teeth where that is nearer.
-//! Over the tip curve it is clear: far from the line of centres the driver's teeth pass over those of a ring. The curve
-//! has a radius that is linear in the polar angle between the tips of both flanks, a circle on round gears. Conjugate
-//! flanks touch their mate's corner at the end of the path of contact, so a depth of nothing is what a sound pair shows.
+//! Over the tip curve it is clear: far from the line of centres the driver's teeth pass over those of a ring. The
+//! curve has a radius that is linear in the polar angle between the tips of both flanks, a circle on round gears.
+//! Conjugate flanks touch their mate's corner at the end of the path of contact, so a depth of nothing is what a sound
+//! pair shows.
 
 use glam::DVec2;
 

@@ -323,7 +323,7 @@ impl PitchPair {
             Ok(self.height(member, point_mm, phi)?.0 < height_mm)
         };
         let rolled_mm = passing(self.pitch_mm(), below, || {
-            format!("a {} flank does not reach {height_mm} mm over the pitch curve", side.name())
+            format!("a {} flank does not reach {height_mm:.3} mm over the pitch curve", side.name())
         })?;
         Ok(phi_at(rolled_mm))
     }

@@ -64,7 +64,8 @@ rows! {
     BACKLASH: "backlash", "Backlash", "backlash";
 
     SMALLEST_BACKLASH: "smallest", "um",
-        "smallest play of B, across the line of centres at the pitch point; below 0 it jams";
+        "smallest play of B, across the line of centres at the pitch point of the closing centre distance: its angle \
+         times r2 there; below 0 it jams";
     LARGEST_BACKLASH: "largest", "um", "largest play of B, across the line of centres at the pitch point" => shown();
     MEAN_BACKLASH: "mean", "um", "mean of the circumferential play" => shown();
     SMALLEST_TANGENTIAL: "smallest_along_pitch_curves", "um", "smallest play along the pitch curves" => symbol("j_t");

@@ -151,10 +151,18 @@ pub fn roll_pair(
             return Ok(Err(why.to_owned()));
         }
         let ratios = || -> Result<_> {
-            let limits = flanks.ends.as_ref().map(|ends| generated::limits(&fit, ends)).transpose()?;
+            // The line of action is that of the axes as they are: involutes on round gears have one at any distance.
+            let error_mm = mounting.center_distance_error_mm;
+            let off = fit.round_involutes && error_mm != 0.0;
+            let distance_mm = off.then_some(fit.pitch.center_distance_mm() + error_mm);
+            let moved = distance_mm
+                .map(|mm| Fit::at_distance(scenes[0], scenes[1], options.phase_teeth, Some(mm)))
+                .transpose()?;
+            let fit = moved.as_ref().unwrap_or(&fit);
+            let limits = flanks.ends.as_ref().map(|ends| generated::limits(fit, ends)).transpose()?;
             let [right, left] = [0, 1].map(|at| {
                 let limits = limits.as_ref().map(|limits| &limits[at]);
-                contact_ratios(&fit, limits, &period, SIDES[at], stage)
+                contact_ratios(fit, limits, &period, SIDES[at], stage)
             });
             Ok([right?, left?])
         };
@@ -216,8 +224,8 @@ fn contact_ratios(
 ) -> Result<Vec<(usize, f64)>> {
     let step = stride(period, PROBES_PER_PITCH);
     let at = |index: usize| {
-        let pitch = &period.moments[index].pitch;
-        let between_tips = path_of_contact(&fit.pitch, pitch, side, fit.addendum_mm)?;
+        let pitch = fit.pitch.at(period.moments[index].pitch.phi_1_rad);
+        let between_tips = path_of_contact(&fit.pitch, &pitch, side, fit.addendum_mm)?;
         let path = limits.map_or(between_tips, |[a, b]| between_tips.generated(side, [a, b], pitch.phi_1_rad));
         stage.count()?;
         Ok((index, path.contact_ratio(&fit.pitch)))

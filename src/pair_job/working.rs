@@ -25,6 +25,10 @@ use gearcut_core::math::roots::bisect;
 /// 6.2.
 const STEEPEST_RAD: f64 = 1.5;
 
+/// How much nearer than without play the axes may be named, modules: twice the usual bottom clearance, beyond which the
+/// tips would be in the bodies of the gears. What jams less is rolled, and told.
+const NEAREST_MODULES: f64 = 0.5;
+
 /// The pitch circles of a round pair at the distance at which it works.
 #[derive(Debug, Clone, Copy)]
 pub struct RollingCircles {
@@ -55,30 +59,44 @@ impl RollingCircles {
         if center_distance_mm == own_mm {
             return Ok(None);
         }
+        // Shifts that never have no play have no distance to be too near to.
+        let sign = own.driven.tip_sign();
+        let playless_mm = working_angle(own, gears).ok().map(|angle_rad| own_mm * alpha.cos() / angle_rad.cos());
+        let nearest_mm = playless_mm.map(|mm| mm - sign * NEAREST_MODULES * own.module_mm);
         let cos = own_mm * alpha.cos() / center_distance_mm;
         let circles = Self { own: *own, center_distance_mm, pressure_angle_rad: cos.acos() };
+        let near_mm = nearest_mm.map_or(0.0, |mm| sign * (mm - center_distance_mm));
         let height_mm: f64 = circles.addendum_mm(gears).iter().sum();
         // NaN where the base circles overlap, at distances of 0 and below.
-        if circles.pressure_angle_rad > 0.0 && height_mm > 0.0 {
+        if circles.pressure_angle_rad > 0.0 && height_mm > 0.0 && near_mm <= 0.0 {
             return Ok(Some(circles));
         }
         let tips_mm = own_mm + own.driven.tip_sign() * gears.map(Gear::addendum_mm).iter().sum::<f64>();
         let base_mm = own_mm * alpha.cos();
-        let [low_mm, high_mm] =
-            if tips_mm > own_mm { [base_mm, tips_mm] } else { [tips_mm.max(base_mm), f64::INFINITY] };
+        let [low_mm, high_mm] = if sign > 0.0 {
+            [nearest_mm.map_or(base_mm, |mm| mm.max(base_mm)), tips_mm]
+        } else {
+            [tips_mm.max(base_mm), nearest_mm.unwrap_or(f64::INFINITY)]
+        };
         let range = if high_mm.is_finite() {
             format!("above {low_mm:.4} and below {high_mm:.4} mm")
         } else {
             format!("above {low_mm:.4} mm")
         };
-        Err(Refusal::new(
-            "gear.center_distance_mm",
-            format!(
+        let problem = match playless_mm.filter(|_| near_mm > 0.0 && circles.pressure_angle_rad > 0.0) {
+            Some(playless_mm) => format!(
+                "at a centre distance of {center_distance_mm} mm the axes are {:.3} mm too {}: these teeth have no \
+                 play at {playless_mm:.4} mm, and their tips would be in the roots of the mate",
+                (playless_mm - center_distance_mm).abs(),
+                if sign > 0.0 { "near" } else { "far apart" }
+            ),
+            None => format!(
                 "at a centre distance of {center_distance_mm} mm these teeth do not run on each other: the base \
                  circles touch at {base_mm:.4} mm, and the tips pass each other at {tips_mm:.4} mm"
             ),
-            format!("name a distance {range}; without one they roll at that of their shifts"),
-        ))
+        };
+        let way_out = format!("name a distance {range}; without one they roll at that of their shifts");
+        Err(Refusal::new("gear.center_distance_mm", problem, way_out))
     }
 
     /// The circles as a pitch pair.

@@ -132,6 +132,25 @@ fn a_named_distance_is_rolled_with_its_play() {
     }
 }
 
+/// An error of the distance gives the contact ratio of the axes as they are, and play on the circles of the distance
+/// without it.
+#[test]
+fn an_error_of_the_distance_counts_towards_the_contact_ratio() {
+    let (a, b) = (shifted("a", 20, 0.0, ""), shifted("b", 30, 0.0, ""));
+    for error_um in [150.0, -60.0] {
+        let mm = 75.0 + error_um / UM_PER_MM;
+        let off = PairOptions { center_distance_error_um: error_um, ..PairOptions::default() };
+        let pair = rolled(&a, &b, &off).expect("a pair");
+        let ratio = pair.contact_ratio.as_ref().expect("contact ratios")[0][0].1;
+        let expected = contact_ratio([20, 30], [0.0; 2], 1.0, mm);
+        assert!((ratio - expected).abs() < 1e-6, "{error_um} um: {ratio}, {expected} expected");
+        let alpha = 20_f64.to_radians();
+        let play_mm = 2.0 * 75.0 * (involute((75.0 * alpha.cos() / mm).acos()) - involute(alpha));
+        let found_mm = pair.backlash[0].circumferential_mm;
+        assert!((found_mm - play_mm).abs() < 1e-6, "{error_um} um: {found_mm} mm of play, {play_mm} expected");
+    }
+}
+
 /// Distance without play of one shifted gear with another that is thinned: a shift of -T / (2 m tan(alpha)).
 fn distance_mm_of_thickness(teeth: [u32; 2], shift: f64, thinned_mm: f64, sign: f64) -> f64 {
     distance_mm(teeth, shift - thinned_mm / (6.0 * 20_f64.to_radians().tan()), sign)
@@ -152,6 +171,9 @@ fn distances_without_teeth_in_mesh_are_refused() {
     refused(&named(20, 81.5, ""), &plain(30), &["81.5 mm", "70.4769", "81.0000 mm"]);
     refused(&named(20, 70.0, ""), &plain(30), &["70 mm", "70.4769"]);
     refused(&plain(20), &named(50, 38.9, RING), &["38.9 mm", "39.0000 mm"]);
+    // Half a module nearer than without play the tips are in the roots.
+    refused(&named(20, 72.0, ""), &plain(30), &["72 mm", "3.000 mm too near", "75.0000 mm", "above 73.5000 and below"]);
+    refused(&plain(20), &named(50, 47.0, RING), &["47 mm", "2.000 mm too far apart", "above 42.2862 and below 46.5"]);
     refused(&named(20, 76.0, ""), &named(30, 76.1, ""), &["76 mm", "76.1 mm", "--center-distance-mm"]);
     // inv(20 deg) = 0.014904 is used up by 0.014904 * 36 / (2 tan(20 deg)) = 0.7371 modules.
     refused(&shifted("a", 12, -0.4, ""), &shifted("b", 24, -0.4, ""), &["-0.4 and -0.4", "above -0.7371"]);
