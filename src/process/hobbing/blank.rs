@@ -14,6 +14,7 @@ use gearcut_core::dexel::removal::RemovalWatch;
 use gearcut_core::dexel::{BlankField, BlankGrid};
 use gearcut_core::error::{Refusal, Result};
 use gearcut_core::gear::blank_outline::BlankOutline;
+use gearcut_core::math::roots::halve;
 use gearcut_core::passes::sections::swept_sections::SweptSections;
 use gearcut_core::passes::spatial::turning_passes::BladePass;
 use gearcut_core::terms::Side;
@@ -94,19 +95,25 @@ impl HobbingJob {
         let steps = |length_mm: f64| (length_mm.abs() / spacing_mm).ceil().max(1.0) as usize;
         let between =
             |from: f64, to: f64, count: usize| (0..=count).map(move |i| from + (to - from) * i as f64 / count as f64);
+        let limit_mm = 4.0 * target.rack.transverse_module_mm;
         // From the tip corner to the blank's outline, as rolls.
         let flank = |space: i64, side: Side, form: &FormPoint| -> Vec<DVec2> {
-            let at = |roll_mm: f64| target.flank_contact(space, side, roll_mm, z_mm).point_mm.truncate();
-            let (root_mm, tip_mm) = (form.roll_mm, self.blank.addendum_mm);
-            // A tooth that the corner has taken whole has no flank.
-            let outside = target.roll_at_height_mm(&self.blank, space, side, tip_mm, root_mm, z_mm).unwrap_or(root_mm);
-            between(root_mm, outside, steps(outside - root_mm)).map(at).collect()
+            let at = |roll_mm: f64| target.flank_contact(space, side, roll_mm, z_mm);
+            let stands_out = |roll_mm: f64| {
+                let contact = at(roll_mm);
+                self.blank.height(contact.point_mm.truncate(), contact.phi_rad).0 - self.blank.addendum_mm
+            };
+            let root_mm = form.roll_mm;
+            let [_, outside] = halve(|roll| stands_out(roll) < 0.0, 0.0, -side.sign() * limit_mm, 60);
+            between(root_mm, outside, steps(outside - root_mm)).map(|roll| at(roll).point_mm.truncate()).collect()
         };
         let corner = |space: i64, side: Side, form: &FormPoint| -> Vec<DVec2> {
-            let top = target.corner_lean_at_height(&self.blank, space, side, form.height_mm, z_mm).unwrap_or(0.0);
-            // A sharp corner's path bends most where it begins at the bottom.
-            let count = 2 * steps(target.corner_length_mm(top));
-            between(0.0, top, count).map(|lean| target.corner_contact(space, side, lean, z_mm).point_mm).collect()
+            let bottom_mm = target.corner_bottom_arc_mm(space, side, z_mm);
+            let top = target.corner_arc_at_height_mm(&self.blank, space, side, form.height_mm, z_mm);
+            let end_mm = top.unwrap_or(bottom_mm);
+            // A sharp corner's path bends most where it leaves the bottom.
+            let count = 2 * steps(end_mm - bottom_mm);
+            between(bottom_mm, end_mm, count).map(|arc| target.corner_point_mm(space, side, arc, z_mm)).collect()
         };
         let left_form = target.form_point(&self.blank, tooth, Side::Left, z_mm);
         let mut points = flank(tooth - 1, Side::Right, right_forms[0]);

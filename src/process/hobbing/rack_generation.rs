@@ -14,7 +14,8 @@
 //! `q = P(s_f + sigma) + c (e cos(alpha_t) t + sin(alpha_t) n)`, c = -e sigma cos(alpha_t): contact normals pass
 //! through the pitch point (Litvin and Fuentes 2004, chapter 5). Along the profile
 //! `dl = (sin(alpha_t) + c / rho) dsigma`; where that turns negative the envelope turns back and the tip corner has
-//! **undercut** the flank: the profile goes on with the corner's own path ([`super::rack_corner`]).
+//! **undercut** the flank: the profile goes on with the corner's own path. A tip round of radius r (in the normal
+//! section, taken as circular in the transverse one) touches along the line from P through its centre.
 //!
 //! The ideal is a hob with infinitely many gashes and infinitely fine feed.
 
@@ -59,6 +60,15 @@ impl Rack {
     /// Height under the pitch line at which the straight flank ends and the tip round begins.
     pub fn flank_end_height_mm(&self) -> f64 {
         self.tip_height_mm - self.tip_radius_mm * (1.0 - self.pressure_angle_rad.sin())
+    }
+
+    /// Centre of the tip round against the tooth's middle, on the low-arc side: (x, y).
+    fn corner_center_mm(&self) -> DVec2 {
+        let (sin, cos) = self.pressure_angle_rad.sin_cos();
+        let height = self.flank_end_height_mm();
+        let end = DVec2::new(-(self.half_thickness_mm - height * sin / cos), -height);
+        // The flank's normal out of the rack's low side is (-cos, -sin).
+        end + self.tip_radius_mm * DVec2::new(cos, sin)
     }
 }
 
@@ -157,27 +167,13 @@ impl RackGeneration {
         sign(side) * self.rack.flank_end_height_mm() / (sin * cos)
     }
 
-    /// Roll at which a flank stands `height_mm` over the pitch curve (along its normals, negative inwards) in the
-    /// section `z_mm`, from a roll nearer to the root on; `None` where it does not reach that height.
-    pub fn roll_at_height_mm(
-        &self,
-        blank: &Blank,
-        space: i64,
-        side: Side,
-        height_mm: f64,
-        from_roll_mm: f64,
-        z_mm: f64,
-    ) -> Option<f64> {
-        let over = |roll: f64| {
-            let contact = self.flank_contact(space, side, roll, z_mm);
-            blank.height(contact.point_mm.truncate(), contact.phi_rad).0 - height_mm
-        };
-        // On a rack h takes the roll h / (sin(alpha_t) cos(alpha_t)), on a convex curve less, on a hollow one more.
-        let (sin, cos) = self.rack.pressure_angle_rad.sin_cos();
-        let reach_mm = (TIP_ROLL_MODULES * self.rack.transverse_module_mm).max(1.01 * height_mm / (sin * cos));
-        // Rolls towards the tip have the other sign than e.
-        let beyond = [1.0, 2.0].map(|times| -sign(side) * times * reach_mm).into_iter().find(|&roll| over(roll) >= 0.0);
-        regula_falsi(over, from_roll_mm, beyond?, ZERO_MM)
+    /// Point left by the tip corner of a space at the rolled arc `arc_mm`, in the section `z_mm`.
+    pub fn corner_point_mm(&self, space: i64, side: Side, arc_mm: f64, z_mm: f64) -> DVec2 {
+        let center = self.rack.corner_center_mm();
+        let frame = self.curve.frame(self.curve.phi_at_arc(arc_mm));
+        let to_center = DVec2::new(sign(side) * center.x + self.space_arc_mm(space, z_mm) - arc_mm, center.y);
+        let touch = to_center + self.rack.tip_radius_mm * to_center.normalize_or(DVec2::NEG_Y);
+        frame.point_mm + touch.x * frame.tangent + touch.y * frame.normal
     }
 
     /// Where the profile of a flank crosses the curve `height_mm` over the pitch curve (along its normals, negative
@@ -208,18 +204,22 @@ impl RackGeneration {
     ) -> Option<ProfileCrossing> {
         let e = sign(side);
         let on = |point_mm: DVec2, phi_guess: f64, part| {
-            let foot = blank.height(point_mm, phi_guess).1;
-            ProfileCrossing { point_mm, foot_arc_mm: self.curve.arc_mm(foot), part }
+            let (height, foot) = blank.height(point_mm, phi_guess);
+            (height, ProfileCrossing { point_mm, foot_arc_mm: self.curve.arc_mm(foot), part })
         };
-        // The flank ends at the corner or where it turns back.
-        let on_flank = self.roll_at_height_mm(blank, space, side, height_mm, sound_roll_mm, z_mm).map(|roll| {
+        let flank_at = |roll: f64| {
             let contact = self.flank_contact(space, side, roll, z_mm);
             on(contact.point_mm.truncate(), contact.phi_rad, ProfilePart::Flank)
-        });
-        let on_corner = self.corner_lean_at_height(blank, space, side, height_mm, z_mm).map(|lean| {
-            let contact = self.corner_contact(space, side, lean, z_mm);
-            on(contact.point_mm, contact.phi_rad, ProfilePart::Fillet)
-        });
+        };
+        let corner_at = |arc: f64| {
+            let point = self.corner_point_mm(space, side, arc, z_mm);
+            on(point, self.curve.phi_at_arc(arc), ProfilePart::Fillet)
+        };
+        // Rolls towards the root have the sign of e; the flank ends at the corner or where it turns back.
+        let tip_roll = -e * 4.0 * self.rack.transverse_module_mm;
+        let on_flank = regula_falsi(|roll| flank_at(roll).0 - height_mm, sound_roll_mm, tip_roll, ZERO_MM)
+            .map(|roll| flank_at(roll).1);
+        let on_corner = self.corner_arc_at_height_mm(blank, space, side, height_mm, z_mm).map(|arc| corner_at(arc).1);
         match (on_flank, on_corner) {
             // The tooth of a left flank lies at the low arc: what reaches further that way has removed more.
             (Some(flank), Some(corner)) if e * (flank.foot_arc_mm - corner.foot_arc_mm) > CORNER_TOLERANCE_MM => {
@@ -228,6 +228,31 @@ impl RackGeneration {
             (Some(flank), _) => Some(flank),
             (None, corner) => corner,
         }
+    }
+
+    /// Rolled arc at which the tip corner is deepest: its centre stands under the pitch point.
+    pub fn corner_bottom_arc_mm(&self, space: i64, side: Side, z_mm: f64) -> f64 {
+        self.space_arc_mm(space, z_mm) + sign(side) * self.rack.corner_center_mm().x
+    }
+
+    /// Rolled arc at which the path of the tip corner has climbed on the flank's side to `height_mm` over the pitch
+    /// curve; `None` where it does not reach that height.
+    pub fn corner_arc_at_height_mm(
+        &self,
+        blank: &Blank,
+        space: i64,
+        side: Side,
+        height_mm: f64,
+        z_mm: f64,
+    ) -> Option<f64> {
+        let over = |arc: f64| {
+            let point = self.corner_point_mm(space, side, arc, z_mm);
+            blank.height(point, self.curve.phi_at_arc(arc)).0 - height_mm
+        };
+        let bottom = self.corner_bottom_arc_mm(space, side, z_mm);
+        let step = sign(side) * CORNER_STEP_MODULES * self.rack.transverse_module_mm;
+        let end = (1..=CORNER_STEPS).map(|i| bottom + step * f64::from(i)).find(|&arc| over(arc) >= 0.0)?;
+        regula_falsi(over, end - step, end, ZERO_MM)
     }
 
     /// Last roll towards the root at which the flank is sound: the corner's, or just before the envelope turns back.
@@ -253,22 +278,22 @@ impl RackGeneration {
             let found = self.crossing_from(deepest, blank, space, side, height(roll), z_mm);
             found.is_none_or(|c| c.part == ProfilePart::Fillet)
         };
-        // Just before that, towards the tip.
-        let start = deepest - e * 1e-9 * deepest.abs();
+        let start = deepest * (1.0 - 1e-9);
         if !cut_away(start) && deepest == self.tip_corner_roll_mm(side) {
             return FormPoint { roll_mm: deepest, height_mm: height(deepest), undercut: false };
         }
-        // Sound just over the pitch line, or over the flank's end above it, unless the corner has taken everything.
-        let sound = -e * ((-e * deepest).max(0.0) + 0.5 * self.rack.transverse_module_mm);
+        // Sound at the pitch line unless the corner has taken everything.
+        let sound = -e * 0.5 * self.rack.transverse_module_mm;
         let [good, _] = halve(|roll| !cut_away(roll), sound, start, 50);
         FormPoint { roll_mm: good, height_mm: height(good), undercut: true }
     }
 }
 
-/// Roll towards the tip within which the flanks of usual teeth end, in modules.
-const TIP_ROLL_MODULES: f64 = 4.0;
+/// The corner's path is followed in such steps, as far as it can matter.
+const CORNER_STEP_MODULES: f64 = 0.5;
+const CORNER_STEPS: u32 = 20;
 /// A height nearer to 0 than this is 0, mm.
-pub(super) const ZERO_MM: f64 = 1e-13;
+const ZERO_MM: f64 = 1e-13;
 /// Corner and flank meet tangentially where nothing is undercut; closer than this they are one.
 const CORNER_TOLERANCE_MM: f64 = 1e-9;
 

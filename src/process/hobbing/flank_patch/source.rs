@@ -5,6 +5,7 @@ use super::{FlankPatch, PANELS};
 use crate::process::hobbing::rack_generation::RackGeneration;
 use gearcut_core::dexel::Ray;
 use gearcut_core::gear::blank::Blank;
+use gearcut_core::math::roots::halve;
 use gearcut_core::terms::Side;
 use glam::DVec3;
 use std::f64::consts::PI;
@@ -45,8 +46,18 @@ impl Source<'_> {
     }
 
     pub fn tip_roll_mm(&self, z_mm: f64) -> Option<f64> {
-        let (blank, from_mm) = (self.blank, self.form_roll_mm);
-        self.generation.roll_at_height_mm(blank, self.space, self.side, blank.addendum_mm, from_mm, z_mm)
+        let height = |roll: f64| {
+            let contact = self.generation.flank_contact(self.space, self.side, roll, z_mm);
+            self.blank.height(contact.point_mm.truncate(), contact.phi_rad).0 - self.blank.addendum_mm
+        };
+        // Towards the tip the roll has the other sign; heights climb steadily.
+        let module_mm = self.generation.rack.transverse_module_mm;
+        let farthest = -self.side.sign() * 8.0 * module_mm;
+        if height(farthest) < 0.0 {
+            return None;
+        }
+        let [low, high] = halve(|roll| height(roll) < 0.0, 0.0, farthest, 60);
+        Some(0.5 * (low + high))
     }
 
     /// Point and normal at a share of the roll in a section.
