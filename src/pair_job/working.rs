@@ -26,7 +26,7 @@ use gearcut_core::math::roots::bisect;
 const STEEPEST_RAD: f64 = 1.5;
 
 /// How much nearer than without play the axes may be named, modules: twice the usual bottom clearance, beyond which the
-/// tips would be in the bodies of the gears. What jams less is rolled, and told.
+/// tips would be in the bodies of the gears. What jams less is rolled, with a warning.
 const NEAREST_MODULES: f64 = 0.5;
 
 /// The pitch circles of a round pair at the distance at which it works.

@@ -42,7 +42,7 @@ fn found_mm(teeth: u32) -> f64 {
     })
 }
 
-/// The angle in the ring from its flank to the tip corner of the pinion that stands at `theta_1` from the line of
+/// The angle in the ring from its flank to the tip corner of the pinion at `theta_1` from the line of
 /// centres, (z1/z2) (theta_1 + inv alpha_a1 - inv alpha) + inv alpha - inv alpha_rho - theta_2, times the base radius:
 /// the distance of both, for involutes of one base circle are parallel (Maitra, *Handbook of Gear Design*, 1994, ch.
 /// 2). Below 0 the corner is in the material, at most as deep as it is below the ring's tips. Also the value at the

@@ -95,7 +95,6 @@ impl HobbingJob {
         let steps = |length_mm: f64| (length_mm.abs() / spacing_mm).ceil().max(1.0) as usize;
         let between =
             |from: f64, to: f64, count: usize| (0..=count).map(move |i| from + (to - from) * i as f64 / count as f64);
-        let limit_mm = 4.0 * target.rack.transverse_module_mm;
         // From the tip corner to the blank's outline, as rolls.
         let flank = |space: i64, side: Side, form: &FormPoint| -> Vec<DVec2> {
             let at = |roll_mm: f64| target.flank_contact(space, side, roll_mm, z_mm);
@@ -104,7 +103,8 @@ impl HobbingJob {
                 self.blank.height(contact.point_mm.truncate(), contact.phi_rad).0 - self.blank.addendum_mm
             };
             let root_mm = form.roll_mm;
-            let [_, outside] = halve(|roll| stands_out(roll) < 0.0, 0.0, -side.sign() * limit_mm, 60);
+            let beyond = target.roll_beyond_mm(side, |roll| stands_out(roll) >= 0.0);
+            let [_, outside] = halve(|roll| stands_out(roll) < 0.0, 0.0, beyond, 60);
             between(root_mm, outside, steps(outside - root_mm)).map(|roll| at(roll).point_mm.truncate()).collect()
         };
         let corner = |space: i64, side: Side, form: &FormPoint| -> Vec<DVec2> {

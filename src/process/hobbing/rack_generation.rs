@@ -167,6 +167,13 @@ impl RackGeneration {
         sign(side) * self.rack.flank_end_height_mm() / (sin * cos)
     }
 
+    /// A roll towards the tip that is beyond a height of the flank, as `is_beyond` says: usual teeth end within four
+    /// modules of the pitch line, those of large profile shifts within eight.
+    pub fn roll_beyond_mm(&self, side: Side, is_beyond: impl Fn(f64) -> bool) -> f64 {
+        let [near, far] = [4.0, 8.0].map(|modules| -sign(side) * modules * self.rack.transverse_module_mm);
+        if is_beyond(near) { near } else { far }
+    }
+
     /// Point left by the tip corner of a space at the rolled arc `arc_mm`, in the section `z_mm`.
     pub fn corner_point_mm(&self, space: i64, side: Side, arc_mm: f64, z_mm: f64) -> DVec2 {
         let center = self.rack.corner_center_mm();
@@ -216,7 +223,7 @@ impl RackGeneration {
             on(point, self.curve.phi_at_arc(arc), ProfilePart::Fillet)
         };
         // Rolls towards the root have the sign of e; the flank ends at the corner or where it turns back.
-        let tip_roll = -e * 4.0 * self.rack.transverse_module_mm;
+        let tip_roll = self.roll_beyond_mm(side, |roll| flank_at(roll).0 >= height_mm);
         let on_flank = regula_falsi(|roll| flank_at(roll).0 - height_mm, sound_roll_mm, tip_roll, ZERO_MM)
             .map(|roll| flank_at(roll).1);
         let on_corner = self.corner_arc_at_height_mm(blank, space, side, height_mm, z_mm).map(|arc| corner_at(arc).1);

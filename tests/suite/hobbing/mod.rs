@@ -18,6 +18,7 @@ mod metrology;
 mod oracle;
 mod page;
 mod papers;
+mod profile_shift;
 mod program_under_test;
 mod round_gear;
 mod section_polygon;

@@ -211,7 +211,7 @@ impl Sweeping {
         [place, DVec3::new(-node.x * sin, node.x * cos, 0.0)]
     }
 
-    /// How far an edge point stands above a slice at a moment, and its rate over the swept angle.
+    /// How far an edge point is above a slice at a moment, and its rate over the swept angle.
     #[inline(always)]
     fn above_mm(&self, pose: &Pose, swept: f64, [place, turning]: [DVec3; 2], z_mm: f64) -> [f64; 2] {
         let [[x, y, z, shift], rates] = self.row(pose, 0, swept);
