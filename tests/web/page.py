@@ -49,7 +49,7 @@ lead_spacing_um = 1000.0
 # WebGPU on the processor, for the page's kernels on a GPU.
 WEBGPU = ["--enable-unsafe-webgpu", "--use-webgpu-adapter=swiftshader"]
 HOBBED = pathlib.Path("scenes/hobbing/third_order_plain.toml").read_text().replace(
-    "lead_spacing_um = 50.0", "lead_spacing_um = 500.0"
+    "lead_spacing_um = 50.0", "lead_spacing_um = 2500.0"
 )
 # The README's gear on the dexels for which times are told.
 FINE = SHAPED.replace("face_width_mm = 10.0", "face_width_mm = 30.0").replace(

@@ -105,6 +105,7 @@ fn sync_folder(path: &Path) -> io::Result<()> {
 
 /// Other systems force names to the disk by themselves.
 #[cfg(not(unix))]
+#[expect(clippy::unnecessary_wraps, reason = "as where the system has the call")]
 fn sync_folder(_path: &Path) -> io::Result<()> {
     Ok(())
 }
@@ -122,6 +123,7 @@ fn sync_all(folder: &Path) -> io::Result<bool> {
 
 /// Other systems have no such call.
 #[cfg(not(target_os = "linux"))]
+#[expect(clippy::unnecessary_wraps, reason = "as where the system has the call")]
 fn sync_all(_folder: &Path) -> io::Result<bool> {
     Ok(false)
 }
@@ -141,6 +143,7 @@ fn exchange(one: &Path, other: &Path) -> io::Result<bool> {
 
 /// Other systems have no such call.
 #[cfg(not(any(target_os = "linux", target_os = "android", target_vendor = "apple")))]
+#[expect(clippy::unnecessary_wraps, reason = "as where the system has the call")]
 fn exchange(_one: &Path, _other: &Path) -> io::Result<bool> {
     Ok(false)
 }

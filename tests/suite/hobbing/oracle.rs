@@ -444,7 +444,7 @@ mod slow {
         let beta = (10.0 + 34.0 / 60.0_f64).to_radians();
         // The file's grid for one space; coarser for all 35 of the third-order gear.
         for (name, order, eccentricity, spaces, spacing) in
-            [("circle_r142", 1, 0.0, vec![0], 0.2), ("s2_three_lobe", 3, 0.1, (0..35).collect(), 0.7)]
+            [("circle_r142", 1, 0.0, vec![0], 0.2), ("s2_three_lobe", 3, 0.1, (0..35).collect(), 1.0)]
         {
             let expected = &file[name];
             let curve = papers_ellipse(order, eccentricity, None, beta, 35);

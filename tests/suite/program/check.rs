@@ -103,7 +103,7 @@ mod slow {
                 let path = scene.display().to_string();
                 let outcome = if process.name == "hobbing" {
                     // The forecast cuts pieces of a narrow face.
-                    gearcut(&["check", &path, "--set", "gear.face_width_mm=4"])
+                    gearcut(&["check", &path, "--set", "gear.face_width_mm=2"])
                 } else {
                     check_as_it_is(&path)
                 };
