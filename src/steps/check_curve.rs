@@ -27,7 +27,9 @@ pub fn print(sheet: &mut Sheet, curve: &PitchCurve, gear: &Gear, rolling_radius_
     if let Some(factor) = curve.scaling() {
         sheet.line("scaling", format!("radii of the points times {factor:.6}"));
     }
-    sheet.line("radius", format!("{:.3} to {:.3} mm", facts.smallest_radius_mm, facts.largest_radius_mm));
+    let [from, to] = [facts.smallest_radius_mm, facts.largest_radius_mm].map(|mm| format!("{mm:.3}"));
+    let radius = if from == to { format!("{to} mm everywhere") } else { format!("{from} to {to} mm") };
+    sheet.line("radius", radius);
     if let Some([from, to]) = curve.sector_rad() {
         let [arc_mm, width_deg] = [curve.arc_mm(to), (to - from).to_degrees()];
         sheet.line("sector", format!("{} teeth on {arc_mm:.6} mm of arc, {width_deg:.3} deg", gear.teeth));

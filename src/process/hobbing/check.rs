@@ -162,18 +162,14 @@ impl FormPoints {
         let highest = self.flanks.iter().max_by(|a, b| a.2.total_cmp(&b.2));
         sheet.heading("Teeth");
         if let (Some(low), Some(high)) = (lowest, highest) {
-            sheet.line(
-                "flanks begin",
-                format!(
-                    "{:.3} mm (tooth {} {}) to {:.3} mm (tooth {} {}) over the pitch curve, in the middle of the face",
-                    low.2,
-                    low.0,
-                    low.1.name(),
-                    high.2,
-                    high.0,
-                    high.1.name()
-                ),
-            );
+            let [from, to] = [low, high].map(|flank| format!("{:.3} mm", flank.2));
+            let heights = if from == to {
+                format!("{from} on all teeth")
+            } else {
+                let [from_at, to_at] = [low, high].map(|flank| format!("(tooth {} {})", flank.0, flank.1.name()));
+                format!("{from} {from_at} to {to} {to_at}")
+            };
+            sheet.line("flanks begin", format!("{heights} over the pitch curve, in the middle of the face"));
         }
         let undercut = self.flanks.iter().filter(|flank| flank.3).count();
         sheet.line("undercut flanks", format!("{undercut} of {}", self.flanks.len()));
