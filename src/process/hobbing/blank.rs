@@ -108,12 +108,10 @@ impl HobbingJob {
             between(root_mm, outside, steps(outside - root_mm)).map(|roll| at(roll).point_mm.truncate()).collect()
         };
         let corner = |space: i64, side: Side, form: &FormPoint| -> Vec<DVec2> {
-            let bottom_mm = target.corner_bottom_arc_mm(space, side, z_mm);
-            let top = target.corner_arc_at_height_mm(&self.blank, space, side, form.height_mm, z_mm);
-            let end_mm = top.unwrap_or(bottom_mm);
-            // A sharp corner's path bends most where it leaves the bottom.
-            let count = 2 * steps(end_mm - bottom_mm);
-            between(bottom_mm, end_mm, count).map(|arc| target.corner_point_mm(space, side, arc, z_mm)).collect()
+            let top = form.corner_lean;
+            // A sharp corner's path bends most where it begins at the bottom.
+            let count = 2 * steps(target.corner_length_mm(top));
+            between(0.0, top, count).map(|lean| target.corner_contact(space, side, lean, z_mm).point_mm).collect()
         };
         let left_form = target.form_point(&self.blank, tooth, Side::Left, z_mm);
         let mut points = flank(tooth - 1, Side::Right, right_forms[0]);

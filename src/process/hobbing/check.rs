@@ -151,8 +151,8 @@ struct FormPoints {
 impl FormPoints {
     fn of(cutter: &HobCutter) -> Result<Self> {
         let flank = |(tooth, side): (u32, Side)| {
-            let form = cutter.target(tooth, side)?.middle_form;
-            Ok((tooth, side, form.height_mm, form.undercut))
+            let target = cutter.target(tooth, side)?;
+            Ok((tooth, side, target.middle_form_height_mm, target.middle_undercut))
         };
         Ok(Self { flanks: flanks_of(cutter).into_par_iter().map(flank).collect::<Result<_>>()? })
     }

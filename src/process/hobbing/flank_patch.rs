@@ -50,8 +50,10 @@ pub struct FlankPatch {
     pub form_roll_mm: f64,
     /// Height over the pitch curve where the patch begins, in the section where the flank begins last, mm.
     pub form_height_mm: f64,
-    /// Where the flank begins in the middle of the face.
-    pub middle_form: FormPoint,
+    /// Height over the pitch curve at which the flank begins in the middle of the face, mm.
+    pub middle_form_height_mm: f64,
+    /// Whether the tip corner has undercut the flank there.
+    pub middle_undercut: bool,
     /// Whether the tip corner has undercut the flank in any section.
     pub undercut: bool,
     /// Largest distance from the flank found between the nodes, mm.
@@ -135,7 +137,8 @@ impl FlankPatch {
             face_width_mm,
             form_roll_mm: latest.roll_mm,
             form_height_mm: latest.height_mm,
-            middle_form,
+            middle_form_height_mm: middle_form.height_mm,
+            middle_undercut: middle_form.undercut,
             undercut: forms.iter().any(|form| form.undercut),
             error_mm: 0.0,
             lengths_mm: source.lengths_mm(tip_roll_mm),
@@ -186,7 +189,8 @@ impl FlankPatch {
             face_width_mm,
             form_roll_mm: drawn.rolls_mm[0],
             form_height_mm,
-            middle_form: FormPoint { roll_mm: drawn.rolls_mm[0], height_mm: form_height_mm, undercut },
+            middle_form_height_mm: form_height_mm,
+            middle_undercut: undercut,
             undercut,
             error_mm: 0.0,
             lengths_mm: (0..=PANELS).map(panel_mm).collect(),

@@ -135,7 +135,8 @@ impl HobbingJob {
         let contact_x_mm = match &drawn {
             Some(rack) => rack.contact_reach_mm(gear.teeth),
             None => {
-                let height_mm = (hob.tip_radius_mm - hob.pitch_radius_mm).max(gear.addendum_mm());
+                let height_mm =
+                    (hob.tip_radius_mm - hob.pitch_radius_mm).max(rack.tip_height_mm).max(gear.addendum_mm());
                 height_mm / gear.transverse_pressure_angle_rad().tan()
             }
         };

@@ -20,6 +20,7 @@ pub mod linkage;
 pub mod measure;
 pub(crate) mod notices;
 pub mod quantities;
+pub mod rack_corner;
 pub mod rack_generation;
 pub mod rack_root;
 pub mod report;

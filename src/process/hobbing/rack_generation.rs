@@ -14,8 +14,7 @@
 //! `q = P(s_f + sigma) + c (e cos(alpha_t) t + sin(alpha_t) n)`, c = -e sigma cos(alpha_t): contact normals pass
 //! through the pitch point (Litvin and Fuentes 2004, chapter 5). Along the profile
 //! `dl = (sin(alpha_t) + c / rho) dsigma`; where that turns negative the envelope turns back and the tip corner has
-//! **undercut** the flank: the profile goes on with the corner's own path. A tip round of radius r (in the normal
-//! section, taken as circular in the transverse one) touches along the line from P through its centre.
+//! **undercut** the flank: the profile goes on with the corner's own path ([`super::rack_corner`]).
 //!
 //! The ideal is a hob with infinitely many gashes and infinitely fine feed.
 
@@ -60,15 +59,6 @@ impl Rack {
     /// Height under the pitch line at which the straight flank ends and the tip round begins.
     pub fn flank_end_height_mm(&self) -> f64 {
         self.tip_height_mm - self.tip_radius_mm * (1.0 - self.pressure_angle_rad.sin())
-    }
-
-    /// Centre of the tip round against the tooth's middle, on the low-arc side: (x, y).
-    fn corner_center_mm(&self) -> DVec2 {
-        let (sin, cos) = self.pressure_angle_rad.sin_cos();
-        let height = self.flank_end_height_mm();
-        let end = DVec2::new(-(self.half_thickness_mm - height * sin / cos), -height);
-        // The flank's normal out of the rack's low side is (-cos, -sin).
-        end + self.tip_radius_mm * DVec2::new(cos, sin)
     }
 }
 
@@ -116,6 +106,14 @@ pub struct ProfileCrossing {
     pub foot_arc_mm: f64,
     /// What formed it.
     pub part: ProfilePart,
+}
+
+impl ProfileCrossing {
+    /// Whether a corner's crossing of the same curve has cut this one of a flank away: the tooth of a left flank lies
+    /// at the low arc, and what reaches further that way has removed more.
+    fn is_cut_by(&self, corner: &Self, side: Side) -> bool {
+        sign(side) * (self.foot_arc_mm - corner.foot_arc_mm) > CORNER_TOLERANCE_MM
+    }
 }
 
 /// e of a gear flank: +1 for left flanks, which lie at the low-arc side of their space.
@@ -174,15 +172,6 @@ impl RackGeneration {
         if is_beyond(near) { near } else { far }
     }
 
-    /// Point left by the tip corner of a space at the rolled arc `arc_mm`, in the section `z_mm`.
-    pub fn corner_point_mm(&self, space: i64, side: Side, arc_mm: f64, z_mm: f64) -> DVec2 {
-        let center = self.rack.corner_center_mm();
-        let frame = self.curve.frame(self.curve.phi_at_arc(arc_mm));
-        let to_center = DVec2::new(sign(side) * center.x + self.space_arc_mm(space, z_mm) - arc_mm, center.y);
-        let touch = to_center + self.rack.tip_radius_mm * to_center.normalize_or(DVec2::NEG_Y);
-        frame.point_mm + touch.x * frame.tangent + touch.y * frame.normal
-    }
-
     /// Where the profile of a flank crosses the curve `height_mm` over the pitch curve (along its normals, negative
     /// inwards): on the flank, or on the fillet where the corner has cut deeper into the tooth. `None` where neither
     /// reaches that height.
@@ -209,57 +198,24 @@ impl RackGeneration {
         height_mm: f64,
         z_mm: f64,
     ) -> Option<ProfileCrossing> {
-        let e = sign(side);
-        let on = |point_mm: DVec2, phi_guess: f64, part| {
-            let (height, foot) = blank.height(point_mm, phi_guess);
-            (height, ProfileCrossing { point_mm, foot_arc_mm: self.curve.arc_mm(foot), part })
-        };
-        let flank_at = |roll: f64| {
-            let contact = self.flank_contact(space, side, roll, z_mm);
-            on(contact.point_mm.truncate(), contact.phi_rad, ProfilePart::Flank)
-        };
-        let corner_at = |arc: f64| {
-            let point = self.corner_point_mm(space, side, arc, z_mm);
-            on(point, self.curve.phi_at_arc(arc), ProfilePart::Fillet)
-        };
+        let over = |roll: f64| self.flank_foot(blank, space, side, roll, z_mm).0 - height_mm;
         // Rolls towards the root have the sign of e; the flank ends at the corner or where it turns back.
-        let tip_roll = self.roll_beyond_mm(side, |roll| flank_at(roll).0 >= height_mm);
-        let on_flank = regula_falsi(|roll| flank_at(roll).0 - height_mm, sound_roll_mm, tip_roll, ZERO_MM)
-            .map(|roll| flank_at(roll).1);
-        let on_corner = self.corner_arc_at_height_mm(blank, space, side, height_mm, z_mm).map(|arc| corner_at(arc).1);
-        match (on_flank, on_corner) {
-            // The tooth of a left flank lies at the low arc: what reaches further that way has removed more.
-            (Some(flank), Some(corner)) if e * (flank.foot_arc_mm - corner.foot_arc_mm) > CORNER_TOLERANCE_MM => {
-                Some(corner)
-            }
-            (Some(flank), _) => Some(flank),
-            (None, corner) => corner,
+        let tip_roll = self.roll_beyond_mm(side, |roll| over(roll) >= 0.0);
+        let flank = regula_falsi(over, sound_roll_mm, tip_roll, ZERO_MM)
+            .map(|roll| self.flank_foot(blank, space, side, roll, z_mm).1);
+        let corner = self.corner_at_height(blank, space, side, height_mm, z_mm).map(|(_, corner)| corner);
+        match (flank, corner) {
+            (Some(flank), Some(corner)) if flank.is_cut_by(&corner, side) => Some(corner),
+            (flank, corner) => flank.or(corner),
         }
     }
 
-    /// Rolled arc at which the tip corner is deepest: its centre stands under the pitch point.
-    pub fn corner_bottom_arc_mm(&self, space: i64, side: Side, z_mm: f64) -> f64 {
-        self.space_arc_mm(space, z_mm) + sign(side) * self.rack.corner_center_mm().x
-    }
-
-    /// Rolled arc at which the path of the tip corner has climbed on the flank's side to `height_mm` over the pitch
-    /// curve; `None` where it does not reach that height.
-    pub fn corner_arc_at_height_mm(
-        &self,
-        blank: &Blank,
-        space: i64,
-        side: Side,
-        height_mm: f64,
-        z_mm: f64,
-    ) -> Option<f64> {
-        let over = |arc: f64| {
-            let point = self.corner_point_mm(space, side, arc, z_mm);
-            blank.height(point, self.curve.phi_at_arc(arc)).0 - height_mm
-        };
-        let bottom = self.corner_bottom_arc_mm(space, side, z_mm);
-        let step = sign(side) * CORNER_STEP_MODULES * self.rack.transverse_module_mm;
-        let end = (1..=CORNER_STEPS).map(|i| bottom + step * f64::from(i)).find(|&arc| over(arc) >= 0.0)?;
-        regula_falsi(over, end - step, end, ZERO_MM)
+    /// Height of a flank over the pitch curve at a roll, mm, and the crossing there.
+    fn flank_foot(&self, blank: &Blank, space: i64, side: Side, roll_mm: f64, z_mm: f64) -> (f64, ProfileCrossing) {
+        let contact = self.flank_contact(space, side, roll_mm, z_mm);
+        let point_mm = contact.point_mm.truncate();
+        let (height_mm, foot) = blank.height(point_mm, contact.phi_rad);
+        (height_mm, ProfileCrossing { point_mm, foot_arc_mm: self.curve.arc_mm(foot), part: ProfilePart::Flank })
     }
 
     /// Last roll towards the root at which the flank is sound: the corner's, or just before the envelope turns back.
@@ -272,35 +228,40 @@ impl RackGeneration {
         halve(sound, bad - corner / f64::from(steps), bad, 60)[0]
     }
 
-    /// Roll and height over the pitch curve at which the flank begins: at the tip corner's end or, undercut, where the
-    /// fillet meets it. The flag tells which.
+    /// Where the flank begins: at the tip corner's end or, undercut, where the fillet meets it.
     pub fn form_point(&self, blank: &Blank, space: i64, side: Side, z_mm: f64) -> FormPoint {
         let e = sign(side);
+        let at = |roll_mm: f64| self.flank_foot(blank, space, side, roll_mm, z_mm);
+        // The corner's lean where its path has cut the flank away.
+        let cut_at = |roll_mm: f64| {
+            let (height_mm, flank) = at(roll_mm);
+            let (lean, corner) = self.corner_at_height(blank, space, side, height_mm, z_mm)?;
+            flank.is_cut_by(&corner, side).then_some(lean)
+        };
         let deepest = self.sound_roll_mm(space, side, z_mm);
-        let height = |roll: f64| {
-            let contact = self.flank_contact(space, side, roll, z_mm);
-            blank.height(contact.point_mm.truncate(), contact.phi_rad).0
-        };
-        let cut_away = |roll: f64| {
-            let found = self.crossing_from(deepest, blank, space, side, height(roll), z_mm);
-            found.is_none_or(|c| c.part == ProfilePart::Fillet)
-        };
-        let start = deepest * (1.0 - 1e-9);
-        if !cut_away(start) && deepest == self.tip_corner_roll_mm(side) {
-            return FormPoint { roll_mm: deepest, height_mm: height(deepest), undercut: false };
+        // Just before that, towards the tip.
+        let start = deepest - e * START_MODULES * self.rack.transverse_module_mm;
+        let cut = cut_at(start);
+        let mut corner_lean = cut.unwrap_or(self.rack.flank_lean());
+        if cut.is_none() && deepest == self.tip_corner_roll_mm(side) {
+            return FormPoint { roll_mm: deepest, height_mm: at(deepest).0, corner_lean, undercut: false };
         }
-        // Sound at the pitch line unless the corner has taken everything.
-        let sound = -e * 0.5 * self.rack.transverse_module_mm;
-        let [good, _] = halve(|roll| !cut_away(roll), sound, start, 50);
-        FormPoint { roll_mm: good, height_mm: height(good), undercut: true }
+        // Sound just over the pitch line, or over the flank's end above it, unless the corner has taken everything.
+        let sound = -e * ((-e * deepest).max(0.0) + 0.5 * self.rack.transverse_module_mm);
+        let is_sound = |roll_mm: f64| {
+            let cut = cut_at(roll_mm);
+            corner_lean = cut.unwrap_or(corner_lean);
+            cut.is_none()
+        };
+        let [roll_mm, _] = halve(is_sound, sound, start, 50);
+        FormPoint { roll_mm, height_mm: at(roll_mm).0, corner_lean, undercut: true }
     }
 }
 
-/// The corner's path is followed in such steps, as far as it can matter.
-const CORNER_STEP_MODULES: f64 = 0.5;
-const CORNER_STEPS: u32 = 20;
+/// How far before its end a flank is looked at, in modules of roll.
+const START_MODULES: f64 = 1e-9;
 /// A height nearer to 0 than this is 0, mm.
-const ZERO_MM: f64 = 1e-13;
+pub(super) const ZERO_MM: f64 = 1e-13;
 /// Corner and flank meet tangentially where nothing is undercut; closer than this they are one.
 const CORNER_TOLERANCE_MM: f64 = 1e-9;
 
@@ -311,6 +272,8 @@ pub struct FormPoint {
     pub roll_mm: f64,
     /// Height over the pitch curve, mm; negative below it.
     pub height_mm: f64,
+    /// Lean ([`RackGeneration::corner_contact`]) at which the path of the tip corner ends at the flank.
+    pub corner_lean: f64,
     /// Whether the tip corner has undercut the flank.
     pub undercut: bool,
 }

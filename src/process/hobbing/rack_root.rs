@@ -61,17 +61,13 @@ impl RackGeneration {
         // rounding.
         let end_mm = if side.sign() * (form.roll_mm - start_mm) > 0.0 { form.roll_mm } else { start_mm };
         let bottom_arc_mm = self.corner_bottom_arc_mm(space, side, z_mm);
-        let top_arc_mm =
-            self.corner_arc_at_height_mm(blank, space, side, form.height_mm, z_mm).unwrap_or(bottom_arc_mm);
         let flank: RootPiece = Box::new(move |share| {
             let contact = self.flank_contact(space, side, start_mm + share * (end_mm - start_mm), z_mm);
             (contact.point_mm.truncate(), contact.normal.truncate().normalize())
         });
         let corner: RootPiece = Box::new(move |share| {
-            let arc_mm = top_arc_mm + share * (bottom_arc_mm - top_arc_mm);
-            let point_mm = self.corner_point_mm(space, side, arc_mm, z_mm);
-            let to_pitch_point = self.curve.frame(self.curve.phi_at_arc(arc_mm)).point_mm - point_mm;
-            (point_mm, to_pitch_point.normalize_or(DVec2::X))
+            let contact = self.corner_contact(space, side, form.corner_lean * (1.0 - share), z_mm);
+            (contact.point_mm, contact.normal)
         });
         RootHalf { pieces: [flank, corner], bottom_arc_mm }
     }

@@ -150,7 +150,7 @@ impl CylindricalGear for HobCutter<'_> {
         }
         let (gear, rack) = (&self.job.scene.gear, &self.job.target.rack);
         let diameter_mm = |height_mm: f64| gear.transverse_module_mm() * f64::from(gear.teeth) + 2.0 * height_mm;
-        let form_mm = self.target(1, Side::Left)?.middle_form.height_mm;
+        let form_mm = self.target(1, Side::Left)?.middle_form_height_mm;
         let involute_mm = [form_mm, self.job.blank.addendum_mm].map(diameter_mm);
         let root_mm = diameter_mm(-rack.tip_height_mm);
         let thickness_mm = PI * rack.transverse_module_mm - 2.0 * rack.half_thickness_mm;
@@ -278,13 +278,16 @@ impl HobCutter<'_> {
     pub fn root_rays(&self, space: u32, spacing_mm: f64, rows_z_mm: &[f64]) -> Result<PlacedRays> {
         let roots = self.roots(space, spacing_mm, rows_z_mm)?;
         let target = &self.job.target;
-        // In every section a point in the middle of the space, half way down.
+        // In every section a point in the middle of the space, half way from the pitch line down, or half a module over
+        // the root where a profile shift lifts it.
+        let tip_mm = target.rack.tip_height_mm;
+        let depth_mm = tip_mm - 0.5 * tip_mm.max(target.rack.transverse_module_mm);
         let focus: Vec<DVec2> = rows_z_mm
             .iter()
             .map(|&z_mm| {
                 let arc_mm = target.space_arc_mm(i64::from(space), z_mm);
                 let frame = self.job.curve.frame(self.job.curve.phi_at_arc(arc_mm));
-                frame.point_mm - 0.5 * target.rack.tip_height_mm * frame.normal
+                frame.point_mm - depth_mm * frame.normal
             })
             .collect();
         let field = self.field(roots[0].len(), rows_z_mm, |column, row| {

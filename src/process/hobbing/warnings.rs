@@ -117,7 +117,7 @@ fn topped(job: &HobbingJob) -> Option<Notice> {
 
 /// Teeth whose involute the hob's tip corner cuts away in the middle of the face.
 fn undercut(cutter: &HobCutter) -> Result<Option<Notice>> {
-    let of = |(tooth, side)| Ok(cutter.target(tooth, side)?.middle_form.undercut.then_some(tooth));
+    let of = |(tooth, side)| Ok(cutter.target(tooth, side)?.middle_undercut.then_some(tooth));
     let flanks: Vec<Option<u32>> = flanks_of(cutter).into_par_iter().map(of).collect::<Result<_>>()?;
     let mut teeth: Vec<u32> = flanks.into_iter().flatten().collect();
     teeth.dedup();

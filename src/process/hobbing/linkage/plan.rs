@@ -3,8 +3,8 @@
 //! In: the operation, hob, gear. Out: [`FeedPlan`]. The slide begins where the hob clears the blank and ends where the
 //! last contact has left the other face; both follow from the hob's tip cylinder and the length of contact unless the
 //! scene gives them. The hob must carry full contact at every moment: it touches the rack's flanks up to h /
-//! tan(alpha_t) beside the pitch point, h the larger of both addenda, so its teeth must reach that far along its axis
-//! on both sides of the pitch point.
+//! tan(alpha_t) beside the pitch point, h the largest of both addenda and of the depth to which a negative profile
+//! shift takes the hob's tips, so its teeth must reach that far along its axis on both sides of the pitch point.
 //!
 //! A **shift** moves the hob along its own axis and therefore moves no point of that axis against the gear: what spaces
 //! the feed marks is the slide alone. Liu et al. 2015 keep v*_z = v_z + v_u sin(g) constant, slide and the shift's
