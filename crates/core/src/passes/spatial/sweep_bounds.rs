@@ -82,6 +82,8 @@ pub struct RegionBounds<'a> {
     pub region: &'a Region<'a>,
     /// Where the candidates are seen from.
     pub frame: &'a SweepFrame,
+    /// Only what is left below this height is looked for, mm.
+    pub ceiling_mm: f64,
 }
 
 /// A candidate whose entries into all nine rays are known.
@@ -96,9 +98,9 @@ struct Bounded<'a> {
 }
 
 impl RegionBounds<'_> {
-    /// Candidates that may leave the lowest surface in some cells of the region, in their order, with these cells as
-    /// bits; and a height that the surface left is certainly below: `upper_bound_mm` is such a height of a region
-    /// around this one.
+    /// Candidates that may leave the lowest surface in some cells of the region below the ceiling, in their order, with
+    /// these cells as bits; and a height that the surface left is certainly below, which the ceiling does not count
+    /// for: `upper_bound_mm` is such a height of a region around this one.
     pub fn keep(&self, candidates: &[Sampled], upper_bound_mm: f64) -> (Vec<(Sampled, u8)>, f64) {
         let (mut bounded, mut undecided) = (Vec::new(), Vec::new());
         for sampled in candidates {
@@ -109,13 +111,13 @@ impl RegionBounds<'_> {
             }
         }
         let upper_bound_mm = self.upper_bound_mm(&bounded).min(upper_bound_mm);
-        let mut kept = self.undominated(&bounded, upper_bound_mm);
+        let below_mm = upper_bound_mm.min(self.ceiling_mm);
+        let mut kept = self.undominated(&bounded, below_mm);
         if !undecided.is_empty() {
-            let enters: Vec<bool> =
-                undecided.iter().map(|sampled| self.enters_below(sampled, upper_bound_mm)).collect();
+            let enters: Vec<bool> = undecided.iter().map(|sampled| self.enters_below(sampled, below_mm)).collect();
             let unsure = undecided.iter().zip(&enters).filter(|(_, enters)| !**enters);
             let mut meeting =
-                self.meeting(unsure.map(|(sampled, _)| sampled.index).collect(), upper_bound_mm).into_iter().peekable();
+                self.meeting(unsure.map(|(sampled, _)| sampled.index).collect(), below_mm).into_iter().peekable();
             let mut enters = enters.into_iter();
             undecided.retain(|sampled| enters.next().unwrap_or(true) || meeting.next_if_eq(&sampled.index).is_some());
             kept.extend(undecided.into_iter().map(|sampled| (*sampled, ALL_CELLS)));
@@ -285,7 +287,7 @@ impl pulp::NullaryFnOnce for RakeFaceBoxes<'_, '_> {
 
     #[inline(always)]
     fn call(self) {
-        let RegionBounds { field, segments, region, frame } = self.bounds;
+        let RegionBounds { field, segments, region, frame, .. } = self.bounds;
         let dexels = region.dexels();
         // The rays around; the middle one is held by the margin.
         let rays =

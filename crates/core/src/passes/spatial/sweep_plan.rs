@@ -7,6 +7,12 @@
 //! face these are some thousands of 84,800; a sixteenth of the flank keeps some hundreds, a tile half a dozen, a cell
 //! between one and two.
 //!
+//! Rays go on through the space and the next tooth, far beyond what is left of the blank, and the teeth that cut there
+//! come near as well. So candidates are looked for below a guessed ceiling first, and what comes lower nowhere is left
+//! out. A tile is found when a sweep that surely cuts there bounds the surface below the ceiling: what was left out is
+//! then no part of it. The other tiles are searched again without a ceiling. A wrong guess costs time and changes
+//! nothing.
+//!
 //! Equality with brute force over all passes is tested bit for bit.
 
 use super::sweep::{Sweep, SweepRecord};
@@ -36,6 +42,10 @@ const BULGE: f64 = 1.05;
 /// time alone: a frame holds for all that is within its reach.
 const NEW_FRAME: f64 = 0.7;
 
+/// Candidates are looked for first below this share of the depth to which rays record cuts, as high over the target. It
+/// decides about time alone: a first cut leaves roots at 0.3 of the depth, and below 0.25 they were searched twice.
+const CEILING_SHARE: f64 = 0.5;
+
 /// Everything a backend needs to run one operation over one field.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct SweepPlan {
@@ -50,20 +60,20 @@ pub struct SweepPlan {
 impl SweepPlan {
     /// Plan with candidate passes only.
     pub fn new(field: &SpatialField, set: &TurningPasses) -> Self {
-        SweepPlanner { field, set, passes: Considered::Candidates }.plan()
+        SweepPlanner::new(field, set, Considered::Candidates).plan()
     }
 
     /// Plan with those candidates of whole tiles that their nine rays leave, for devices: where in the tile each can be
     /// lowest is not looked for, and Newton's method starts from one height. Searching cells takes longer than what it
     /// spares a device, which visits all dexels of a tile.
     pub fn in_tiles(field: &SpatialField, set: &TurningPasses) -> Self {
-        SweepPlanner { field, set, passes: Considered::CandidatesInTiles }.plan()
+        SweepPlanner::new(field, set, Considered::CandidatesInTiles).plan()
     }
 
     /// Plan with every segment of every pass that can reach the field at all, in tiles as large as they may be: for few
     /// passes, over rays so far apart that nothing would be culled.
     pub fn of_near_passes(field: &SpatialField, set: &TurningPasses) -> Self {
-        SweepPlanner { field, set, passes: Considered::NearUnculled }.plan()
+        SweepPlanner::new(field, set, Considered::NearUnculled).plan()
     }
 
     /// The same for the rays of one column alone: a row of rays is slim, and fewer passes come near it.
@@ -75,13 +85,20 @@ impl SweepPlan {
 
     /// The same in the tiles of the candidates: what these are compared with.
     pub fn brute_force(field: &SpatialField, set: &TurningPasses) -> Self {
-        SweepPlanner { field, set, passes: Considered::Near }.plan()
+        SweepPlanner::new(field, set, Considered::Near).plan()
     }
 
     /// Plan with every segment of every pass of the operation, wherever it is: what the first look is compared with, on
     /// short operations.
     pub fn of_all_passes(field: &SpatialField, set: &TurningPasses) -> Self {
-        SweepPlanner { field, set, passes: Considered::All }.plan()
+        SweepPlanner::new(field, set, Considered::All).plan()
+    }
+
+    fn push(&mut self, (mut tile, mut records): FoundTile) {
+        let first = self.records.len();
+        self.records.append(&mut records);
+        tile.records = first..self.records.len();
+        self.tiles.push(tile);
     }
 
     /// (Dexel, pass) pairs of whole tiles: what a backend visits that does not look at cells.
@@ -105,10 +122,16 @@ impl SweepPlan {
     }
 }
 
+/// A tile with its records.
+type FoundTile = (SweepTile, Vec<SweepRecord>);
+
 struct SweepPlanner<'a> {
     field: &'a SpatialField,
     set: &'a TurningPasses,
     passes: Considered,
+    /// Below these heights candidates are looked for, one after the other, wherever no search before has shown that the
+    /// surface is left below its own, mm.
+    ceilings_mm: [f64; 2],
 }
 
 /// Which passes a plan looks at.
@@ -126,7 +149,11 @@ enum Considered {
     All,
 }
 
-impl SweepPlanner<'_> {
+impl<'a> SweepPlanner<'a> {
+    fn new(field: &'a SpatialField, set: &'a TurningPasses, passes: Considered) -> Self {
+        Self { field, set, passes, ceilings_mm: [-CEILING_SHARE * field.low_mm, f64::INFINITY] }
+    }
+
     fn plan(&self) -> SweepPlan {
         let mut plan = SweepPlan { segments: self.segments().clone(), ..SweepPlan::default() };
         if self.field.is_empty() {
@@ -137,52 +164,63 @@ impl SweepPlanner<'_> {
             Considered::CandidatesInTiles => Region::in_small_tiles(self.field),
             _ => Region::whole(self.field),
         };
-        let (origin_mm, reach_mm) = self.surroundings(&whole.dexels());
-        let parts = || {
-            let parts = self.parts();
-            (Ball::of_balls(&parts), parts)
-        };
         let near = match self.passes {
             Considered::Candidates | Considered::CandidatesInTiles => {
-                let (whole, parts) = parts();
-                near_passes(self.set, &whole, &parts)
+                let mut tiles = vec![None; whole.tiles()];
+                for ceiling_mm in self.ceilings_mm {
+                    self.search(&whole, ceiling_mm, &mut tiles);
+                }
+                tiles.into_iter().flatten().for_each(|found| plan.push(found));
+                return plan;
             }
             Considered::Near | Considered::NearUnculled => {
-                let whole = parts().0;
-                near_passes(self.set, &whole, &[whole])
+                let ball = Ball::of_balls(&self.parts(f64::INFINITY));
+                near_passes(self.set, &ball, &[ball])
             }
             Considered::All => (0..self.set.count()).map(|index| self.set.pass(index)).collect(),
         };
-        let sweeps = near.into_iter().flat_map(|pass| self.set.pieces(&pass).map(move |piece| (pass, piece)));
-        if matches!(self.passes, Considered::Candidates | Considered::CandidatesInTiles) {
-            let highest_mm = f64::from(self.field.blank_mm.iter().copied().fold(0.0, f32::max));
-            let frame = self.near_frame(&whole, (origin_mm, reach_mm), sweeps, highest_mm);
-            let sampled = whole.sample(&frame, self.segments());
-            self.halve(&whole, &frame, &sampled, highest_mm, &mut plan);
-        } else {
-            let near: Vec<SweepCandidate> = sweeps
-                .flat_map(|(pass, piece)| {
-                    self.segments_of(&pass).map(move |segment| SweepCandidate { pass, piece, segment })
-                })
-                .collect();
-            for columns in whole.columns.tiles() {
-                for rows in whole.rows.tiles() {
-                    self.tile(columns.clone(), rows, &near, &vec![ALL_CELLS; near.len()], &mut plan);
-                }
+        let near: Vec<SweepCandidate> = self
+            .pieces(near)
+            .flat_map(|(pass, piece)| {
+                self.segments_of(&pass).map(move |segment| SweepCandidate { pass, piece, segment })
+            })
+            .collect();
+        for columns in whole.columns.tiles() {
+            for rows in whole.rows.tiles() {
+                plan.push(self.tile(columns.clone(), rows, &near, &vec![ALL_CELLS; near.len()]));
             }
         }
         plan
     }
 
-    /// Records of those segments of some sweeps that can come near the field at all: each sweep is made once, and most
-    /// segments of a blade need no record.
+    /// Passes in the pieces of the motion that each sweeps in.
+    fn pieces(&self, passes: Vec<BladePass>) -> impl Iterator<Item = (BladePass, u32)> {
+        passes.into_iter().flat_map(|pass| self.set.pieces(&pass).map(move |piece| (pass, piece)))
+    }
+
+    /// Finds tiles, of all in the order in which regions are halved: those that are not found yet and where the surface
+    /// is certainly left below a ceiling.
+    fn search(&self, whole: &Region, ceiling_mm: f64, tiles: &mut [Option<FoundTile>]) {
+        if tiles.iter().all(Option::is_some) {
+            return;
+        }
+        let parts = self.parts(ceiling_mm);
+        let near = near_passes(self.set, &Ball::of_balls(&parts), &parts);
+        let highest_mm = f64::from(self.field.blank_mm.iter().copied().fold(0.0, f32::max));
+        let frame = self.near_frame(whole, self.pieces(near), highest_mm.min(ceiling_mm));
+        let sampled = whole.sample(&frame, self.segments());
+        self.halve(whole, &frame, &sampled, [highest_mm, ceiling_mm], tiles);
+    }
+
+    /// Records of those segments of some sweeps that can come near the field below a height at all: each sweep is made
+    /// once, and most segments of a blade need no record.
     fn near_frame(
         &self,
         whole: &Region,
-        (origin_mm, reach_mm): (DVec3, f64),
         sweeps: impl Iterator<Item = (BladePass, u32)>,
         highest_mm: f64,
     ) -> SweepFrame {
+        let (origin_mm, reach_mm) = self.surroundings(&whole.dexels());
         let mut one_each = SweepFrame { origin_mm, reach_mm, candidates: Vec::new(), records: Vec::new() };
         let mut made = Vec::new();
         for (pass, piece) in sweeps {
@@ -192,7 +230,8 @@ impl SweepPlanner<'_> {
             one_each.candidates.push(SweepCandidate { pass, piece, segment });
             made.push(sweep);
         }
-        let near = self.bounds(whole, &one_each).near(highest_mm, |candidate| self.segments_of(&candidate.pass));
+        let bounds = self.bounds(whole, &one_each, highest_mm);
+        let near = bounds.near(highest_mm, |candidate| self.segments_of(&candidate.pass));
         let candidate = |&(sweep, segment): &(usize, usize)| SweepCandidate { segment, ..one_each.candidates[sweep] };
         let record = |&(sweep, segment): &(usize, usize)| {
             made[sweep].record(one_each.candidates[sweep].pass.pass, segment, &self.segments()[segment])
@@ -205,17 +244,22 @@ impl SweepPlanner<'_> {
         }
     }
 
+    /// Finds tiles of a region from its samples, below a bound of the surface left there and a ceiling.
     fn halve(
         &self,
         region: &Region,
         frame: &SweepFrame,
         sampled: &[Sampled],
-        upper_bound_mm: f64,
-        plan: &mut SweepPlan,
+        [upper_bound_mm, ceiling_mm]: [f64; 2],
+        tiles: &mut [Option<FoundTile>],
     ) {
-        let (mut alive, upper_bound_mm) = self.bounds(region, frame).keep(sampled, upper_bound_mm);
+        let (mut alive, upper_bound_mm) = self.bounds(region, frame, ceiling_mm).keep(sampled, upper_bound_mm);
+        if region.is_tile() && upper_bound_mm > ceiling_mm {
+            // What is higher was not looked for, and may be the surface here.
+            return;
+        }
         if self.passes == Considered::CandidatesInTiles && region.is_tile() {
-            self.whole_tile(region, frame, alive, plan);
+            tiles[0] = Some(self.whole_tile(region, frame, alive));
             return;
         }
         // Only what is left is seen from a new frame: a sweep in another frame costs as much as its samples.
@@ -224,11 +268,16 @@ impl SweepPlanner<'_> {
         let frame = own.as_ref().unwrap_or(frame);
         let parts = region.parts(frame, self.segments(), &alive);
         if region.is_tile() {
-            self.bounded_tile(region, frame, &parts, upper_bound_mm, plan);
+            tiles[0] = Some(self.bounded_tile(region, frame, &parts, [upper_bound_mm, ceiling_mm]));
             return;
         }
+        let mut open = tiles;
         for (part, sampled) in parts {
-            self.halve(&part, frame, &sampled, upper_bound_mm, plan);
+            let (own, others) = open.split_at_mut(part.tiles());
+            if own.iter().any(Option::is_none) {
+                self.halve(&part, frame, &sampled, [upper_bound_mm, ceiling_mm], own);
+            }
+            open = others;
         }
     }
 
@@ -259,9 +308,9 @@ impl SweepPlanner<'_> {
         (origin_mm, BULGE * ends.fold(0.0, f64::max))
     }
 
-    /// A ball that holds all that can be found on some rays: a root counts from twice the lowest height up to the
-    /// blank's.
-    fn ball(&self, columns: Range<usize>, rows: Range<usize>) -> Ball {
+    /// A ball that holds all that can be found on some rays below a ceiling: a root counts from twice the lowest height
+    /// up to the blank's.
+    fn ball(&self, columns: Range<usize>, rows: Range<usize>, ceiling_mm: f64) -> Ball {
         let field = self.field;
         let (origins_mm, normals) = (field.origins_mm(), field.normals());
         let lowest_mm = 2.0 * field.low_mm;
@@ -274,7 +323,7 @@ impl SweepPlanner<'_> {
                 let (mut low, mut high) = (low_mm[axis], high_mm[axis]);
                 let components = origins_mm[axis][span.clone()].iter().zip(&normals[axis][span.clone()]);
                 for ((from, along), &blank) in components.zip(blank_mm) {
-                    let (a, b) = (from + lowest_mm * along, from + f64::from(blank) * along);
+                    let (a, b) = (from + lowest_mm * along, from + f64::from(blank).min(ceiling_mm) * along);
                     (low, high) = (low.min(a.min(b)), high.max(a.max(b)));
                 }
                 (low_mm[axis], high_mm[axis]) = (low, high);
@@ -285,10 +334,10 @@ impl SweepPlanner<'_> {
     }
 
     /// Balls of parts of the field: together they are much slimmer than one of the whole.
-    fn parts(&self) -> Vec<Ball> {
+    fn parts(&self, ceiling_mm: f64) -> Vec<Ball> {
         let (columns, rows) = (self.field.columns(), self.field.rows());
         let step = rows.div_ceil(PARTS);
-        (0..rows).step_by(step).map(|from| self.ball(0..columns, from..(from + step).min(rows))).collect()
+        (0..rows).step_by(step).map(|from| self.ball(0..columns, from..(from + step).min(rows), ceiling_mm)).collect()
     }
 
     /// Segments of a pass's blade.
@@ -300,22 +349,20 @@ impl SweepPlanner<'_> {
         self.set.edges.segments()
     }
 
-    fn bounds<'a>(&'a self, region: &'a Region, frame: &'a SweepFrame) -> RegionBounds<'a> {
-        RegionBounds { field: self.field, segments: self.segments(), region, frame }
+    fn bounds<'b>(&'b self, region: &'b Region, frame: &'b SweepFrame, ceiling_mm: f64) -> RegionBounds<'b> {
+        RegionBounds { field: self.field, segments: self.segments(), region, frame, ceiling_mm }
     }
 
     /// A tile in a frame about its middle. Newton's method starts from the mean height of the rays that surely enter a
     /// candidate, or from the lowest one.
-    fn whole_tile(&self, region: &Region, frame: &SweepFrame, mut alive: Vec<(Sampled, u8)>, plan: &mut SweepPlan) {
+    fn whole_tile(&self, region: &Region, frame: &SweepFrame, mut alive: Vec<(Sampled, u8)>) -> FoundTile {
         let (origin_mm, reach_mm) = self.surroundings(&region.dexels());
         let mut frame = self.frame(origin_mm, reach_mm, frame, &mut alive);
         for (record, (sampled, _)) in frame.records.iter_mut().zip(&alive) {
             record.start.height_mm[0] = sampled.mean_entry_mm().unwrap_or(2.0 * self.field.low_mm);
         }
-        let first = plan.records.len();
-        plan.records.append(&mut frame.records);
         let (columns, rows) = (region.columns.dexels(), region.rows.dexels());
-        plan.tiles.push(SweepTile { columns, rows, origin_mm, records: first..plan.records.len() });
+        (SweepTile { columns, rows, origin_mm, records: 0..frame.records.len() }, frame.records)
     }
 
     /// Bounds the parts of a tile: a record costs more in the kernel than here, and it is told in which cells it can be
@@ -325,9 +372,8 @@ impl SweepPlanner<'_> {
         region: &Region,
         frame: &SweepFrame,
         parts: &[(Region, Vec<Sampled>)],
-        upper_bound_mm: f64,
-        plan: &mut SweepPlan,
-    ) {
+        [upper_bound_mm, ceiling_mm]: [f64; 2],
+    ) -> FoundTile {
         let mut cells = vec![0_u16; frame.candidates.len()];
         let mut kept = Vec::new();
         let from = [region.columns.at[0], region.rows.at[0]];
@@ -337,7 +383,7 @@ impl SweepPlanner<'_> {
                 let rows = region.rows.between(&part.rows, bit % 2);
                 cells_between(from, [columns, rows])
             });
-            for (sampled, alive) in self.bounds(part, frame).keep(sampled, upper_bound_mm).0 {
+            for (sampled, alive) in self.bounds(part, frame, ceiling_mm).keep(sampled, upper_bound_mm).0 {
                 let cells = &mut cells[sampled.index as usize];
                 if *cells == 0 {
                     kept.push(sampled.index);
@@ -350,17 +396,10 @@ impl SweepPlanner<'_> {
         kept.sort_unstable();
         let candidates: Vec<SweepCandidate> = kept.iter().map(|&index| frame.candidates[index as usize]).collect();
         let cells: Vec<u16> = kept.iter().map(|&index| cells[index as usize]).collect();
-        self.tile(region.columns.dexels(), region.rows.dexels(), &candidates, &cells, plan);
+        self.tile(region.columns.dexels(), region.rows.dexels(), &candidates, &cells)
     }
 
-    fn tile(
-        &self,
-        columns: Range<usize>,
-        rows: Range<usize>,
-        kept: &[SweepCandidate],
-        cells: &[u16],
-        plan: &mut SweepPlan,
-    ) {
+    fn tile(&self, columns: Range<usize>, rows: Range<usize>, kept: &[SweepCandidate], cells: &[u16]) -> FoundTile {
         let dexels = {
             let lines =
                 |range: &Range<usize>| [range.start, usize::midpoint(range.start, range.end - 1), range.end - 1];
@@ -368,71 +407,17 @@ impl SweepPlanner<'_> {
             std::array::from_fn(|i| self.field.index(columns[i / SIDE], rows[i % SIDE]))
         };
         let (origin_mm, reach_mm) = self.surroundings(&dexels);
-        let (frame, index_of) = SweepFrame::new(self.set, origin_mm, reach_mm, kept);
-        let first = plan.records.len();
-        plan.records.extend(frame.records);
+        let (SweepFrame { mut records, .. }, index_of) = SweepFrame::new(self.set, origin_mm, reach_mm, kept);
         for (index, cells) in index_of.iter().zip(cells) {
             if let Some(index) = index {
-                plan.records[first + *index as usize].cells = *cells;
+                records[*index as usize].cells = *cells;
             }
         }
-        let tile = SweepTile { columns, rows, origin_mm, records: first..plan.records.len() };
-        find_starts(self.field, &tile, self.segments(), &mut plan.records[first..]);
-        plan.tiles.push(tile);
+        let tile = SweepTile { columns, rows, origin_mm, records: 0..records.len() };
+        find_starts(self.field, &tile, self.segments(), &mut records);
+        (tile, records)
     }
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::cut::Backend as _;
-    use crate::cut::cpu::Cpu;
-    use crate::frame::Rigid3;
-    use crate::passes::spatial::motion::MotionTable;
-    use crate::passes::spatial::straight_hob::StraightHob;
-    use glam::DMat3;
-    use std::f64::consts::{PI, TAU};
-
-    /// A machine that trembles by steps, which no polynomials follow: every frame sees another surface, and what one of
-    /// them culls may be lowest in another.
-    #[test]
-    fn a_motion_with_steps_loses_no_pass() {
-        let (module_mm, teeth, pitch_radius_mm) = (2.0, 40.0, 30.0);
-        let radius_mm = 0.5 * module_mm * teeth;
-        let hob = StraightHob::new(module_mm, 1, pitch_radius_mm);
-        // A flank of the space that is cut about tool angle 0, as a plane through the pitch point.
-        let (sin, cos) = 20_f64.to_radians().sin_cos();
-        let out = DVec3::new(-1.0, 0.0, 0.0);
-        let around = DVec3::Z.cross(out);
-        let pitch_mm = radius_mm * out + 0.25 * PI * module_mm * around;
-        let (normal, along) = (sin * out - cos * around, cos * out + sin * around);
-        for seed in 0..2 {
-            let of = |angle: f64, axis: f64| (1e3 * (1.7 * angle).floor() + 7.0 * axis + f64::from(seed)).sin();
-            let turns = 3.0 * teeth;
-            let motion = MotionTable::new([-0.5 * turns * TAU, 0.5 * turns * TAU], &[], |angle| Rigid3 {
-                rotation: DMat3::from_rotation_y(-angle / teeth) * DMat3::from_cols(DVec3::X, DVec3::NEG_Z, DVec3::Y),
-                translation_mm: DVec3::new(pitch_radius_mm + radius_mm, angle / (TAU * teeth), 0.0)
-                    + 3e-3 * DVec3::new(of(angle, 0.0), of(angle, 1.0), of(angle, 2.0)),
-            });
-            let set = TurningPasses::new(0, &hob, 1.0, motion).expect("a hob");
-            for (columns, apart_mm) in [(40, 0.05), (33, 0.08)] {
-                let field = SpatialField::new(columns, 40, -0.5, |column, row| {
-                    let place = [column as f64 - 0.5 * columns as f64, row as f64 - 20.0];
-                    let origin_mm = pitch_mm + place[0] * apart_mm * along + place[1] * 0.05 * DVec3::Z;
-                    (Ray { origin_mm, normal }, 3.0)
-                });
-                let cut = |plan: &SweepPlan| {
-                    let mut layer = field.blank_layer();
-                    Cpu::default().cut_spatial(&field, plan, &mut layer).expect("cuts");
-                    layer
-                };
-                let [plan, all] = [SweepPlan::new, SweepPlan::brute_force].map(|make| make(&field, &set));
-                let (few, every) = (cut(&plan), cut(&all));
-                let lost = (0..field.len()).filter(|&i| few.heights_mm[i] != every.heights_mm[i]);
-                let lost: Vec<usize> = lost.collect();
-                assert!(lost.is_empty(), "seed {seed}, {columns} columns: {} dexels, {:?}", lost.len(), lost[0]);
-                assert!(few.passes == every.passes && 8 * plan.records.len() < all.records.len());
-            }
-        }
-    }
-}
+mod tests;

@@ -147,6 +147,11 @@ impl<'a> Region<'a> {
         self.columns.count == 1 && self.rows.count == 1
     }
 
+    /// Number of its tiles.
+    pub fn tiles(&self) -> usize {
+        self.columns.count * self.rows.count
+    }
+
     /// The nine rays as dexels.
     pub fn dexels(&self) -> [usize; RAYS] {
         std::array::from_fn(|i| self.field.index(self.columns.at[i / SIDE], self.rows.at[i % SIDE]))
