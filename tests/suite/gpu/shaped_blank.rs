@@ -65,7 +65,7 @@ mod slow {
 
     #[test]
     fn the_gpu_leaves_the_same_spans_and_volumes() {
-        let mut scene = paper_scene(vec![operation("rough", NORMAL, 2.0, 1200), operation("finish", NORMAL, 0.0, 240)]);
+        let mut scene = paper_scene(vec![operation("rough", NORMAL, 2.0, 600), operation("finish", NORMAL, 0.0, 240)]);
         Shaping::of_mut(&mut scene).expect("shaping").operations[1].feed_during_stroke = true;
         scene.fields.blank_spacing_mm = 0.7;
         scene.fields.blank_slice_spacing_mm = 30.0;

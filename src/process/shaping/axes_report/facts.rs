@@ -51,10 +51,11 @@ pub(super) fn print(axes: &OperationAxes, sheet: &mut Sheet) {
     } else {
         format!("on the {flank} flank at polar angle {:.2} deg", relief.phi_rad.to_degrees())
     };
+    let reference = if round { "that at full depth" } else { "a circular gear's" };
     sheet.line(
         "smallest relief",
         format!(
-            "{} um to first order for {} mm back-off {relief_place}, {:.0} % of a circular gear's",
+            "{} um to first order for {} mm back-off {relief_place}, {:.0} % of {reference}",
             significant(UM_PER_MM * relief.clearance_mm(back_off_mm), 3),
             plain(back_off_mm),
             100.0 * relief.ratio,
