@@ -38,7 +38,8 @@ pub struct Damage {
     pub point_mm: DVec2,
     /// And along the tooth from the middle of the face, mm.
     pub z_mm: f64,
-    /// Largest depth along the normal, mm.
+    /// Largest depth, mm: along the normal of a flank; in the transverse section, where that is no shorter, of roots,
+    /// fillets and tips.
     pub depth_mm: f64,
     /// Volume, mm3: mean of both families. For rubbing the sum over strokes.
     pub volume_mm3: f64,
@@ -104,7 +105,7 @@ pub struct Finding {
     pub point_mm: DVec2,
     /// Its place along the tooth from the middle of the face, mm.
     pub z_mm: f64,
-    /// Depth along the normal, mm.
+    /// Depth along the normal in the transverse section, mm.
     pub depth_mm: f64,
     /// The ray's share of the volume, half of it for each family, mm3.
     pub volume_mm3: f64,
@@ -114,8 +115,10 @@ pub struct Finding {
 
 /// Findings side by side of the teeth, deepest place and volume each; only those at least [`LEAST_DEPTH_MM`] deep.
 ///
+/// Depths of a helical gear's flanks become those along their spatial normals, which lean by the base helix angle.
 /// `place` names places, `maker` gives stroke and blade behind a pass of an operation.
 pub fn collect(
+    gear: &Gear,
     findings: impl Iterator<Item = Finding>,
     place: impl Fn(&Finding) -> GearPlace,
     maker: impl Fn(usize, u32) -> (usize, u32),
@@ -123,6 +126,8 @@ pub fn collect(
     let mut sides: BTreeMap<Where, Damage> = BTreeMap::new();
     for finding in findings {
         let place = place(&finding);
+        let leaning = if place.zone == Zone::Flank { gear.base_helix_cosine() } else { 1.0 };
+        let depth_mm = finding.depth_mm * leaning;
         let (stroke, blade) = maker(finding.operation, finding.pass);
         let key = (finding.operation, place.tooth, place.side, place.zone, finding.stays);
         let damage = sides.entry(key).or_insert(Damage {
@@ -130,14 +135,14 @@ pub fn collect(
             place,
             point_mm: finding.point_mm,
             z_mm: finding.z_mm,
-            depth_mm: finding.depth_mm,
+            depth_mm,
             volume_mm3: 0.0,
             stroke,
             blade,
         });
         let volume_mm3 = damage.volume_mm3 + finding.volume_mm3;
-        if finding.depth_mm > damage.depth_mm {
-            let (point_mm, z_mm, depth_mm) = (finding.point_mm, finding.z_mm, finding.depth_mm);
+        if depth_mm > damage.depth_mm {
+            let (point_mm, z_mm) = (finding.point_mm, finding.z_mm);
             *damage = Damage { place, point_mm, z_mm, depth_mm, stroke, blade, ..*damage };
         }
         damage.volume_mm3 = volume_mm3;
@@ -231,6 +236,6 @@ mod tests {
         assert_eq!(found.len(), 1);
         assert_eq!((found[0].depth_mm, found[0].point_mm), (10.0, DVec2::new(10.0, 10.0)));
         let place = |_: &Finding| GearPlace { tooth: 1, side: Side::Left, zone: Zone::Root, height_mm: 0.0 };
-        assert_eq!(collect(found.into_iter(), place, |_, _| (0, 0)).len(), 1, "and is not passed over");
+        assert_eq!(collect(&gear, found.into_iter(), place, |_, _| (0, 0)).len(), 1, "and is not passed over");
     }
 }

@@ -206,6 +206,9 @@ impl RoundGear {
         let spans = (2..=self.teeth / 2).map(|k| self.span_over(k)).filter(|span| self.touches(span.touch_diameter_mm));
         let away = |span: &SpanMeasure| (span.touch_diameter_mm - middle_mm).abs();
         let best = spans.min_by(|a, b| away(a).total_cmp(&away(b)));
+        if self.kind == GearKind::Internal && self.helix_angle_rad != 0.0 {
+            return Err("plane anvils find no common normal between helical teeth of a ring".to_owned());
+        }
         let span = best.ok_or("over no number of teeth does a span touch the involutes")?;
         let sine = (1.0 - self.base_helix_cosine().powi(2)).sqrt();
         let needed_mm = span.length_mm * sine;

@@ -15,8 +15,8 @@ const MOST_DEXELS: f64 = 1e8;
 /// Adds a problem for every contradiction between shared keys.
 pub(super) fn cross_check(found: &mut Found<'_, '_, '_>) {
     // A missing value ends only the check that asks for it.
-    let _: [Option<()>; 6] =
-        [gear_bore(found), gear_kind(found), mate_teeth(found), profile(found), of_round_gears(found), dexels(found)];
+    let _: [Option<()>; 5] =
+        [gear_kind(found), mate_teeth(found), profile(found), of_round_gears(found), dexels(found)];
     for curve in ["gear.pitch_curve", "gear.pitch_curve.mate.driver"] {
         let _: [Option<()>; 2] = [sinusoidal(found, curve), fourier(found, curve)];
     }
@@ -24,24 +24,6 @@ pub(super) fn cross_check(found: &mut Found<'_, '_, '_>) {
     for index in 0..found.values.count("picture") {
         let _: Option<()> = picture_tooth(found, &format!("picture.{index}"));
     }
-}
-
-fn gear_bore(found: &mut Found) -> Option<()> {
-    let gear = found.view("gear");
-    // What a sector's bore may be follows from its dwell.
-    if gear.text("kind")? == "internal" || sector_deg(found.values).is_some() {
-        return None;
-    }
-    let (module_mm, teeth) = (gear.number("module_mm")?, f64::from(gear.whole("teeth")?));
-    let bore_mm = gear.number("bore_diameter_mm")?;
-    let root_mm = module_mm * (teeth - 2.5);
-    let message = || {
-        format!(
-            "`gear.bore_diameter_mm`: {bore_mm} takes the whole rim of the teeth: mean root diameter {root_mm:.3} mm"
-        )
-    };
-    found.blame(bore_mm >= root_mm, "gear.bore_diameter_mm", message, "make the bore smaller, or leave it out");
-    Some(())
 }
 
 /// A ring has no bore, and only a ring has a rim.

@@ -66,6 +66,12 @@ impl Gear {
         }
     }
 
+    /// cos(beta_b): what is normal to a flank over what is normal to it in the transverse section, for every generated
+    /// flank. Along the face the rack moves by tan(beta) along the pitch curve, and the flank by cos(alpha_t) of that.
+    pub fn base_helix_cosine(&self) -> f64 {
+        (1.0 - (self.helix_angle_rad.sin() * self.pressure_angle_rad.cos()).powi(2)).sqrt()
+    }
+
     /// How far its teeth stand along the pitch curve at a height, against those in the middle of the face, mm.
     pub fn turned_mm(&self, z_mm: f64) -> f64 {
         self.hand.sign() * self.helix_angle_rad.tan() * z_mm
@@ -107,6 +113,25 @@ impl Gear {
             GearKind::Internal => Blank::ring(curve, addendum_mm, self.rim_mm),
         }
     }
+
+    /// Refuses a bore that the roots of standard teeth reach where the pitch curve comes nearest to the axis. That of a
+    /// sector is held against its dwell.
+    ///
+    /// # Errors
+    /// Such a bore.
+    pub fn check_bore(&self, curve: &PitchCurve) -> Result<(), Refusal> {
+        let depth_mm = (DEDENDUM_COEFFICIENT - self.profile_shift_coefficient) * self.module_mm;
+        let root_mm = 2.0 * (curve.facts().smallest_radius_mm - depth_mm);
+        let bore_mm = self.bore_diameter_mm;
+        if bore_mm > 0.0 && bore_mm >= root_mm && curve.sector_rad().is_none() {
+            return Err(Refusal::new(
+                "gear.bore_diameter_mm",
+                format!("it reaches the tooth roots, which come down to a diameter of {root_mm:.3} mm"),
+                "make the bore smaller, or leave it out",
+            ));
+        }
+        Ok(())
+    }
 }
 
 impl Scene {
@@ -115,6 +140,9 @@ impl Scene {
         self.process.process().name
     }
 }
+
+/// Depth of standard teeth below the pitch curve, in modules (ISO 53, profile A).
+const DEDENDUM_COEFFICIENT: f64 = 1.25;
 
 /// Depth of a sector's dwell below the smallest radius of its pitch curve, in modules, unless the scene gives its
 /// radius: the depth of teeth, 1.25, and as much again for a cutter that rolls out over falling radii.

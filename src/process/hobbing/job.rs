@@ -114,6 +114,7 @@ impl HobbingJob {
         };
         let curve = Arc::new(PitchCurve::new(&gear.pitch_curve, gear.transverse_module_mm(), gear.teeth)?);
         let hob = Hob::new(tool, gear.module_mm, gear.pressure_angle_rad)?;
+        scene.gear.check_bore(&curve)?;
         let stock = gear.blank(curve.clone())?;
         // A hob pulled back by d leaves teeth 2 d tan(alpha_t) thicker on the pitch curve: by x m and the allowance.
         let shift_mm = gear.profile_shift_coefficient * gear.module_mm;

@@ -212,6 +212,7 @@ impl ShapingJob {
         };
         let mut alike = like.filter(|of| of.cutter.generates_as(&cutter));
         let helix = Helix::of(&scene.gear, &machine, &curve, &cutter)?;
+        scene.gear.check_bore(&curve)?;
         let blank = gear.blank(curve.clone())?;
         // Flanks refer to the cutter for as long as they are kept.
         let shared_cutter = Arc::new(cutter.clone());

@@ -96,7 +96,9 @@ fn end_face(gear: &PlanarGear, cut: &CutBlank, left_mm3: [f64; 2], targets: &[Ta
 /// [`crate::measure::damage::LEAST_DEPTH_MM`] deep.
 fn collect(gear: &PlanarGear, findings: impl Iterator<Item = Finding>) -> Vec<(Damage, bool)> {
     let place = |finding: &Finding| place_of(gear, finding.point_mm, finding.z_mm);
-    damage::collect(findings, place, |operation, pass| gear.operations[operation].strokes.stroke_and_blade(pass))
+    damage::collect(&gear.scene.gear, findings, place, |operation, pass| {
+        gear.operations[operation].strokes.stroke_and_blade(pass)
+    })
 }
 
 fn damage_to(gear: &PlanarGear, cut: &CutBlank, targets: &[TargetOutline]) -> Vec<Damage> {

@@ -73,6 +73,31 @@ fn a_circle_has_the_same_teeth_everywhere() {
     ]);
 }
 
+/// Root diameters by hand: m (z / cos(beta) + 2 x - 2.5), and of the paper's gear twice the smallest radius less 2.5 m.
+#[test]
+fn a_bore_ends_below_the_tooth_roots() {
+    const ROUND: &str = "scenes/shaping/circular_m3_z24.toml";
+    let of_round = |x: f64, beta_deg: f64| 3.0 * (24.0 / beta_deg.to_radians().cos() + 2.0 * x - 2.5);
+    for (scene, x, beta_deg, root_mm) in [
+        (ROUND, 0.0, 0.0, of_round(0.0, 0.0)),
+        (ROUND, -0.4, 0.0, of_round(-0.4, 0.0)),
+        (ROUND, 0.4, 0.0, of_round(0.4, 0.0)),
+        (ROUND, 0.0, 30.0, of_round(0.0, 30.0)),
+        (PAPER, 0.0, 0.0, 2.0 * 52.872 - 7.5),
+    ] {
+        for (by_mm, fits) in [(-0.2, true), (0.2, false)] {
+            let sets = [("profile_shift_coefficient", x), ("helix_angle_deg", beta_deg)];
+            let sets = sets.into_iter().filter(|(_, value)| *value != 0.0);
+            let sets = sets.chain([("bore_diameter_mm", root_mm + by_mm)]);
+            let sets: Vec<_> = sets.map(|(key, value)| format!("gear.{key}={value}")).collect();
+            let sets: Vec<_> = sets.iter().flat_map(|set| ["--set", set]).collect();
+            let outcome = gearcut(&[&["check", scene], &sets[..]].concat());
+            assert_eq!(outcome.code == 0, fits, "{scene}, {sets:?}: {}", outcome.err);
+            assert!(fits || outcome.err.contains("it reaches the tooth roots"), "{}", outcome.err);
+        }
+    }
+}
+
 #[test]
 fn limits_undercut_and_narrow_tips_are_warned_about() {
     let exceeded = gearcut(&["check", PAPER, "--set", "machine.limits.cutter_speed_deg_per_s=1.0"]).done();

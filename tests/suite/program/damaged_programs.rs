@@ -80,6 +80,27 @@ mod slow {
         [if block == 214 { 5.0 } else { x }, c, b]
     }
 
+    /// A guide off by 220 um in 100 mm moves teeth by 22 um along the reference circle at the end of a face of 20 mm,
+    /// and their flanks along the normal by cos(alpha_t) cos(beta_b) = cos(alpha_n) cos(beta) of that: less than a gouge,
+    /// which 22 um cos(alpha_t) in the transverse section would be.
+    #[test]
+    fn on_a_helical_flank_depth_is_along_its_normal() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = |name: &str| folder.path().join(name).to_str().expect("a path").to_owned();
+        let scene = "[gear]\nmodule_mm = 3.0\nteeth = 24\nface_width_mm = 20\nhelix_angle_deg = 40\n\
+            [tool.shaper_cutter]\nteeth = 20\n[[operation]]\nname = \"finish\"\nstrokes_per_revolution = 1200\n\
+            [operation.infeed.none]\n[machine.errors.guide]\ntangential_um_per_100mm = 220\n";
+        fs::write(path("helical.toml"), scene).expect("a file");
+        let (scene, out) = (path("helical.toml"), path("out"));
+        let outcome = gearcut(&["cut", &scene, "--draft", "--quiet", "--backend", "cpu", "--out", &out]);
+        let results = read_json(&folder.path().join("out/results.json"));
+        let deepest = &results["sections"]["blank"]["gouges"]["deepest"];
+        let normal_mm = 0.022 * 20_f64.to_radians().cos() * 40_f64.to_radians().cos();
+        let found_mm = deepest["value"].as_f64().expect("a depth");
+        assert_eq!((outcome.code, &deepest["place"]["zone"]), (0, &Value::from("flank")), "{}", outcome.err);
+        assert!((found_mm - normal_mm).abs() < 5e-5, "{found_mm} mm deep, by geometry {normal_mm}");
+    }
+
     #[test]
     fn damage_is_as_deep_as_geometry_says() {
         let own = own_program();

@@ -72,6 +72,7 @@ pub fn measure(cutter: &HobCutter, cut: &CutBlank) -> HobbedBlankReport {
         bound_mm2: bound_mm2.map(|bound| bound + 2.0 * bore_radius_mm * grid.spacing_mm()),
     };
     let damage = damage::collect(
+        gear,
         slices.into_iter().flat_map(|(_, _, findings)| findings),
         |finding| {
             let turned_mm = job.target.space_arc_mm(0, finding.z_mm);
