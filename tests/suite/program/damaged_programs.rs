@@ -80,8 +80,8 @@ mod slow {
         [if block == 214 { 5.0 } else { x }, c, b]
     }
 
-    /// A guide off by 220 um in 100 mm moves teeth by 22 um along the reference circle at the end of a face of 20 mm,
-    /// and their flanks along the normal by cos(alpha_t) cos(beta_b) = cos(alpha_n) cos(beta) of that: less than a gouge,
+    /// A guide off by 220 um in 100 mm moves teeth by 22 um along the reference circle at the end of a face of 20 mm.
+    /// Flanks move along their normals by cos(alpha_t) cos(beta_b) = cos(alpha_n) cos(beta) of that: less than a gouge,
     /// which 22 um cos(alpha_t) in the transverse section would be.
     #[test]
     fn on_a_helical_flank_depth_is_along_its_normal() {
