@@ -16,7 +16,11 @@ rows! {
     CUTTING: "cutting", "Cutting", "headline (of all operations); operations.<operation>; work";
 
     LINKAGE: "linkage", "", "linkage of the tool and the work";
-    OFFSET: "offset", "mm", "distance of the tool from full depth, thickness allowance included" => symbol("δ_d");
+    OFFSET: "offset", "mm", "offset of the tool from the depth without profile shift and thickness allowance"
+        => symbol("δ_d");
+    SHORT_OF_DEPTH: "short_of_depth", "mm",
+        "how far the tool stays back from the depth that makes the teeth as drawn: offset less what profile shift and \
+         thickness allowance need";
     PASSES: "passes", "passes", "passes of the tool's teeth or blades over all tooth spaces";
     AXIS_MARGIN: "axis_margin", "1", "share of the tightest axis limit that is left, all axes and operations"
         => titled("left of the tightest limit"), or(&[NO_LIMITS]);

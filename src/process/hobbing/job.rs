@@ -37,7 +37,7 @@ const HOLLOW_PLACES: [u32; 2] = [720, 41];
 pub struct PreparedHobbing {
     /// What the scene says.
     pub spec: HobbingOperation,
-    /// How far the hob stays back from full depth, the gear's thickness allowance included, mm.
+    /// How far the hob stays back from rolling on the pitch curve: offset, profile shift and thickness allowance, mm.
     pub offset_mm: f64,
     /// How slide, shift and infeed run.
     pub plan: FeedPlan,

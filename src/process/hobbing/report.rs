@@ -4,7 +4,7 @@
 mod facts;
 pub mod passes;
 
-use crate::findings::quantities::cutting::{LARGEST_FORCE, LINKAGE, OFFSET, THICKEST_CHIP};
+use crate::findings::quantities::cutting::{LARGEST_FORCE, LINKAGE, SHORT_OF_DEPTH, THICKEST_CHIP};
 use crate::findings::quantities::tool_wear::TOOL_WEAR;
 use crate::findings::{self, Entry, Findings, Quantity, QuantityRow};
 use crate::measure::verdict::GearVerdict;
@@ -86,7 +86,7 @@ pub fn page(
             "{}: {}, hob {}, {} mm axial feed per revolution",
             operation.key,
             operation.text(&LINKAGE),
-            operation.value(&OFFSET).map_or_else(|| "–".to_owned(), from_full_depth),
+            operation.value(&SHORT_OF_DEPTH).map_or_else(|| "–".to_owned(), from_full_depth),
             operation.value(&AXIAL_FEED).map_or_else(|| "–".to_owned(), plain)
         )
     };

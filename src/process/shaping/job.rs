@@ -19,6 +19,7 @@ use crate::process::shaping::motion::returns::facts::ReturnFacts;
 use crate::process::shaping::motion::returns::motion::RamTimes;
 use crate::process::shaping::motion::returns::survey::Survey;
 use crate::process::shaping::motion::vibration::Vibration;
+use crate::process::shaping::round_mesh::RoundMesh;
 use crate::process::shaping::scene::model::{self, GcodeDialect, Machine, Operation, Shaping};
 use crate::process::shaping::swing::swing_rad;
 use crate::process::shaping::target::TargetFlank;
@@ -34,11 +35,10 @@ use gearcut_core::error::{Refusal, Result};
 use gearcut_core::frame::Rigid2;
 use gearcut_core::gear::blank::Blank;
 use gearcut_core::gear::{GearKind, PitchCurve};
-use gearcut_core::math::roots::{bisect, sample_angle_rad};
+use gearcut_core::math::roots::sample_angle_rad;
 use gearcut_core::passes::StrokeSet;
 use gearcut_core::passes::planar::strokes::StrokeLaw;
 use gearcut_core::terms::Side;
-use gearcut_core::tool::involute::inv;
 use glam::DVec2;
 use std::f64::consts::PI;
 use std::ops::RangeInclusive;
@@ -51,8 +51,10 @@ const MOST_TIMES_THE_STROKES: usize = 10;
 /// One operation with its strokes.
 #[derive(Debug, Clone)]
 pub struct PreparedOperation {
-    /// What the scene says.
+    /// What the scene says, its offset with that of profile shift and thickness allowance.
     pub spec: Operation,
+    /// How far the cutter stays back from the depth that makes the teeth as drawn, mm.
+    pub short_of_depth_mm: f64,
     /// The linkage.
     pub linkage: ShapingLinkage,
     /// What it generates in the limit of many strokes.
@@ -221,7 +223,7 @@ impl ShapingJob {
         let (mut first_pass, mut start_s) = (0, 0.0);
         let allowance_mm = thickness_offset_mm(gear, curve.pitches(), cutter.teeth)?;
         for spec in &shaping.operations {
-            let mut spec = spec.clone();
+            let (mut spec, short_of_depth_mm) = (spec.clone(), spec.offset_mm);
             spec.offset_mm += allowance_mm;
             // Return strokes meet what is left by the operations before: they are alike as well.
             alike = alike.filter(|of| of.operations.get(operations.len()).is_some_and(|of| of.generates_as(&spec)));
@@ -289,6 +291,7 @@ impl ShapingJob {
             let returns = OnceLock::new();
             operations.push(PreparedOperation {
                 spec,
+                short_of_depth_mm,
                 linkage,
                 generation,
                 envelope,
@@ -538,10 +541,9 @@ impl ShapingJob {
 /// How much further from the pitch curve the cutter's centre lies for the gear's profile shift and the allowance of
 /// its tooth thickness, mm.
 ///
-/// On a round gear teeth are then s = 2 x m tan(alpha) + A thicker on the reference circle, exactly:
-/// `inv(alpha') = inv(alpha) + s / (m (z + z0))` and `a' = a cos(alpha) / cos(alpha')` (ISO 21771:2007, a mesh without
-/// backlash), a ring's z negative. Road not taken: s / (2 tan(alpha)), the law of a rack, which makes teeth of module 3
-/// with x = 0.5 on 24 teeth some 0.08 mm too thick, and takes 0.54 mm for 0.5 from a ring. On other gears the
+/// On a round gear teeth are then s = 2 x m tan(alpha) + A thicker on the reference circle, exactly ([`RoundMesh`]).
+/// Road not taken: s / (2 tan(alpha)), the law of a rack, which makes teeth of module 3 with x = 0.5 on 24 teeth some
+/// 0.08 mm too thick, and takes 0.54 mm for 0.5 from a ring. On other gears the
 /// displacement is that of the round gear with as many teeth, and the thickness varies with the curvature by that
 /// order.
 fn thickness_offset_mm(gear: &Gear, pitches: u32, cutter_teeth: u32) -> Result<f64, Refusal> {
@@ -550,18 +552,16 @@ fn thickness_offset_mm(gear: &Gear, pitches: u32, cutter_teeth: u32) -> Result<f
         return Ok(0.0);
     }
     let alpha = gear.pressure_angle_rad;
-    let both_mm = gear.module_mm * (f64::from(pitches) * gear.kind.tip_sign() + f64::from(cutter_teeth));
-    let wanted = inv(alpha) + thicker_mm / both_mm;
-    if !wanted.is_finite() || wanted <= 0.0 {
+    let mesh = RoundMesh::new(gear.kind, gear.module_mm, alpha, [pitches, cutter_teeth]);
+    let Some(working_rad) = mesh.thicker_rad(alpha, thicker_mm) else {
         let [shift, allowance] = ["gear.profile_shift_coefficient", "gear.tooth_thickness_allowance_mm"];
         return Err(Refusal::new(
             if gear.tooth_thickness_allowance_mm == 0.0 { shift } else { allowance },
             format!("no depth of the cutter changes the tooth thickness by {thicker_mm:.3} mm"),
-            format!("take less than {:.3} mm, by {shift} and {allowance} together", inv(alpha) * both_mm.abs()),
+            format!("take less than {:.3} mm, by {shift} and {allowance} together", mesh.room_mm(alpha)),
         ));
-    }
-    let working = bisect(|angle| inv(angle) < wanted, 0.0, 0.5 * PI);
-    Ok(0.5 * both_mm * (alpha.cos() / working.cos() - 1.0))
+    };
+    Ok(mesh.offset_mm(working_rad))
 }
 
 /// Refuses a ring that the cutter cuts through.

@@ -36,6 +36,7 @@ pub(crate) mod notices;
 mod prepared;
 pub mod quantities;
 mod report;
+mod round_mesh;
 mod run;
 pub mod scene;
 pub mod sections;

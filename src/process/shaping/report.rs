@@ -12,7 +12,7 @@ mod stock;
 mod strokes;
 
 use crate::findings::quantities::OPERATIONS;
-use crate::findings::quantities::cutting::{LINKAGE, OFFSET};
+use crate::findings::quantities::cutting::{LINKAGE, SHORT_OF_DEPTH};
 use crate::findings::{self, Findings};
 use crate::measure::verdict::GearVerdict;
 use crate::number_text::{from_full_depth, significant};
@@ -84,7 +84,7 @@ fn operation_words(operation: &findings::Section, count: usize) -> String {
     let strokes = operation.value(&STROKES).unwrap_or(f64::NAN);
     let name = format!("{}{}", operation.key, if count == 1 { " (the only operation)" } else { "" });
     // Neither is known under a program that is off the scene's own strokes.
-    let (Some(offset_mm), Some(feed_mm)) = (operation.value(&OFFSET), operation.value(&CIRCULAR_FEED)) else {
+    let (Some(offset_mm), Some(feed_mm)) = (operation.value(&SHORT_OF_DEPTH), operation.value(&CIRCULAR_FEED)) else {
         return format!("{name}: by a program off the scene's own strokes, {strokes} strokes");
     };
     format!(

@@ -33,7 +33,11 @@ pub(super) static SECTIONS: &[KeySection] = &[
                 Range::closed(-2.0, 30.0),
                 "offset_mm holds",
                 "0.2",
-                "Stock to leave on each flank, normal to it; the offset is stock / sin(pressure angle).",
+                "Stock to leave on each flank, normal to it. The offset is stock / sin(pressure angle): exact of the \
+                    straight flanks of racks and hobs. In shaping it is that of a mesh without backlash from the \
+                    depth of the last operation on: exact on round gears, rings and helical ones; on other gears, \
+                    and with drawn teeth, it is stock / sin(working pressure angle of the round gear with as many \
+                    teeth), which leaves some per cent more, more where the gear is curved more.",
             ),
             Key {
                 name: "program",

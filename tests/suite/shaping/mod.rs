@@ -41,6 +41,7 @@ mod ring_infeed;
 mod round_gear;
 mod rubbing;
 mod sector;
+mod stock;
 mod stroke_noise;
 mod tearing;
 mod tooth_tips;

@@ -4,7 +4,7 @@ mod headline;
 
 use super::{blank, force, load, marks, points, wear};
 use crate::findings::quantities::OPERATIONS;
-use crate::findings::quantities::cutting::{CYCLE_TIME, LINKAGE, OFFSET, PASSES};
+use crate::findings::quantities::cutting::{CYCLE_TIME, LINKAGE, OFFSET, PASSES, SHORT_OF_DEPTH};
 use crate::findings::quantities::flanks::{MEAN_DEVIATION, PROFILE_LENGTH, SQ, START_OF_FLANK};
 use crate::findings::{Findings, Notice, Section, Table};
 use crate::machine_errors::ErrorLayer;
@@ -119,6 +119,7 @@ fn operation(operation: &PreparedHobbing, motion: &HobbingAxesReport, passes: u3
         .entries([
             LINKAGE.of(motion.linkage_words()),
             OFFSET.of(operation.offset_mm),
+            SHORT_OF_DEPTH.of(spec.offset_mm),
             PASSES.of(passes),
             AXIAL_FEED.of(spec.axial_feed_mm_per_revolution),
             CYCLE_TIME.of(operation.linkage.end_s()).shown(),

@@ -14,8 +14,16 @@ const ROUND_BETA_RAD: f64 = 1e-9;
 /// Strokes, time, relief.
 pub(super) fn print(axes: &OperationAxes, sheet: &mut Sheet) {
     let (operation, back_off_mm) = (axes.operation(), axes.job.machine.back_off_mm);
-    let (name, offset, schedule) = (axes.name(), from_full_depth(operation.spec.offset_mm), &operation.schedule);
+    let (name, offset, schedule) = (axes.name(), from_full_depth(operation.short_of_depth_mm), &operation.schedule);
     sheet.heading(&format!("Operation {name}: {}, {offset}", axes.linkage_words()));
+    let shifted_mm = operation.spec.offset_mm - operation.short_of_depth_mm;
+    if shifted_mm != 0.0 {
+        let sign = if shifted_mm > 0.0 { "+" } else { "" };
+        sheet.line(
+            "depth as drawn",
+            format!("at offset {sign}{} mm, by profile shift and allowance", plain(shifted_mm)),
+        );
+    }
     let plunging = match schedule.plunge_count() {
         0 => String::new(),
         count => format!(", {count} of them plunging"),

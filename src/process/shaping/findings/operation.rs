@@ -2,7 +2,7 @@
 
 use super::{chips, cmm, deflection, program, returns, strokes, teeth};
 use crate::findings::Section;
-use crate::findings::quantities::cutting::{CYCLE_TIME, LINKAGE, OFFSET};
+use crate::findings::quantities::cutting::{CYCLE_TIME, LINKAGE, OFFSET, SHORT_OF_DEPTH};
 use crate::findings::quantities::flanks::{LAST, NO_FLANK_REACHED};
 use crate::measure::stock::Stock;
 use crate::process::shaping::ShapingJob;
@@ -77,6 +77,7 @@ pub fn operation(
         .entries([
             LINKAGE.of(operation.linkage.words()).unless(other.as_deref()),
             OFFSET.of(spec.offset_mm).unless(other.as_deref()),
+            SHORT_OF_DEPTH.of(operation.short_of_depth_mm).unless(other.as_deref()),
             STROKES.of(strokes),
             CIRCULAR_FEED.of(schedule.circular_feed_mm_per_stroke()).unless(other.as_deref()),
             CYCLE_TIME.of(schedule.time_s(strokes as f64)),

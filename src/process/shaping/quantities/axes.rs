@@ -14,7 +14,9 @@ rows! {
         "columns of axes/<operation>.csv; under a program scene_ is before what the scene's own strokes have, and \
          return_ before positions of the axes on the way back";
 
-    OFFSET_AT: "offset", "mm", "distance of the cutter from full depth at the stroke" => symbol("δ_d");
+    OFFSET_AT: "offset", "mm",
+        "offset of the cutter at the stroke from the depth without profile shift and thickness allowance"
+        => symbol("δ_d");
     PHI: "phi", "deg", "polar angle of the pitch point at the stroke" => symbol("φ");
     LEFT_RELIEF: "left_relief_share_of_circular", "1",
         "clearance of left flanks when the cutter backs off, over that of a circular gear";

@@ -8,11 +8,11 @@ use super::model::{
     Linkage, Machine, MachineVibration, NormalReading, Operation, Retraction, Shaping, StockScatter, StrokeSpacing,
     Tip, TraditionalDirection,
 };
+use super::stock;
 use crate::machine_errors::{Compliance, SideCompliance};
 use crate::material::EdgeForce;
 use crate::random::Draws;
 use crate::scene::ScenePart;
-use crate::scene::build::stock_or_offset_mm;
 use crate::scene::drawn_profile::ToolProfile;
 use crate::scene::machine_errors::machine_errors;
 use crate::scene::tool_wear;
@@ -217,7 +217,7 @@ fn operation(values: &Values, index: usize, base_dir: &Path, pressure_angle_rad:
     };
     Some(Operation {
         name: operation.text("name")?.to_owned(),
-        offset_mm: stock_or_offset_mm(operation, pressure_angle_rad)?,
+        offset_mm: stock::offset_mm(values, index)?,
         stock_scatter: stock_scatter(values, operation, index, pressure_angle_rad),
         linkage: linkage(values, path, operation.variant("linkage")?)?,
         feed,

@@ -6,7 +6,8 @@ use super::keys::{
     VIBRATION_PATH, WEAR,
 };
 use super::model::guide_hand;
-use crate::scene::build::{sector_deg, stock_or_offset_mm};
+use super::stock::{self, Limit};
+use crate::scene::build::sector_deg;
 use crate::scene::drawn_profile;
 use crate::scene::keys::join;
 use crate::scene::machine_errors;
@@ -48,7 +49,7 @@ pub(super) fn check(found: &mut Found<'_, '_, '_>) {
         let path = format!("operation.{index}");
         let _: [Option<()>; 7] = [
             window(found, &path),
-            offset(found, &path),
+            offset(found, index, &path),
             strokes(found, &path),
             feed(found, &path),
             time_spacing(found, &path),
@@ -289,10 +290,20 @@ fn window(found: &mut Found, path: &str) -> Option<()> {
     Some(())
 }
 
-fn offset(found: &mut Found, path: &str) -> Option<()> {
+fn offset(found: &mut Found, index: usize, path: &str) -> Option<()> {
     let reach_mm = reach_mm(found.values)?;
     let operation = found.view(path);
-    let offset_mm = stock_or_offset_mm(operation, found.view("gear").rad("pressure_angle_deg")?)?;
+    if let Some(stock_mm) = operation.number("stock_per_flank_mm")
+        && let Some(limit) = stock::limit(found.values, index)
+    {
+        let (beyond, end) = match limit {
+            Limit::Most(most_mm) => (stock_mm >= most_mm, format!("less than {most_mm:.3} mm")),
+            Limit::Least(least_mm) => (stock_mm <= least_mm, format!("more than {least_mm:.3} mm")),
+        };
+        let message = || format!("no depth of the cutter makes a stock of {stock_mm} mm on each flank");
+        found.blame(beyond, &join(path, "stock_per_flank_mm"), message, &format!("take {end}"));
+    }
+    let offset_mm = stock::offset_mm(found.values, index)?;
     let name = if operation.number("stock_per_flank_mm").is_some() { "stock_per_flank_mm" } else { "offset_mm" };
     let message = || {
         format!(

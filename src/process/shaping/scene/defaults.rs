@@ -10,7 +10,8 @@
 //!
 //! Road not taken: a spiral where the scene gives a window. A window shows a piece of a cut that is under way.
 
-use crate::scene::build::{sector_deg, stock_or_offset_mm};
+use super::stock::offset_mm;
+use crate::scene::build::sector_deg;
 use crate::scene::values::{Checked, Values};
 use gearcut_core::units::UM_PER_MM;
 
@@ -54,7 +55,7 @@ pub(super) fn derive(values: &mut Values) {
 }
 
 /// Teeth that a whole turn has room for: strokes are counted over a turn.
-fn teeth_per_turn(values: &Values) -> Option<u32> {
+pub(super) fn teeth_per_turn(values: &Values) -> Option<u32> {
     let teeth = values.view("gear").whole("teeth")?;
     let Some([from_deg, to_deg]) = sector_deg(values) else { return Some(teeth) };
     let turns = (to_deg - from_deg) / 360.0;
@@ -140,10 +141,6 @@ fn standard_roughing(values: &mut Values) -> Option<()> {
 /// Infeed and overlap of an operation, as far as they are not written.
 fn infeed(values: &mut Values, index: usize) -> Option<()> {
     let reach_mm = reach_mm(values)?;
-    let offset_mm = |values: &Values, index: usize| {
-        let alpha_rad = values.view("gear").rad("pressure_angle_deg")?;
-        stock_or_offset_mm(values.view(&format!("operation.{index}")), alpha_rad)
-    };
     let path = format!("operation.{index}");
     let own_mm = offset_mm(values, index)?;
     let window = |index: usize| values.is_written(&format!("operation.{index}"), "window_deg");

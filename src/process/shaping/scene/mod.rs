@@ -6,6 +6,7 @@ mod defaults;
 mod keys;
 pub mod layers;
 pub mod model;
+mod stock;
 
 use crate::machine_errors::{AxisErrors, ErrorLayer};
 use crate::scene::error_sources::{self, ErrorSource, KeyForm, Tried};
