@@ -8,9 +8,10 @@
 // Twins: crates/core/src/cut/cpu/blank.rs (derivation there) and blank_sweeps.rs. Adds at most four ulps at the blank's
 // radius to an end that its ray meets at 45 degrees or steeper.
 //
-// An outline is a chain of cubics. Each thread goes round it once, with places across its own ray: a piece that turns
-// back there is split at its turning point. Neighbours share the bits of their node, so that crossings come in pairs,
-// whatever rounding does.
+// An outline is a chain of cubics in runs, whose chords bound what it encloses on a ray. Of a hundred pairs of ray and
+// pass a few find material within the bounds; only they go round the pieces of the runs near the ray, with places across
+// it: a piece that turns back there is split at its turning point. Neighbours share the bits of their node, so that
+// crossings come in pairs, whatever rounding does.
 
 @group(0) @binding(0) var<uniform> launch: BlankLaunch;
 @group(0) @binding(1) var<storage, read> tiles: array<BlankTile>;
@@ -31,8 +32,7 @@ const MOST_CROSSINGS: u32 = 8u;
 // Newton steps within a part, each inside its bracket; a step below the last one ends them.
 const STEPS: u32 = 12u;
 const LAST_STEP: f32 = 1e-6;
-// What rounding may move a place across by, and one along, mm.
-const ACROSS_ERROR_MM: f32 = 4e-6;
+// What rounding may move a place along by, mm.
 const ALONG_ERROR_MM: f32 = 1e-4;
 // Heads of the ledger before those of tiles.
 const LEDGER_HEAD: u32 = 4u;
@@ -42,6 +42,43 @@ fn turned(v: vec2<f32>, shape: BlankPass, family: u32) -> vec2<f32> {
     let x = shape.cos * v.x - shape.sin * v.y;
     let y = shape.sin * v.x + shape.cos * v.y;
     return select(vec2(x, y), vec2(y, x), family == 1u);
+}
+
+// Where a piece starts, along and across, from the outline's centre; the one after the last is the first.
+fn node(shape: BlankPass, piece: u32, family: u32) -> vec2<f32> {
+    let index = select(piece, 0u, piece == shape.piece_count);
+    return turned(outline[shape.first_piece + index].node_mm, shape, family);
+}
+
+// Pieces of the run that begins at a piece.
+fn run_pieces(shape: BlankPass, piece: u32) -> u32 {
+    return outline[shape.first_piece + piece].run & 0xffu;
+}
+
+// A run beside a ray.
+struct Run {
+    // Whether it may meet the ray, and between which places then.
+    is_near: bool,
+    low_mm: f32,
+    high_mm: f32,
+}
+
+// The run that begins at a piece: no further from its chord than its reach, rounding included.
+fn placed_run(shape: BlankPass, first: u32, family: u32, offset_mm: f32) -> Run {
+    let start = node(shape, first, family) + vec2(0.0, offset_mm);
+    let end = node(shape, first + run_pieces(shape, first), family) + vec2(0.0, offset_mm);
+    let reach_mm = bitcast<f32>(outline[shape.first_piece + first].run & 0xffffff00u);
+    let is_near = min(start.y, end.y) <= reach_mm && max(start.y, end.y) >= -reach_mm;
+    let low_mm = min(start.x, end.x);
+    let high_mm = max(start.x, end.x);
+    let slope = (end.x - start.x) / select(end.y - start.y, 1e-30, end.y == start.y);
+    let at_mm = clamp(start.x - start.y * slope, low_mm, high_mm);
+    let along_mm = reach_mm * min(1.0 + abs(slope), 1e6);
+    return Run(
+        is_near,
+        max(at_mm - along_mm, low_mm - reach_mm) - ALONG_ERROR_MM,
+        min(at_mm + along_mm, high_mm + reach_mm) + ALONG_ERROR_MM,
+    );
 }
 
 // Parameter at which the rate of a cubic vanishes, its ends having rates of opposite signs.
@@ -159,72 +196,70 @@ fn blank_rays(
     if count == NO_ROOM {
         return;
     }
-    let last_visit = min(launch.first_visit + launch.visit_count, tile.visit_count);
-    for (var v = launch.first_visit; v < last_visit; v++) {
-        let shape = passes[visits[tile.first_visit + v]];
-        let center = select(shape.center, shape.center.yx, tile.family == 1u);
+    for (var v = 0u; v < tile.visit_count; v++) {
+        let pass_index = visits[tile.first_visit + v];
+        let place_of_pass = passes[pass_index].center;
+        let center = select(place_of_pass, place_of_pass.yx, tile.family == 1u);
         // Whole units: exact.
         let offset_mm = f32(center.y - place) * launch.mm_per_unit;
         if abs(offset_mm) > launch.reach_mm {
             continue;
         }
         let center_mm = f32(center.x) * launch.mm_per_unit;
+        let shape = passes[pass_index];
 
-        // Pieces that cross the ray, with their parts, and bounds of the crossings from chords.
-        var crossed: array<u32, MOST_CROSSINGS>;
-        var met = 0u;
+        // Between these places lies whatever the outline encloses on the ray.
         var low_mm = 1e30;
         var high_mm = -1e30;
-        let first = turned(outline[shape.first_piece].node_mm, shape, tile.family);
-        var start = vec2(first.x, first.y + offset_mm);
-        let first_start = start;
-        for (var p = 0u; p < shape.piece_count; p++) {
-            var end = first_start;
-            if p + 1u < shape.piece_count {
-                let node = turned(outline[shape.first_piece + p + 1u].node_mm, shape, tile.family);
-                end = vec2(node.x, node.y + offset_mm);
+        for (var r = 0u; r < shape.piece_count; r += run_pieces(shape, r)) {
+            let run = placed_run(shape, r, tile.family, offset_mm);
+            if run.is_near {
+                low_mm = min(low_mm, run.low_mm);
+                high_mm = max(high_mm, run.high_mm);
             }
-            let sagitta_mm = outline[shape.first_piece + p].sagitta_mm;
-            let start_below = start.y <= 0.0;
-            let end_below = end.y <= 0.0;
-            let near = min(abs(start.y), abs(end.y)) <= sagitta_mm;
-            if start_below != end_below || near {
-                let rate_from = turned(outline[shape.first_piece + p].rate_start, shape, tile.family).y;
-                let rate_to = turned(outline[shape.first_piece + p].rate_end, shape, tile.family).y;
-                var parts = vec2(0u, 0u);
-                var found = select(0u, 1u, start_below != end_below);
-                if rate_from * rate_to < 0.0 {
-                    let run = end.y - start.y;
-                    let middle_below = cubic(start.y, run, rate_from, rate_to, turning(run, rate_from, rate_to)) <= 0.0;
-                    parts = select(vec2(2u, 2u), vec2(1u, 2u), start_below != middle_below);
-                    found = select(0u, 1u, start_below != middle_below) + select(0u, 1u, middle_below != end_below);
-                }
-                if found > 0u {
-                    let slope = (end.x - start.x) / select(end.y - start.y, 1e-30, end.y == start.y);
-                    let at = clamp(start.x - start.y * slope, min(start.x, end.x), max(start.x, end.x));
-                    let steepness = min(1.0 + abs(slope), 1e6);
-                    let tolerance = (sagitta_mm + ACROSS_ERROR_MM) * steepness + ALONG_ERROR_MM;
-                    low_mm = min(low_mm, at - tolerance);
-                    high_mm = max(high_mm, at + tolerance);
-                }
-                for (var k = 0u; k < found; k++) {
-                    if met < MOST_CROSSINGS {
-                        crossed[met] = 4u * p + select(parts.y, parts.x, k == 0u);
-                    }
-                    met++;
-                }
-            }
-            start = end;
-        }
-        if met > MOST_CROSSINGS {
-            atomicMax(&ledger[1], met);
-            continue;
-        }
-        if met == 0u {
-            continue;
         }
         let near = met_between(ray, count, center_mm + low_mm, center_mm + high_mm);
         if near.first == near.last {
+            continue;
+        }
+
+        // Pieces that cross the ray, with their parts.
+        var crossed: array<u32, MOST_CROSSINGS>;
+        var met = 0u;
+        for (var r = 0u; r < shape.piece_count; r += run_pieces(shape, r)) {
+            if !placed_run(shape, r, tile.family, offset_mm).is_near {
+                continue;
+            }
+            let run_end = r + run_pieces(shape, r);
+            var start = node(shape, r, tile.family).y + offset_mm;
+            for (var p = r; p < run_end; p++) {
+                let end = node(shape, p + 1u, tile.family).y + offset_mm;
+                let start_below = start <= 0.0;
+                let end_below = end <= 0.0;
+                let own = outline[shape.first_piece + p];
+                if start_below != end_below || min(abs(start), abs(end)) <= own.sagitta_mm {
+                    let rate_from = turned(own.rate_start, shape, tile.family).y;
+                    let rate_to = turned(own.rate_end, shape, tile.family).y;
+                    var parts = vec2(0u, 0u);
+                    var found = select(0u, 1u, start_below != end_below);
+                    if rate_from * rate_to < 0.0 {
+                        let run = end - start;
+                        let middle_below = cubic(start, run, rate_from, rate_to, turning(run, rate_from, rate_to)) <= 0.0;
+                        parts = select(vec2(2u, 2u), vec2(1u, 2u), start_below != middle_below);
+                        found = select(0u, 1u, start_below != middle_below) + select(0u, 1u, middle_below != end_below);
+                    }
+                    for (var k = 0u; k < found; k++) {
+                        if met < MOST_CROSSINGS {
+                            crossed[met] = 4u * p + select(parts.y, parts.x, k == 0u);
+                        }
+                        met++;
+                    }
+                }
+                start = end;
+            }
+        }
+        if met > MOST_CROSSINGS {
+            atomicMax(&ledger[1], met);
             continue;
         }
 

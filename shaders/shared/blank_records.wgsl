@@ -8,21 +8,20 @@ struct BlankLaunch {
     rays: u32,
     // Spans that a ray has room for.
     capacity: u32,
-    // Visits of every tile that this launch takes: from here, so many.
-    first_visit: u32,
-    visit_count: u32,
     // Unit of places, a power of two.
     mm_per_unit: f32,
     // Outlines stay this near to their centres.
     reach_mm: f32,
     // Pieces that there is room for; 0 if nobody asks for them.
     piece_room: u32,
-    padding: u32,
+    padding_1: u32,
+    padding_2: u32,
+    padding_3: u32,
 }
 
 // Neighbouring rays of one family in one slice.
 struct BlankTile {
-    // Passes that visit it, in order of time.
+    // Passes that visit it in a launch, in order of time.
     first_visit: u32,
     visit_count: u32,
     first_ray: u32,
@@ -57,7 +56,9 @@ struct OutlinePiece {
     rate_end: vec2<f32>,
     // Distance from the chord at most, mm.
     sagitta_mm: f32,
-    padding: u32,
+    // The run that begins here, if one does: its pieces in the lowest byte, and an f32 without that byte, how far from
+    // the run's chord its pieces may be seen, mm.
+    run: u32,
 }
 
 // A ray.

@@ -24,6 +24,7 @@ use super::device::Device;
 use super::problem::GpuProblem;
 use super::stamps::{STAMP_BYTES, Stamps, device_ns};
 use back::{Returning, filled, roomy};
+use bytemuck::Zeroable;
 use gearcut_shaders::{BLANK_RAYS, WORKGROUP_THREADS};
 use wgpu::BufferUsages as Use;
 
@@ -32,12 +33,12 @@ use wgpu::BufferUsages as Use;
 fn most_iterations(kind: AdapterKind) -> usize {
     if kind == AdapterKind::Software { 50_000 } else { 4_000_000 }
 }
-/// What a visit may take of these beside one for each piece of the outline: Newton's steps and places in the list for
-/// each of eight crossings; so many times the room of a ray's list for its spans.
+/// Times that a visit goes round the outline at most: its runs twice, and its pieces.
+const ROUNDS_PER_VISIT: usize = 3;
+/// What a visit may take of these beside: Newton's steps and places in the list for each of eight crossings; so many
+/// times the room of a ray's list for its spans.
 const ITERATIONS_PER_VISIT: usize = 8 * (12 + 8 + 2);
 const LIST_WALKS_PER_VISIT: usize = 4 * 4 + 2;
-/// Distance of the parts of a uniform buffer that different launches bind: what every device takes.
-const UNIFORM_STEP: usize = 256;
 /// What a cut came back with besides lists.
 pub struct RaysCut {
     /// Longest material that a return stroke met on a ray of each tile, mm.
@@ -126,12 +127,12 @@ impl<'a> RayLists<'a> {
         BlankLaunch {
             rays: self.rays as u32,
             capacity: self.capacity as u32,
-            first_visit: 0,
-            visit_count: 0,
             mm_per_unit: 0.0,
             reach_mm: 0.0,
             piece_room: 0,
-            padding: 0,
+            padding_1: 0,
+            padding_2: 0,
+            padding_3: 0,
         }
     }
 
@@ -161,28 +162,22 @@ impl<'a> RayLists<'a> {
         let device = &self.gpu.device;
         // As many visits in a launch as a thread's loops may take.
         let pieces = work.passes.iter().map(|pass| pass.piece_count).max().unwrap_or(0) as usize;
-        let of_visit = pieces + ITERATIONS_PER_VISIT + LIST_WALKS_PER_VISIT * self.capacity;
+        let of_visit = ROUNDS_PER_VISIT * pieces + ITERATIONS_PER_VISIT + LIST_WALKS_PER_VISIT * self.capacity;
         let window = (most_iterations(device.facts.kind) / of_visit).max(1);
-        let most_visits = own.iter().map(|tile| tile.visit_count).max().unwrap_or(0) as usize;
-        let windows = most_visits.div_ceil(window).max(1);
-        let mut launches = vec![0; windows * UNIFORM_STEP];
-        for (index, bytes) in launches.chunks_exact_mut(UNIFORM_STEP).enumerate() {
-            let launch = BlankLaunch {
-                first_visit: (index * window) as u32,
-                visit_count: window as u32,
-                mm_per_unit: work.mm_per_unit,
-                reach_mm: work.reach_mm,
-                piece_room: work.piece_room as u32,
-                ..self.launch()
-            };
-            bytes[..size_of::<BlankLaunch>()].copy_from_slice(bytemuck::bytes_of(&launch));
-        }
+        // Tiles tell a launch its visits: lavapipe prepares the shader anew for every launch whose uniforms are new.
+        let tiles = in_windows(own, window);
+        let launch = BlankLaunch {
+            mm_per_unit: work.mm_per_unit,
+            reach_mm: work.reach_mm,
+            piece_room: work.piece_room as u32,
+            ..self.launch()
+        };
         let both = Use::STORAGE | Use::COPY_SRC;
         let ledger_bytes = 4 * (LEDGER_HEAD + own.len() + 4 * work.accounts);
         let piece_bytes = work.piece_room * size_of::<BlankPiece>();
         let poison = vec![0xFF; if self.gpu.options.poison_outputs { piece_bytes } else { 0 }];
-        let launch_buffer = filled(device, "blank launches", &launches, Use::UNIFORM)?;
-        let tiles = filled(device, "blank tiles", bytemuck::cast_slice(own), Use::STORAGE)?;
+        let launch = filled(device, "launch", bytemuck::bytes_of(&launch), Use::UNIFORM)?;
+        let tiles = filled(device, "blank tiles", bytemuck::cast_slice(&tiles), Use::STORAGE)?;
         let visits = filled(device, "visits", bytemuck::cast_slice(&work.visits), Use::STORAGE)?;
         let passes = filled(device, "blank passes", bytemuck::cast_slice(&work.passes), Use::STORAGE)?;
         let outline = filled(device, "outline", bytemuck::cast_slice(&work.outline), Use::STORAGE)?;
@@ -201,15 +196,15 @@ impl<'a> RayLists<'a> {
                 timestamp_writes: stamps.as_ref().map(|stamps| stamps.writes(0)),
             });
             pass.set_pipeline(pipeline);
-            for window in 0..windows {
-                let uniform = wgpu::BindingResource::Buffer(wgpu::BufferBinding {
-                    buffer: &launch_buffer,
-                    offset: (window * UNIFORM_STEP) as u64,
-                    size: std::num::NonZero::new(size_of::<BlankLaunch>() as u64),
-                });
-                let others = [&tiles, &visits, &passes, &outline, &self.spans, &self.states, &ledger, &pieces];
-                let [a, b, c, d, e, f, g, h] = others.map(wgpu::Buffer::as_entire_binding);
-                pass.set_bind_group(0, &bind(device, pipeline, [uniform, a, b, c, d, e, f, g, h]), &[]);
+            let window_bytes = window_tiles(own) as u64 * size_of::<BlankTile>() as u64;
+            for offset in (0..tiles.size()).step_by(window_bytes as usize) {
+                let size = std::num::NonZero::new(window_bytes);
+                let tiles = wgpu::BindingResource::Buffer(wgpu::BufferBinding { buffer: &tiles, offset, size });
+                let others = [&launch, &visits, &passes, &outline, &self.spans, &self.states, &ledger, &pieces];
+                let [launch, others @ ..] = others.map(wgpu::Buffer::as_entire_binding);
+                let [visits, passes, outline, spans, states, ledger, pieces] = others;
+                let resources = [launch, tiles, visits, passes, outline, spans, states, ledger, pieces];
+                pass.set_bind_group(0, &bind(device, pipeline, resources), &[]);
                 pass.dispatch_workgroups(own.len() as u32, 1, 1);
             }
             drop(pass);
@@ -295,6 +290,26 @@ impl<'a> RayLists<'a> {
         let [rays, spans] = [&parts[0], &parts[1]];
         Ok(PackedRays { rays: bytemuck::pod_collect_to_vec(rays), spans: bytemuck::pod_collect_to_vec(spans) })
     }
+}
+
+/// Tiles of one launch with those that fill up its part of the buffer: parts begin at multiples of 256 bytes.
+fn window_tiles(tiles: &[BlankTile]) -> usize {
+    tiles.len().max(1).next_multiple_of(256 / size_of::<BlankTile>())
+}
+
+/// Tiles launch by launch, each with so many of its visits at most.
+fn in_windows(tiles: &[BlankTile], visits: usize) -> Vec<BlankTile> {
+    let most_visits = tiles.iter().map(|tile| tile.visit_count).max().unwrap_or(0);
+    let windows = (most_visits as usize).div_ceil(visits).max(1);
+    let mut windowed = vec![BlankTile::zeroed(); windows * window_tiles(tiles)];
+    for (window, part) in windowed.chunks_exact_mut(window_tiles(tiles)).enumerate() {
+        for (part, tile) in part.iter_mut().zip(tiles) {
+            let before = ((window * visits) as u32).min(tile.visit_count);
+            let visit_count = (tile.visit_count - before).min(visits as u32);
+            *part = BlankTile { first_visit: tile.first_visit + before, visit_count, ..*tile };
+        }
+    }
+    windowed
 }
 
 fn bind<const N: usize>(

@@ -21,10 +21,6 @@ pub struct BlankLaunch {
     pub rays: u32,
     /// Spans that a ray has room for.
     pub capacity: u32,
-    /// First of the visits of every tile that this launch takes.
-    pub first_visit: u32,
-    /// Number of them.
-    pub visit_count: u32,
     /// Unit of places, a power of two, mm.
     pub mm_per_unit: f32,
     /// Outlines stay this near to their centres, mm.
@@ -32,14 +28,18 @@ pub struct BlankLaunch {
     /// Pieces that there is room for; 0 if nobody asks for them.
     pub piece_room: u32,
     /// Nothing.
-    pub padding: u32,
+    pub padding_1: u32,
+    /// Nothing.
+    pub padding_2: u32,
+    /// Nothing.
+    pub padding_3: u32,
 }
 
 /// Neighbouring rays of one family in one slice.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
 pub struct BlankTile {
-    /// First of the visits, in order of time.
+    /// First of the visits of a launch, in order of time.
     pub first_visit: u32,
     /// Number of visits.
     pub visit_count: u32,
@@ -89,8 +89,9 @@ pub struct OutlinePiece {
     pub rate_end: [f32; 2],
     /// Distance from its chord at most, mm.
     pub sagitta_mm: f32,
-    /// Nothing.
-    pub padding: u32,
+    /// The run that begins here, if one does: its pieces in the lowest byte, and an f32 without that byte, how far from
+    /// the run's chord its pieces may be seen, mm.
+    pub run: u32,
 }
 
 /// A ray.

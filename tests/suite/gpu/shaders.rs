@@ -141,12 +141,12 @@ fn records_have_the_same_members_on_both_sides() {
             blank_records::BlankLaunch {
                 rays,
                 capacity,
-                first_visit,
-                visit_count,
                 mm_per_unit,
                 reach_mm,
                 piece_room,
-                padding,
+                padding_1,
+                padding_2,
+                padding_3,
             }
         ),
         layout!(
@@ -166,7 +166,7 @@ fn records_have_the_same_members_on_both_sides() {
             "blank_rays",
             blank_records::BlankPass { cos, sin, center, first_piece, piece_count, pass_id, account }
         ),
-        layout!("blank_rays", blank_records::OutlinePiece { node_mm, rate_start, rate_end, sagitta_mm, padding }),
+        layout!("blank_rays", blank_records::OutlinePiece { node_mm, rate_start, rate_end, sagitta_mm, run }),
         layout!("blank_rays", blank_records::RayState { place, count, first }),
         layout!(
             "spatial_flank",
