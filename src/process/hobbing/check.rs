@@ -76,7 +76,14 @@ fn print_hob(sheet: &mut Sheet, job: &HobbingJob) {
         ),
     );
     let length = job.finishing().plan.contact_half_length_mm;
-    sheet.line("full contact takes", format!("{:.3} of {} mm", 2.0 * length, plain(hob.length_mm)));
+    sheet.line(
+        "full contact takes",
+        format!(
+            "{:.3} of {} mm to generate flanks; roughing the blank out takes more, not counted here",
+            2.0 * length,
+            plain(hob.length_mm)
+        ),
+    );
     let common = greatest_common_divisor(hob.starts, job.scene.gear.teeth);
     sheet.line(
         "hunting",

@@ -67,8 +67,11 @@ pub fn cut_spaces(cutter: &HobCutter) -> Result<Vec<Option<ForeseenChip>>> {
         let ids = passes.first_pass..passes.end_pass();
         let Some(cut) = Cpu::default().cut_blank_sweeps(&mut field, &sections, ids, &|| true)? else { break };
         let load = OperationLoad::of_blank(passes, &cut.chips);
-        let peak = load.peak(|load| load.thickness_mm);
-        let chip = peak.map(|tooth| ForeseenChip { tooth, thickness_mm: load.teeth[tooth].thickness_mm });
+        let chip = load.peak(|load| load.thickness_mm).map(|tooth| ForeseenChip {
+            tooth,
+            thickness_mm: load.teeth[tooth].thickness_mm,
+            missed_end: load.end_that_is_missed(&cutter.job.hob, tooth),
+        });
         found.push(chip.filter(|chip| chip.thickness_mm > 0.0));
     }
     Ok(found)

@@ -135,6 +135,25 @@ pub struct HobTooth {
     pub angle_rad: f64,
 }
 
+/// End of a hob.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum HobEnd {
+    /// +z of the tool, where uncut work arrives.
+    Entering,
+    /// -z of the tool.
+    Leaving,
+}
+
+impl HobEnd {
+    /// `entering` or `leaving`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Entering => "entering",
+            Self::Leaving => "leaving",
+        }
+    }
+}
+
 impl HobTooth {
     /// `7`, or `B7` on a hob with several starts.
     pub fn label(&self, starts: u32) -> String {
@@ -150,6 +169,20 @@ impl Hob {
     /// Numbers of the teeth, in blade order.
     pub fn labels(&self) -> Vec<String> {
         self.teeth.iter().map(|tooth| tooth.label(self.starts)).collect()
+    }
+
+    /// The end at which a tooth is the last of its thread, with the tooth beside it on that thread; indices in blade
+    /// order.
+    pub fn end_at(&self, tooth: usize) -> Option<(HobEnd, usize)> {
+        let start = self.teeth[tooth].start;
+        let is_on_thread = |of: &usize| self.teeth.get(*of).is_some_and(|of| of.start == start);
+        let before = tooth.checked_sub(1).filter(is_on_thread);
+        let after = Some(tooth + 1).filter(is_on_thread);
+        match [before, after] {
+            [None, Some(after)] => Some((HobEnd::Entering, after)),
+            [Some(before), None] => Some((HobEnd::Leaving, before)),
+            _ => None,
+        }
     }
 
     /// Hob of a scene for a gear with this normal module and pressure angle.

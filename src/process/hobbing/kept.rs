@@ -8,6 +8,7 @@ use crate::process::hobbing::Hob;
 use crate::process::hobbing::actual::ActualHobbing;
 use crate::process::hobbing::commanded::HobbingCommand;
 use crate::process::hobbing::flank_patch::FlankPatch;
+use crate::process::hobbing::hob::HobEnd;
 use gearcut_core::error::Refusal;
 use gearcut_core::passes::{MotionTable, TurningPasses};
 use gearcut_core::terms::Side;
@@ -31,6 +32,8 @@ pub struct ForeseenChip {
     pub tooth: usize,
     /// Its thickness, mm.
     pub thickness_mm: f64,
+    /// The end of the hob beyond which there would be teeth to take their share of it.
+    pub missed_end: Option<HobEnd>,
 }
 
 /// Targets that were asked for: left and right flank of tooth 1, then of tooth 2 and so on.

@@ -54,6 +54,13 @@ notices! {
     ThickChip: Warning "hob.thick_chip", "hobbing.md", (operation, tooth, chip, usual_mm),
         "operation {operation}: hob tooth {tooth} takes {chip}, more than {usual_mm} mm, which few hobs bear: "
         + "lower the feed, take more gashes or fewer starts, or divide the cut"
+    /// A tooth at the end of the hob does the work of several: it wears fast or breaks out.
+    ThickChipAtEnd: Warning "hob.thick_chip", "hobbing.md", (operation, tooth, chip, usual_mm, end, side, shift_mm),
+        "operation {operation}: hob tooth {tooth} takes {chip}, more than {usual_mm} mm, which few hobs bear, and far \
+         more than the tooth beside it: it is the last at the {end} end, and the hob ends within the zone where the \
+         blank is roughed out; "
+        + "use a longer hob (tool.hob.length_mm), or shift it towards its {end} end \
+           (operation.shift_start_mm {side} {shift_mm})"
     /// The flank is rougher than the scene allows.
     FeedMarks: Warning "hob.feed_marks", "hobbing.md", (operation, height_um, allowed_um, feed_mm),
         "operation {operation}: the feed makes marks up to {height_um} um high, {allowed_um} um are allowed \

@@ -33,7 +33,9 @@ rows! {
     HOFFMEISTER: "thickest_chip_by_hoffmeister", "um",
         "thickest chip of the first operation by the formula of Hoffmeister, fitted to standard racks on round gears"
         => titled("by Hoffmeister's formula"), source("Hoffmeister 1970");
-    SHIFT_ROOM: "shift_room", "mm", "length of the hob beyond what full contact takes: by so much it can be shifted"
+    SHIFT_ROOM: "shift_room", "mm",
+        "length of the hob beyond what full contact with finished flanks takes: by so much it can be shifted and still \
+         generate them; the zone ahead, where its teeth rough the blank out, is longer and not counted"
         => titled("left to shift by");
     SHIFT_RANGE: "shift_range", "mm", "range of the hob's middle along its axis while it cuts, last operation"
         => titled("range of the shift");

@@ -5,13 +5,14 @@
 
 use super::axes_report::HobbingAxesReport;
 use super::gear::HobbedGear;
+use super::hob::HobEnd;
 use super::job::PreparedHobbing;
 use super::kept::ForeseenChip;
 use super::measure::blank_report::HobbedBlankReport;
 use super::measure::hob_load::OperationLoad;
 use super::notices::{
-    BeyondRecord, CurveClosure, HeadAngle, Hunting, Protuberance, ResultantFeed, ThickChip, TipRelief, Tops, Undercut,
-    Unreached,
+    BeyondRecord, CurveClosure, HeadAngle, Hunting, Protuberance, ResultantFeed, ThickChip, ThickChipAtEnd, TipRelief,
+    Tops, Undercut, Unreached,
 };
 use super::scene::model::HobbingKind;
 use super::{HobCutter, HobbingJob, foreseen_chips};
@@ -156,7 +157,7 @@ fn foreseen_thick_chips(cutter: &HobCutter) -> Result<Vec<Notice>> {
     let of = |(operation, chip): (&PreparedHobbing, &Option<ForeseenChip>)| {
         let chip = chip.filter(|chip| chip.thickness_mm > USUAL_CHIP_MM)?;
         let what = format!("a chip at least {} mm thick in the middle of the face", significant(chip.thickness_mm, 3));
-        Some(thick_chip(job, operation, chip.tooth, &what))
+        Some(thick_chip(job, operation, (chip.tooth, chip.missed_end), &what))
     };
     Ok(job.operations.iter().zip(foreseen_chips::of(cutter)?).filter_map(of).collect())
 }
@@ -170,15 +171,28 @@ fn thick_chips(cutter: &HobCutter, loads: &[OperationLoad]) -> Result<Vec<Notice
         let thickness_mm = load.teeth[tooth].thickness_mm;
         (!known && thickness_mm > USUAL_CHIP_MM).then(|| {
             let what = format!("a chip {} mm thick", significant(thickness_mm, 3));
-            thick_chip(job, operation, tooth, &what)
+            thick_chip(job, operation, (tooth, load.end_that_is_missed(&job.hob, tooth)), &what)
         })
     };
     Ok(job.operations.iter().zip(loads).zip(known).filter_map(of).collect())
 }
 
-fn thick_chip(job: &HobbingJob, operation: &PreparedHobbing, tooth: usize, what: &str) -> Notice {
-    let (operation, tooth) = (&operation.spec.name, job.hob.teeth[tooth].label(job.hob.starts));
-    ThickChip { operation, tooth, chip: what, usual_mm: USUAL_CHIP_MM }.notice()
+/// The sentence on a chip of a tooth, by the end of the hob beyond which there would be teeth to share it.
+fn thick_chip(
+    job: &HobbingJob,
+    operation: &PreparedHobbing,
+    (tooth, missed_end): (usize, Option<HobEnd>),
+    chip: &str,
+) -> Notice {
+    let tooth = job.hob.teeth[tooth].label(job.hob.starts);
+    let (usual_mm, shift_mm) = (USUAL_CHIP_MM, significant(operation.plan.shift_range_mm[0], 4));
+    let operation = &operation.spec.name;
+    let Some(end) = missed_end else { return ThickChip { operation, tooth, chip, usual_mm }.notice() };
+    let side = match end {
+        HobEnd::Entering => "above",
+        HobEnd::Leaving => "below",
+    };
+    ThickChipAtEnd { operation, tooth, chip, usual_mm, end: end.name(), side, shift_mm }.notice()
 }
 
 /// Cuts below the target; what a protuberance, tip relief or semi-topping takes there it is made to take.

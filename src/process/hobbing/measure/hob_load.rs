@@ -17,11 +17,16 @@
 //! constant along the edge; thin chips cost more force per area, and wear follows temperature and thickness besides.
 //! Ratios of load say which teeth work and how evenly; they say nothing of hours.
 
+use crate::process::hobbing::Hob;
+use crate::process::hobbing::hob::HobEnd;
 use gearcut_core::cut::sweep_chips::PassChip;
 use gearcut_core::passes::TurningPasses;
 
 /// Teeth with less than this share of the hardest working tooth's volume are not called in use.
 const IN_USE: f64 = 0.01;
+/// A tooth at an end of the hob takes the share of teeth that are not there if its thickest chip is so many times that
+/// of the tooth beside it: a choice. From tooth to tooth inside the hob chips differ by tenths.
+const OVER_ITS_NEIGHBOUR: f64 = 2.0;
 
 /// What a tooth took.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -65,6 +70,13 @@ impl OperationLoad {
     /// Index of the tooth with the largest value.
     pub fn peak(&self, value: impl Fn(&ToothLoad) -> f64) -> Option<usize> {
         (0..self.teeth.len()).max_by(|&a, &b| value(&self.teeth[a]).total_cmp(&value(&self.teeth[b])))
+    }
+
+    /// The end of the hob at which a tooth takes the share of teeth that are not there, if it does.
+    pub fn end_that_is_missed(&self, hob: &Hob, tooth: usize) -> Option<HobEnd> {
+        let (end, beside) = hob.end_at(tooth)?;
+        let [own_mm, beside_mm] = [tooth, beside].map(|of| self.teeth[of].thickness_mm);
+        (own_mm > OVER_ITS_NEIGHBOUR * beside_mm).then_some(end)
     }
 
     /// Teeth that take at least a hundredth of what the hardest working one takes.
