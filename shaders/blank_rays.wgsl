@@ -9,9 +9,9 @@
 // radius to an end that its ray meets at 45 degrees or steeper.
 //
 // An outline is a chain of cubics in runs, whose chords bound what it encloses on a ray. Of a hundred pairs of ray and
-// pass a few find material within the bounds; only they go round the pieces of the runs near the ray, with places across
-// it: a piece that turns back there is split at its turning point. Neighbours share the bits of their node, so that
-// crossings come in pairs, whatever rounding does.
+// pass a few find material within the bounds; only they go round the pieces of the runs near the ray, with places
+// across it: a piece that turns back there is split at its turning point. Neighbours share the bits of their node, so
+// that crossings come in pairs, whatever rounding does.
 
 @group(0) @binding(0) var<uniform> launch: BlankLaunch;
 @group(0) @binding(1) var<storage, read> tiles: array<BlankTile>;
@@ -244,7 +244,8 @@ fn blank_rays(
                     var found = select(0u, 1u, start_below != end_below);
                     if rate_from * rate_to < 0.0 {
                         let run = end - start;
-                        let middle_below = cubic(start, run, rate_from, rate_to, turning(run, rate_from, rate_to)) <= 0.0;
+                        let turn = turning(run, rate_from, rate_to);
+                        let middle_below = cubic(start, run, rate_from, rate_to, turn) <= 0.0;
                         parts = select(vec2(2u, 2u), vec2(1u, 2u), start_below != middle_below);
                         found = select(0u, 1u, start_below != middle_below) + select(0u, 1u, middle_below != end_below);
                     }
