@@ -40,7 +40,8 @@ notices! {
         "stopped by Ctrl-C: figures cover the finished flanks only"; "Let the run end, or cut with --draft."
     /// Numbers are those of a coarse cut.
     Draft: Note "cut.draft", "howto.md", (),
-        "a draft: dexels 8, rays and cells of maps 4 times as far apart; deviations, chips and texture are rough";
+        "a draft: dexels 8, rays and cells of maps 4 times as far apart; deviations, chips and texture are rough, and \
+         largest forces and powers of hob teeth come out too high";
         "Cut without --draft for numbers that count."
     /// Part of the flanks is still the blank, and no number covers it.
     Untouched: Warning "flank.uncut", "hobbing.md", (dexels, why),

@@ -10,6 +10,11 @@ use crate::findings::rows;
 pub const ISO_1328: &str = "ISO 1328-1:2013";
 /// No figure of a trace.
 pub const NO_TRACE: &str = "a dexel of the evaluated trace was reached by no pass";
+/// No figure of a trace on a coarse grid.
+pub const FEW_DEXELS: &str = "fewer than three dexels lie on the evaluated trace: make fields.flank.profile_spacing_um \
+     (profiles) or fields.flank.lead_spacing_um (helices) smaller";
+/// Why a trace has no figure.
+const TRACE: &[&str] = &[NO_TRACE, FEW_DEXELS, BELOW_RANGE, NOT_CUT];
 /// No height of the evaluated part.
 pub const UNREACHED: &str = "a dexel of every evaluated part was reached by no pass";
 /// No lowest height.
@@ -40,21 +45,21 @@ rows! {
         => or(&[UNREACHED, BELOW_RANGE]);
     F_ALPHA: "F_alpha", "um",
         "total profile deviation: range of the normal deviations along the evaluated profile, middle of the face"
-        => titled("profile deviation F_alpha"), symbol("F_α"), source(ISO_1328), or(&[NO_TRACE, BELOW_RANGE, NOT_CUT]);
+        => titled("profile deviation F_alpha"), symbol("F_α"), source(ISO_1328), or(TRACE);
     F_H_ALPHA: "f_H_alpha", "um",
         "profile slope deviation: rise of the profile's mean line over the roll of the evaluated profile, positive \
         towards the tip; bevel gears: over its arc"
-        => titled("profile slope f_H_alpha"), symbol("f_Hα"), source(ISO_1328), or(&[NO_TRACE, BELOW_RANGE, NOT_CUT]);
+        => titled("profile slope f_H_alpha"), symbol("f_Hα"), source(ISO_1328), or(TRACE);
     F_F_ALPHA: "f_f_alpha", "um", "profile form deviation: range of the normal deviations about the profile's mean line"
-        => titled("profile form f_f_alpha"), symbol("f_fα"), source(ISO_1328), or(&[NO_TRACE, BELOW_RANGE, NOT_CUT]);
+        => titled("profile form f_f_alpha"), symbol("f_fα"), source(ISO_1328), or(TRACE);
     F_BETA: "F_beta", "um",
         "total helix deviation: range of the normal deviations along the tooth, at the pitch curve or in the middle of \
          the profile"
-        => titled("helix deviation F_beta"), symbol("F_β"), source(ISO_1328), or(&[NO_TRACE, BELOW_RANGE, NOT_CUT]);
+        => titled("helix deviation F_beta"), symbol("F_β"), source(ISO_1328), or(TRACE);
     F_H_BETA: "f_H_beta", "um", "helix slope deviation: rise of the helix's mean line over the evaluated face"
-        => titled("helix slope f_H_beta"), symbol("f_Hβ"), source(ISO_1328), or(&[NO_TRACE, BELOW_RANGE, NOT_CUT]);
+        => titled("helix slope f_H_beta"), symbol("f_Hβ"), source(ISO_1328), or(TRACE);
     F_F_BETA: "f_f_beta", "um", "helix form deviation: range of the normal deviations about the helix's mean line"
-        => titled("helix form f_f_beta"), symbol("f_fβ"), source(ISO_1328), or(&[NO_TRACE, BELOW_RANGE, NOT_CUT]);
+        => titled("helix form f_f_beta"), symbol("f_fβ"), source(ISO_1328), or(TRACE);
     LOWEST_DEVIATION: "lowest_deviation", "um",
         "smallest normal deviation of the finished surface on the evaluated part"
         => or(&[UNREACHED, BELOW_RANGE, NOT_CUT]);

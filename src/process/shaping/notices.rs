@@ -174,14 +174,13 @@ notices! {
          face): "
         + "take thinner chips or a narrower face, or make the machine stiffer or better damped"
     /// A step on the last flank counts as a form and pitch deviation.
-    ClosingStep: Warning "measure.closing_step", "errors.md", (operation, tooth, side, step_um, way),
+    ClosingStep: Warning "measure.closing_step", "errors.md", (operation, tooth, side, step_um, way, causes),
         "operation {operation}: where its end meets its beginning, on tooth {tooth} {side}, the later strokes lie \
          {step_um} um {way} the earlier ones: "
-        + "see runout_um and pitch_errors_um of the cutter, which cuts there with another tooth than a turn before, \
-           machine.errors and machine.compliance; where all are left out, try finer dexels"
+        + "see {causes}"
     /// The largest pitch deviation says nothing of the indexing there.
-    ClosingPitch: Note "measure.closing_pitch", "errors.md", (single_um, before, tooth, side, operation),
+    ClosingPitch: Note "measure.closing_pitch", "errors.md", (single_um, before, tooth, side, operation, causes),
         "the largest f_p, {single_um} um from tooth {before} to tooth {tooth} {side}, is measured where operation \
-         {operation} closes: it is what drifted during a turn, and no error of pitch of the machine";
+         {operation} closes, and is no error of pitch of the machine: see {causes}";
         "Judge the indexing by the other pitches."
 }

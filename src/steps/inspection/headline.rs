@@ -10,8 +10,8 @@ use crate::findings::quantities::cutting::{
     AXIS_MARGIN, CANDIDATES, CYCLE_TIME, LARGEST_FORCE, NO_LIMITS, REMOVAL_RATE, REMOVED_VOLUME, STOPPED, THICKEST_CHIP,
 };
 use crate::findings::quantities::flanks::{
-    BELOW_RANGE, DEEPEST_CUT, HIGHEST_DEVIATION, LARGEST_STOCK, NO_STOCK, NO_TRACE, SINGLE, SMALLEST_STOCK, UNREACHED,
-    UNTOUCHED_DEXELS,
+    BELOW_RANGE, DEEPEST_CUT, FEW_DEXELS, HIGHEST_DEVIATION, LARGEST_STOCK, NO_STOCK, NO_TRACE, SINGLE, SMALLEST_STOCK,
+    UNREACHED, UNTOUCHED_DEXELS,
 };
 use crate::findings::quantities::inspection::{CLASS_REACHED, LARGEST_OF_LIMIT};
 use crate::findings::quantities::teeth::{
@@ -147,19 +147,21 @@ fn deviations<Own: FlankSurface>(flanks: &[InspectedFlank<Own>]) -> [Entry; 2] {
 }
 
 /// Figures of profiles and helices: the worst of each, slopes with their sign.
-fn traces<Own>(flanks: &[InspectedFlank<Own>]) -> Vec<Entry> {
+fn traces<Own: FlankSurface>(flanks: &[InspectedFlank<Own>]) -> Vec<Entry> {
+    let is_whole = |flank: &InspectedFlank<Own>| flank.untouched == 0 && !flank.own.is_lost();
+    let why = if !flanks.is_empty() && flanks.iter().all(is_whole) { FEW_DEXELS } else { NO_TRACE };
     let along_profile = PROFILE.map(|(row, value)| {
         let found = worst(flanks, f64::abs, |flank| {
             let arc_mm = 0.5 * (flank.evaluated_mm[0] + flank.evaluated_mm[1]);
             Some(Extreme { value_mm: value(flank.profile.as_ref()?), arc_mm, z_mm: flank.lines.profile_v_mm })
         });
-        entry(row, UM_PER_MM, found, NO_TRACE)
+        entry(row, UM_PER_MM, found, why)
     });
     let along_tooth = HELIX.map(|(row, value)| {
         let found = worst(flanks, f64::abs, |flank| {
             Some(Extreme { value_mm: value(flank.lead.as_ref()?), arc_mm: flank.lines.lead_arc_mm, z_mm: 0.0 })
         });
-        entry(row, UM_PER_MM, found, NO_TRACE)
+        entry(row, UM_PER_MM, found, why)
     });
     along_profile.into_iter().chain(along_tooth).collect()
 }

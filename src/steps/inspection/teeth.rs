@@ -4,7 +4,7 @@
 //! the table `teeth.flanks`; the process adds its own.
 
 use crate::findings::quantities::flanks::{
-    BELOW_RANGE, EVALUATED_FROM, EVALUATED_TO, F_ALPHA, F_BETA, F_F_ALPHA, F_F_BETA, F_H_ALPHA, F_H_BETA,
+    BELOW_RANGE, EVALUATED_FROM, EVALUATED_TO, F_ALPHA, F_BETA, F_F_ALPHA, F_F_BETA, F_H_ALPHA, F_H_BETA, FEW_DEXELS,
     HIGHEST_DEVIATION, LOWEST_DEVIATION, NO_TRACE, NOT_CUT, STOCK_LARGEST, STOCK_MEAN, STOCK_SMALLEST, UNREACHED,
     UNTOUCHED_DEXELS,
 };
@@ -61,8 +61,9 @@ pub fn flank<Own: FlankSurface>(flank: Option<&InspectedFlank<Own>>) -> Vec<Entr
         Some((flank, of)) => row.of(of.value_mm * UM_PER_MM).at(place(flank, &of)),
         None => row.none(why(UNREACHED)),
     };
+    let no_trace = if flank.is_some_and(|of| of.untouched == 0) { FEW_DEXELS } else { NO_TRACE };
     let figure = |of: Option<&TraceDeviation>, (row, value): (&QuantityRow, fn(&TraceDeviation) -> f64)| {
-        row.of_or(of.map(|of| value(of) * UM_PER_MM), why(NO_TRACE))
+        row.of_or(of.map(|of| value(of) * UM_PER_MM), why(no_trace))
     };
     let (profile, helix) = (flank.and_then(|of| of.profile.as_ref()), flank.and_then(|of| of.lead.as_ref()));
     let mut entries = vec![

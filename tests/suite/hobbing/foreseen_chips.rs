@@ -4,6 +4,7 @@
 use crate::fixtures::command::{gearcut, read_json};
 use gearcut::cut::cpu::Cpu;
 use gearcut::dexel::{BlankField, BlankGrid};
+use gearcut::process::hobbing::hob::HobEnd;
 use gearcut::process::hobbing::measure::hob_load::OperationLoad;
 use gearcut::process::hobbing::{HobCutter, HobbingJob, foreseen_chips};
 use gearcut::process::load;
@@ -43,6 +44,29 @@ fn the_spur_gears_thickest_chip_is_that_of_the_front_of_points() {
     let cutter = HobCutter::new(&job).expect("passes");
     let chip = foreseen_chips::of(&cutter).expect("they are found")[0].expect("it cuts");
     assert!((chip.thickness_mm / 0.141 - 1.0).abs() < 0.1, "{chip:?}");
+}
+
+/// A hob that ends within the roughing zone: its first tooth takes what teeth of a longer one, or of one that is shifted
+/// to the entering end, share.
+#[test]
+fn a_hob_that_ends_within_the_roughing_zone_is_known_by_its_end_tooth() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("gear.toml");
+    let text = "[gear]\nmodule_mm = 3.0\nteeth = 31\nface_width_mm = 16\nhelix_angle_deg = 40\n\
+                [tool.hob]\nreference_diameter_mm = 80\ngashes = 16\nlength_mm = 63\n\
+                [[operation]]\nname = \"finish\"\naxial_feed_mm_per_revolution = 3\n";
+    std::fs::write(&path, text).expect("a scene");
+    let chip = |setting: &str| {
+        let scene = load(&path, &[setting.to_owned()]).unwrap_or_else(|problems| panic!("{problems}")).scene;
+        let job = HobbingJob::new(&scene).expect("a gear");
+        foreseen_chips::of(&HobCutter::new(&job).expect("passes")).expect("they are found")[0].expect("it cuts")
+    };
+    let short = chip("tool.hob.length_mm=63");
+    assert!((short.tooth, short.missed_end) == (0, Some(HobEnd::Entering)) && short.thickness_mm > 1.0, "{short:?}");
+    for way_out in ["tool.hob.length_mm=100", "operation.finish.shift_start_mm=15"] {
+        let chip = chip(way_out);
+        assert!(chip.missed_end.is_none() && chip.thickness_mm < 0.2 * short.thickness_mm, "{way_out}: {chip:?}");
+    }
 }
 
 mod slow {

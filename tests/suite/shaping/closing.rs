@@ -18,9 +18,13 @@ fn cut(setting: &str) -> Value {
 }
 
 fn cut_with(settings: &[&str]) -> Value {
+    cut_scene(SCENE, settings)
+}
+
+fn cut_scene(text: &str, settings: &[&str]) -> Value {
     let folder = tempfile::tempdir().expect("a folder");
     let path = |name: &str| folder.path().join(name).to_str().expect("a path").to_owned();
-    fs::write(path("gear.toml"), SCENE).expect("a scene");
+    fs::write(path("gear.toml"), text).expect("a scene");
     let (scene, out) = (path("gear.toml"), path("out"));
     let mut words = vec!["cut", &scene, "--out", &out, "--only", "numbers", "--quiet", "--backend", "cpu"];
     words.extend(settings.iter().flat_map(|setting| ["--set", setting]));
@@ -80,4 +84,31 @@ fn a_cutter_off_its_axis_leaves_its_step_where_the_turn_closes() {
         assert!(warnings.contains("runout_um and pitch_errors_um of the cutter"), "{warnings}");
     }
     assert!((steps_um[0] - steps_um[1]).abs() < 0.1, "{steps_um:?} um");
+}
+
+/// On a sound machine 200 strokes for 17 teeth come round between those of the turn before: the largest f_p is measured
+/// there, and neither drift nor cutter is blamed. With twelve strokes per tooth teeth are alike.
+#[test]
+fn strokes_per_tooth_that_are_not_whole_are_named_as_such() {
+    let scene = "[gear]\nmodule_mm = 2.0\nteeth = 17\nhelix_angle_deg = 22.0\nhand = \"left\"\n\
+                 profile_shift_coefficient = 0.3\ntooth_thickness_allowance_mm = -0.05\nface_width_mm = 10.0\n\
+                 bore_diameter_mm = 10\n[tool.shaper_cutter]\nteeth = 25\n[[operation]]\nname = \"finish\"\n\
+                 strokes_per_revolution = 200\n[operation.infeed.spiral]\n";
+    let strokes = |count: u32| {
+        cut_scene(scene, &[&format!("operation.finish.strokes_per_revolution={count}")])["warnings"].to_string()
+    };
+    let broken = strokes(200);
+    assert!(broken.contains("200 for 17 teeth are no whole number per tooth"), "{broken}");
+    assert!(!broken.contains("runout_um") && !broken.contains("machine.errors"), "{broken}");
+    assert!(!strokes(204).contains("closes"));
+}
+
+/// Two dexels along the tooth make no helix: its figures say that, and not that something was not cut.
+#[test]
+fn too_few_dexels_along_the_tooth_are_named_as_such() {
+    let results = cut("fields.flank.lead_spacing_um=1000");
+    let of_helix = &results["headline"]["F_beta"];
+    assert!(of_helix["value"].is_null(), "{of_helix}");
+    assert!(of_helix["why"].to_string().contains("fewer than three dexels"), "{of_helix}");
+    assert_eq!(results["headline"]["untouched_dexels"]["value"], 0);
 }
