@@ -4,6 +4,7 @@
 //!
 //! - `notices`: what shaping warns of
 //! - [`quantities`]: what only it finds
+//! - `round_mesh`: how the depth of the cutter goes with the thickness of round gears' teeth
 //! - [`scene`]: what its scenes may say
 //! - [`linkage`]: from a parameter to axes and poses
 //! - [`tool`]: the cutter and its edges

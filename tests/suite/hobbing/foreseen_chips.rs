@@ -46,8 +46,8 @@ fn the_spur_gears_thickest_chip_is_that_of_the_front_of_points() {
     assert!((chip.thickness_mm / 0.141 - 1.0).abs() < 0.1, "{chip:?}");
 }
 
-/// A hob that ends within the roughing zone: its first tooth takes what teeth of a longer one, or of one that is shifted
-/// to the entering end, share.
+/// A hob that ends within the roughing zone: its first tooth takes what teeth of a longer one share, or of one that is
+/// shifted to the entering end.
 #[test]
 fn a_hob_that_ends_within_the_roughing_zone_is_known_by_its_end_tooth() {
     let folder = tempfile::tempdir().expect("a folder");

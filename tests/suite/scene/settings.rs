@@ -67,7 +67,10 @@ fn settings_reach_the_operation_that_nobody_wrote() {
     let loaded = parse(text, "short.toml", Path::new(""), &settings.map(str::to_owned)).expect("loads");
     let [rough, finish] = shaping(&loaded.scene).operations.as_slice() else { panic!("two operations") };
     assert_eq!((rough.feed, finish.feed), (Feed::StrokesPerRevolution(480), Feed::StrokesPerRevolution(481)));
-    assert!((rough.offset_mm * 20_f64.to_radians().sin() - 0.3).abs() < 1e-12, "{}", rough.offset_mm);
+    // Involutes of the base circles, from 66 mm between the axes on.
+    let (bases_mm, inv) = (66.0 * 20_f64.to_radians().cos(), |angle: f64| angle.tan() - angle);
+    let between_mm = bases_mm * (inv((bases_mm / (66.0 + rough.offset_mm)).acos()) - inv(20_f64.to_radians()));
+    assert!((between_mm - 0.3).abs() < 1e-9, "{between_mm}");
     // A tool that is set chooses what operations the scene has without any.
     let (tool, gear) = ("tool.shaper_cutter.teeth=20".to_owned(), text.split("[tool").next().expect("a gear"));
     let settings = [tool, "operation.rough.strokes_per_revolution=482".to_owned()];

@@ -61,14 +61,14 @@ pub fn outline_pieces(curve: &impl ClosedCurve, center_mm: DVec2) -> Vec<Outline
 
 /// Neighbouring pieces of an outline that lie near one chord: the kernel goes round runs, and only where one may meet a
 /// ray with material on it round its pieces.
-struct Run {
+struct OutlineRun {
     first: usize,
     pieces: u32,
     /// Distance from the run's chord at most, mm.
     reach_mm: f64,
 }
 
-impl Run {
+impl OutlineRun {
     fn record(&self, rounding_mm: f64) -> u32 {
         // Upwards.
         ((((self.reach_mm + rounding_mm) as f32).next_up().to_bits() + RUN_PIECES) & !RUN_PIECES) | self.pieces
@@ -76,7 +76,7 @@ impl Run {
 }
 
 /// The runs of a curve: each as long as all of it lies within [`RUN_REACH_MM`] of its chord.
-fn runs(curve: &impl ClosedCurve) -> Vec<Run> {
+fn runs(curve: &impl ClosedCurve) -> Vec<OutlineRun> {
     let pieces = curve.pieces();
     let node_mm = |index: usize| curve.node_mm(index % pieces.len());
     // A piece lies within its sagitta of its chord, a chord as near to the run's as its ends.
@@ -85,7 +85,7 @@ fn runs(curve: &impl ClosedCurve) -> Vec<Run> {
         let nodes_mm = (run.start + 1..run.end).map(|index| distance_mm(node_mm(index), chord)).fold(0.0, f64::max);
         nodes_mm + pieces[run].iter().map(|piece| piece.sagitta_mm).fold(0.0, f64::max)
     };
-    let mut runs: Vec<Run> = Vec::new();
+    let mut runs: Vec<OutlineRun> = Vec::new();
     for index in 0..pieces.len() {
         if let Some(run) = runs.last_mut() {
             let longer_mm = reach_mm(run.first..index + 1);
@@ -94,7 +94,7 @@ fn runs(curve: &impl ClosedCurve) -> Vec<Run> {
                 continue;
             }
         }
-        runs.push(Run { first: index, pieces: 1, reach_mm: reach_mm(index..index + 1) });
+        runs.push(OutlineRun { first: index, pieces: 1, reach_mm: reach_mm(index..index + 1) });
     }
     runs
 }

@@ -6,7 +6,7 @@ use super::keys::{
     VIBRATION_PATH, WEAR,
 };
 use super::model::guide_hand;
-use super::stock::{self, Limit};
+use super::stock::{self, StockLimit};
 use crate::scene::build::sector_deg;
 use crate::scene::drawn_profile;
 use crate::scene::keys::join;
@@ -297,8 +297,8 @@ fn offset(found: &mut Found, index: usize, path: &str) -> Option<()> {
         && let Some(limit) = stock::limit(found.values, index)
     {
         let (beyond, end) = match limit {
-            Limit::Most(most_mm) => (stock_mm >= most_mm, format!("less than {most_mm:.3} mm")),
-            Limit::Least(least_mm) => (stock_mm <= least_mm, format!("more than {least_mm:.3} mm")),
+            StockLimit::Most(most_mm) => (stock_mm >= most_mm, format!("less than {most_mm:.3} mm")),
+            StockLimit::Least(least_mm) => (stock_mm <= least_mm, format!("more than {least_mm:.3} mm")),
         };
         let message = || format!("no depth of the cutter makes a stock of {stock_mm} mm on each flank");
         found.blame(beyond, &join(path, "stock_per_flank_mm"), message, &format!("take {end}"));

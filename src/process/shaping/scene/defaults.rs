@@ -10,7 +10,7 @@
 //!
 //! Road not taken: a spiral where the scene gives a window. A window shows a piece of a cut that is under way.
 
-use super::stock::offset_mm;
+use super::stock::{offset_mm, teeth_per_turn};
 use crate::scene::build::sector_deg;
 use crate::scene::values::{Checked, Values};
 use gearcut_core::units::UM_PER_MM;
@@ -52,14 +52,6 @@ pub(super) fn derive(values: &mut Values) {
         let _: Option<()> = infeed(values, index);
         values.put_if_missing(&path, "overlap_deg", Checked::Number(0.0));
     }
-}
-
-/// Teeth that a whole turn has room for: strokes are counted over a turn.
-pub(super) fn teeth_per_turn(values: &Values) -> Option<u32> {
-    let teeth = values.view("gear").whole("teeth")?;
-    let Some([from_deg, to_deg]) = sector_deg(values) else { return Some(teeth) };
-    let turns = (to_deg - from_deg) / 360.0;
-    Some(if turns > 0.0 { (f64::from(teeth) / turns).ceil().min(1e6) as u32 } else { teeth })
 }
 
 /// How deep the cutter reaches into the blank at offset 0, mm.

@@ -9,7 +9,6 @@
 //! a cutter of 12 teeth cuts. On other gears, and with drawn teeth, the stock varies along the gear; that law holds
 //! there, at the working pressure angle of the round gear with as many teeth.
 
-use super::defaults::teeth_per_turn;
 use super::keys::PROFILE;
 use crate::process::shaping::round_mesh::RoundMesh;
 use crate::scene::build::sector_deg;
@@ -17,7 +16,7 @@ use crate::scene::values::Values;
 use gearcut_core::gear::GearKind;
 
 /// The stock beyond which no depth of the cutter gives it, normal to the flank, mm.
-pub(super) enum Limit {
+pub(super) enum StockLimit {
     /// Less is left by some depth.
     Most(f64),
     /// More is left by some depth.
@@ -48,11 +47,11 @@ pub(super) fn offset_mm(values: &Values, index: usize) -> Option<f64> {
 }
 
 /// The end of what an operation can leave; `None` where there is none.
-pub(super) fn limit(values: &Values, index: usize) -> Option<Limit> {
+pub(super) fn limit(values: &Values, index: usize) -> Option<StockLimit> {
     let finished = Finished::of(values, index)?;
     let mesh = &finished.mesh;
     let room_mm = mesh.room_mm(finished.working_rad.filter(|_| finished.is_round)?) / finished.thickness_of_stock;
-    Some(if mesh.thickens_to_limit() { Limit::Most(room_mm) } else { Limit::Least(-room_mm) })
+    Some(if mesh.thickens_to_limit() { StockLimit::Most(room_mm) } else { StockLimit::Least(-room_mm) })
 }
 
 impl Finished {
@@ -97,4 +96,12 @@ impl Finished {
         let steeper = self.working_rad.unwrap_or(transverse_rad).sin() / transverse_rad.sin();
         self.depth_mm + exact.unwrap_or_else(|| stock_mm / (normal_rad.sin() * steeper))
     }
+}
+
+/// Teeth that a whole turn has room for: strokes are counted over a turn.
+pub(super) fn teeth_per_turn(values: &Values) -> Option<u32> {
+    let teeth = values.view("gear").whole("teeth")?;
+    let Some([from_deg, to_deg]) = sector_deg(values) else { return Some(teeth) };
+    let turns = (to_deg - from_deg) / 360.0;
+    Some(if turns > 0.0 { (f64::from(teeth) / turns).ceil().min(1e6) as u32 } else { teeth })
 }
