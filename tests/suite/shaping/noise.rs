@@ -176,6 +176,7 @@ fn scatter_of_stock_stands_on_the_flank_and_in_the_chip() {
         let thickness = layers[0].heights_mm.iter().zip(&layers[1].heights_mm);
         thickness.map(|(rough, fine)| f64::from(rough - fine)).collect::<Vec<f64>>()
     };
+    let distance_mm = 66.0 + even.operations[0].spec.offset_mm;
     let (even, scattered) = (stock(&even), stock(&scattered));
     let changes: Vec<f64> = even.iter().zip(&scattered).map(|(even, scattered)| scattered - even).collect();
     let mean = even.iter().sum::<f64>() / even.len() as f64;
@@ -186,8 +187,9 @@ fn scatter_of_stock_stands_on_the_flank_and_in_the_chip() {
     );
     // Involutes at a distance of a' instead of a = 66 mm, the teeth turned as before: half the backlash of a pair.
     let inv = |angle: f64| angle.tan() - angle;
-    let working = (66.0 * ALPHA_RAD.cos() / (66.0 + 0.2 / ALPHA_RAD.sin())).acos();
+    let working = (66.0 * ALPHA_RAD.cos() / distance_mm).acos();
     let by_hand_mm = 66.0 * ALPHA_RAD.cos() * (inv(working) - inv(ALPHA_RAD));
+    assert!((by_hand_mm - 0.2).abs() < 1e-9, "{by_hand_mm} mm at {distance_mm} mm");
     assert!((mean - by_hand_mm).abs() < 2e-5, "stock of {mean} mm for {by_hand_mm}");
     // The radial shift acts at the working pressure angle. Of 300 strokes: sqrt(2 / 300) = 8 %, three times that.
     let gain = (working.sin() / ALPHA_RAD.sin()).powi(2);
