@@ -208,7 +208,7 @@ fn blank_rays(
         let center_mm = f32(center.x) * launch.mm_per_unit;
         let shape = passes[pass_index];
 
-        // Between these places lies whatever the outline encloses on the ray.
+        // What the outline encloses on the ray lies between these places.
         var low_mm = 1e30;
         var high_mm = -1e30;
         for (var r = 0u; r < shape.piece_count; r += run_pieces(shape, r)) {

@@ -59,7 +59,7 @@ pub(super) fn print(axes: &OperationAxes, sheet: &mut Sheet) {
     } else {
         format!("on the {flank} flank at polar angle {:.2} deg", relief.phi_rad.to_degrees())
     };
-    let reference = if round { "that at full depth" } else { "a circular gear's" };
+    let reference = if round { "that where the pitch circles touch" } else { "a circular gear's" };
     sheet.line(
         "smallest relief",
         format!(
