@@ -133,6 +133,9 @@ impl NativeJob {
                 Ok((folder, ..)) if raised.is_instance_of::<PyKeyboardInterrupt>(py) => {
                     PyKeyboardInterrupt::new_err(format!("what is finished is in {}", folder.display()))
                 }
+                Err(Error::Interrupted) if raised.is_instance_of::<PyKeyboardInterrupt>(py) => {
+                    PyKeyboardInterrupt::new_err("no flank is finished, nothing is written")
+                }
                 _ => raised,
             });
         }

@@ -31,11 +31,16 @@ pub fn waited<T: Send>(py: Python<'_>, interrupt: &Interrupt, work: impl FnOnce(
             let waited = bell.wait_timeout_while(guard, SIGNALS_EVERY, |ended| !*ended);
             *waited.unwrap_or_else(PoisonError::into_inner).0
         };
-        // A worker that panics ends without the bell.
-        while !py.detach(wait) && !worker.is_finished() {
+        loop {
+            // A worker that panics ends without the bell.
+            let ended = py.detach(wait) || worker.is_finished();
+            // Also once the work has ended: a signal of its last moments belongs to it.
             if let Err(signal) = py.check_signals() {
                 interrupt.raise();
                 raised.get_or_insert(signal);
+            }
+            if ended {
+                break;
             }
         }
         py.detach(|| worker.join())

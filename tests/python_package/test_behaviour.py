@@ -3,6 +3,7 @@
 import os
 import signal
 import threading
+import time
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -81,15 +82,21 @@ def test_arrays_are_those_that_gearcut_filled(gear: dict[str, Any]) -> None:
 def test_ctrl_c_ends_a_cut_and_keeps_what_is_finished(gear: dict[str, Any], tmp_path: Path) -> None:
     # Programs that a shell starts in the background ignore the signal.
     signal.signal(signal.SIGINT, signal.default_int_handler)
-    pressed: list[Mapping[str, Any]] = []
 
-    def press(event: Mapping[str, Any]) -> None:
-        if event["event"] == "step_finished" and not pressed:
-            pressed.append(event)
-            os.kill(os.getpid(), signal.SIGINT)
+    def pressed_after(step: str) -> str:
+        def press(event: Mapping[str, Any]) -> None:
+            if (event["event"], event["step"]) == ("step_finished", step):
+                os.kill(os.getpid(), signal.SIGINT)
+                # The work goes on when the main thread has had time for the signal.
+                time.sleep(1.0)
 
-    with pytest.raises(KeyboardInterrupt, match="what is finished is in .*gear.partial"):
-        gearcut.cut(gear, out=tmp_path / "gear", progress=press)
+        with pytest.raises(KeyboardInterrupt) as raised:
+            gearcut.cut(gear, out=tmp_path / "gear", progress=press)
+        return str(raised.value)
+
+    assert pressed_after("chips") == "no flank is finished, nothing is written"
+    assert not list(tmp_path.iterdir())
+    assert "what is finished is in" in (words := pressed_after("cut")) and words.endswith("gear.partial")
     assert not (tmp_path / "gear").exists() and not gearcut.read(tmp_path / "gear.partial").complete
 
 
