@@ -45,7 +45,7 @@ pub fn print(sheet: &mut Sheet, job: &ShapingJob) -> Result<Vec<Notice>> {
     inspection::print(sheet, job)?;
     let other_gear = findings::program::not_of_the_gear(job, &operations);
     teeth::print(sheet, job, &facts, other_gear.is_some());
-    let ring = findings::ring::of_job(job, other_gear.as_deref());
+    let ring = findings::ring::of_job(job, &operations);
     if let Some(ring) = &ring {
         ring::print(sheet, ring, job.blank.addendum_mm);
     }
@@ -54,7 +54,7 @@ pub fn print(sheet: &mut Sheet, job: &ShapingJob) -> Result<Vec<Notice>> {
     }
     returns::print(sheet, job, &operations)?;
     // Before the cost: a cut does it as well.
-    let foreseen = foreseen::foresee(job, &operations, Stages::ALL)?;
+    let foreseen = foreseen::foresee(job, &operations, ring.as_ref(), Stages::ALL)?;
     print_cost(sheet, job)?;
     foreseen::print(sheet, job);
     Ok(foreseen.warnings)

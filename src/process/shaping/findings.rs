@@ -32,7 +32,7 @@ use crate::process::shaping::quantities::PERIOD_TEETH;
 use gearcut_core::error::Refusal;
 use operation::operation;
 
-/// Operations, deviations and teeth; errors of the machine, and what was known of a ring before cutting.
+/// Operations, deviations and teeth; errors of the machine.
 ///
 /// # Errors
 /// A back-off so large that the retraction leads to no pose.
@@ -56,9 +56,5 @@ pub fn sections(
             .table(tables::teeth(&teeth))
             .parts(teeth),
     ];
-    Ok(sections
-        .into_iter()
-        .chain(machine_errors::errors(job))
-        .chain(ring::of_job(job, other_gear.as_deref()))
-        .collect())
+    Ok(sections.into_iter().chain(machine_errors::errors(job)).collect())
 }

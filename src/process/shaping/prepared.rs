@@ -13,7 +13,7 @@ use crate::output::text::Sheet;
 use crate::process::shaping::cut::chips::as_cut;
 use crate::process::shaping::cut::section::CutSection;
 use crate::process::shaping::findings::foreseen::foresee;
-use crate::process::shaping::findings::warnings;
+use crate::process::shaping::findings::{ring, warnings};
 use crate::process::shaping::{ShapingJob, check, run};
 use crate::process::{CutDone, ProcessJob};
 use crate::scene::Scene;
@@ -70,7 +70,9 @@ impl ProcessJob for PreparedShaping {
     }
 
     fn foreseen(&self) -> Result<Vec<Notice>> {
-        Ok(foresee(&self.rigid, &OperationAxes::of_job(&self.rigid), Stages::ALL)?.warnings)
+        let motion = OperationAxes::of_job(&self.rigid);
+        let ring = ring::of_job(&self.rigid, &motion);
+        Ok(foresee(&self.rigid, &motion, ring.as_ref(), Stages::ALL)?.warnings)
     }
 
     fn foreseen_of_shapes(&self) -> Result<Vec<Notice>> {
@@ -91,7 +93,8 @@ impl ProcessJob for PreparedShaping {
 
     fn axes(&self, folder: &OutputFolder, interrupt: &Interrupt, sheet: &mut Sheet) -> Result<Vec<Notice>> {
         let motion = OperationAxes::of_job(&self.rigid);
-        let foreseen = foresee(&self.rigid, &motion, Stages::ALL)?;
+        let ring = ring::of_job(&self.rigid, &motion);
+        let foreseen = foresee(&self.rigid, &motion, ring.as_ref(), Stages::ALL)?;
         axes::command(&motion, foreseen.warnings, folder, interrupt, sheet)
     }
 }

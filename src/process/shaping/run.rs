@@ -41,7 +41,8 @@ pub(super) fn run(job: &ShapingJob, tools: &Tools, frames: Option<u32>) -> Resul
     let Tools { resolved, backend, backend_why, progress, interrupt, folder, parts, stages: wanted, notes } = *tools;
     progress.plan(stages::plan(job, parts, frames, &STAGE_COSTS));
     let motion = OperationAxes::of_job(job);
-    let foreseen = foresee(job, &motion, wanted)?;
+    let ring = findings::ring::of_job(job, &motion);
+    let foreseen = foresee(job, &motion, ring.as_ref(), wanted)?;
     let mut gear = cut_gear(job, wanted, backend, (progress, interrupt), Some((folder, notes, parts)))?;
     if gear.report.flanks.is_empty() {
         return Err(Error::Interrupted);
@@ -65,6 +66,7 @@ pub(super) fn run(job: &ShapingJob, tools: &Tools, frames: Option<u32>) -> Resul
     let worn = cutter_wear::measure(job, &gear.chips).filter(|_| wanted.has(Stage::Chips));
     let wear_chart = worn.as_ref().and_then(|worn| findings::wear::bars(job, worn));
     let mut sections = findings::sections(job, &gear.report, &gear.chips, &motion)?;
+    sections.extend(ring);
     sections.extend(worn.map(|worn| findings::wear::findings(job, &worn)));
     let inspected = Inspected::new(job, &gear.report.flanks, &gear.report.inspection)?;
     let other_gear = findings::program::not_of_the_cut_gear(job, &motion, &gear.report);

@@ -6,8 +6,10 @@ use gearcut::cut::cpu::Cpu;
 use gearcut::dexel::{NO_PASS, Ray, SpatialField};
 use gearcut::math::planar_rays::FAMILIES;
 use gearcut::passes::SweepPlan;
+use gearcut::process::hobbing::measure::offset_curves;
 use gearcut::process::hobbing::{HobCutter, HobbingJob};
 use gearcut::process::load;
+use gearcut::terms::Side;
 use gearcut::units::TURN_RAD;
 use glam::DVec2;
 use std::collections::BTreeSet;
@@ -22,10 +24,10 @@ fn job(scene: &str, sets: &[&str]) -> HobbingJob {
     HobbingJob::new(&loaded.scene).expect("a scene that cuts")
 }
 
-/// Heights that all passes of the last operation leave on rays, mm.
+/// Heights that all passes of the last operation leave on rays, mm, down to half a module.
 fn heights(job: &HobbingJob, rays: &[Ray]) -> Vec<f64> {
     let cutter = HobCutter::new(job).expect("passes");
-    let field = SpatialField::new(rays.len(), 1, -0.5, |column, _| (rays[column], 0.5));
+    let field = SpatialField::new(rays.len(), 1, -0.5 * MODULE_MM, |column, _| (rays[column], 0.5));
     let plan = SweepPlan::brute_force(&field, cutter.operations.last().expect("one"));
     let mut layer = field.blank_layer();
     Cpu::default().cut_spatial(&field, &plan, &mut layer).expect("cuts");
@@ -116,6 +118,25 @@ fn an_involute_hob_at_a_wrong_head_angle_keeps_the_profile_and_loses_thickness()
             assert!((found_um - expected_um).abs() < 0.25);
         }
     }
+}
+
+/// Beyond half a module under the target no ray looks for the surface.
+#[test]
+fn flanks_that_a_head_angle_far_off_cuts_away_have_points_without_values() {
+    let sets = ["gear.face_width_mm=3", "gear.teeth=21", "operation.finish.head_angle_deg=-17.5"];
+    let job = job("circular_helical", &sets);
+    let cutter = HobCutter::new(&job).expect("passes");
+    let points = offset_curves::measure(&cutter, &Cpu::default(), &[(1, Side::Left)]).expect("it can be measured");
+    let lost: Vec<Ray> = points[0]
+        .iter()
+        .filter(|point| point.cut_mm.is_none() && point.along_mm.is_none())
+        .map(|point| {
+            let frame = job.curve.frame(job.curve.phi_at_arc(point.target.foot_arc_mm));
+            Ray { origin_mm: point.target.point_mm.extend(0.0), normal: frame.tangent.extend(0.0) }
+        })
+        .collect();
+    assert!(!lost.is_empty());
+    assert_eq!(heights(&job, &lost), vec![-0.5 * MODULE_MM; lost.len()]);
 }
 
 #[test]

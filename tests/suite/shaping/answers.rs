@@ -5,6 +5,7 @@ use crate::fixtures::expected::number;
 use crate::fixtures::json_schema::assert_is_results;
 use gearcut::process::load;
 use gearcut::process::shaping::ShapingJob;
+use gearcut::process::shaping::axes_report::OperationAxes;
 use gearcut::process::shaping::findings::{returns, ring};
 use std::path::Path;
 
@@ -17,7 +18,7 @@ fn shipped(name: &str) -> ShapingJob {
 #[test]
 fn check_answers_what_is_asked_of_a_ring() {
     let job = shipped("internal_pair_ring");
-    let section = ring::of_job(&job, None).expect("a ring");
+    let section = ring::of_job(&job, &OperationAxes::of_job(&job)).expect("a ring");
     let table = section.table_at("teeth").expect("a table");
     assert_eq!(table.len(), 34, "the curve repeats after 34 teeth");
     for (key, column) in [

@@ -6,6 +6,7 @@ use gearcut::cut::cpu::Cpu;
 use gearcut::drawn_tooth::drawn_words;
 use gearcut::process;
 use gearcut::process::shaping::ShapingJob;
+use gearcut::process::shaping::axes_report::OperationAxes;
 use gearcut::process::shaping::findings::ring;
 use gearcut::process::shaping::gear::ring::{RingFacts, corners_of_any_edge};
 use gearcut::process::shaping::target::{FlankEnd, TargetFlank};
@@ -142,7 +143,7 @@ fn tip_corners_of_points_come_as_near_to_a_ring_as_the_analytic_ones() {
         for [ours_mm, theirs_mm] in [rooms_mm, depths_mm] {
             assert!((ours_mm - theirs_mm).abs() < 5.0 * TOLERANCE_MM, "{teeth}: {ours_mm}, {theirs_mm}");
         }
-        let said = ring::of_job(&drawn, None).expect("a ring");
+        let said = ring::of_job(&drawn, &OperationAxes::of_job(&drawn)).expect("a ring");
         assert_eq!(ring::warnings(&said, 0.01).len(), usize::from(cuts) + usize::from(trims), "{teeth}");
     }
 }

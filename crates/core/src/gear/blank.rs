@@ -43,16 +43,22 @@ impl Blank {
     /// Blank of an external gear without a bore, its outline `addendum_mm` outside the pitch curve.
     ///
     /// # Errors
-    /// A hollow of the pitch curve that is tighter than the addendum: the outline would cross itself.
+    /// A hollow of the pitch curve that is tighter than the addendum, or a bulge tighter than a negative one: the
+    /// outline would cross itself.
     pub fn new(curve: Arc<PitchCurve>, addendum_mm: f64) -> Result<Self, Refusal> {
-        let tightest = curve.facts().curvature_extrema.iter().map(|e| e.curvature_per_mm).fold(f64::INFINITY, f64::min);
-        if tightest * addendum_mm <= -1.0 {
+        // Moved outwards the outline crosses itself in a hollow, moved inwards (a profile shift below -1) where the
+        // curve bulges most; a circle has no extrema of its curvature, and both of these.
+        let facts = curve.facts();
+        let inwards = addendum_mm < 0.0;
+        let sharpest = if inwards { facts.largest_curvature } else { facts.smallest_curvature }.curvature_per_mm;
+        if sharpest * addendum_mm <= -1.0 {
+            let (way, place) = if inwards { ("inside", "bulge") } else { ("outside", "hollow") };
             return Err(Refusal::new(
                 parameter::ADDENDUM,
                 format!(
-                    "the blank's outline, {addendum_mm} mm outside the pitch curve, crosses itself in a hollow of \
-                    radius {:.3} mm",
-                    -1.0 / tightest
+                    "the blank's outline, {} mm {way} the pitch curve, crosses itself in a {place} of radius {:.3} mm",
+                    addendum_mm.abs(),
+                    1.0 / sharpest.abs()
                 ),
                 "use a smaller addendum or module, or a pitch curve with a wider hollow",
             ));
@@ -239,6 +245,20 @@ mod tests {
         let blank = Blank::new(Arc::new(circle), 2.0).unwrap();
         let (height, foot) = blank.height(DVec2::new(1e-14, 0.0), 1.0);
         assert!((height + radius_mm).abs() < 1e-9 && foot.is_finite(), "{height} at {foot}");
+    }
+
+    /// A profile shift below -1 has the tips inside the pitch circle.
+    #[test]
+    fn tips_may_lie_inside_the_pitch_curve_up_to_its_bulges() {
+        for (curve, is_round) in examples().into_iter().zip([true].into_iter().chain(std::iter::repeat(false))) {
+            let curve = Arc::new(curve);
+            let bulge_mm = 1.0 / curve.facts().largest_curvature.curvature_per_mm;
+            let inside = Blank::new(curve.clone(), -0.9 * bulge_mm).unwrap();
+            let height_mm = inside.height(inside.outline_mm(1.0), 1.0).0;
+            assert!(!is_round || (height_mm + 0.9 * bulge_mm).abs() < 1e-9, "{height_mm}");
+            let refused = Blank::new(curve, -1.1 * bulge_mm).unwrap_err().problem;
+            assert!(refused.contains("inside the pitch curve, crosses itself in a bulge"), "{refused}");
+        }
     }
 
     #[test]

@@ -7,6 +7,10 @@
 //! `4.9 m z^(9.25e-3 beta - 0.542) e^(-0.015 beta - 0.015 x) (r_a0 / m)^(-8.25e-3 beta - 0.225) (i / z_0)^-0.877
 //! (f_a / m)^0.511 (a_p / m)^0.319`
 //!
+//! That beta is in degrees is read from its terms: in radians none of them would change a thickness by more than a
+//! hundredth, while here between 0 and 30 deg the exponent of z goes from -0.52 to -0.42 and that of r_a0 from -0.16 to
+//! -0.31 in cuts of `m` 3 mm, half as far as by the formula.
+//!
 //! It was fitted to chips of standard racks on round gears, so that it stands beside what the run finds and decides
 //! nothing.
 

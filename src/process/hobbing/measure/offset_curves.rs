@@ -21,7 +21,7 @@ use crate::process::hobbing::rack_generation::{ProfileCrossing, ProfilePart};
 use crate::process::hobbing::{HobCutter, HobbingJob};
 use gearcut_core::cut::{Backend, CutLayers};
 use gearcut_core::dexel::{Layer, NO_PASS, Ray, SpatialField};
-use gearcut_core::error::{NotConverged, Result};
+use gearcut_core::error::Result;
 use gearcut_core::terms::Side;
 use glam::DVec2;
 use rayon::prelude::*;
@@ -38,7 +38,7 @@ const SHARES: [f64; 5] = [-1.0, -0.5, 0.0, 0.5, 1.0];
 /// A ray along the tangent leaves its curve by d^2 / (2 rho). Where the surface was found so far away that this is
 /// more, mm, it is cut again there.
 const BEND_MM: f64 = 1e-6;
-/// Rounds at most: each leaves the square of the distance before it, so that more are an error.
+/// Rounds at most: each leaves the square of the distance before it, so that more lead nowhere.
 const ROUNDS: u32 = 4;
 /// How far below the target a ray records cuts, modules.
 const DEPTH_MODULES: f64 = 0.5;
@@ -52,7 +52,8 @@ pub struct CurvePoint {
     pub offset_mm: f64,
     /// Where the target crosses it.
     pub target: ProfileCrossing,
-    /// Where the surface as cut crosses it, gear frame, mm; `None` where no pass came near.
+    /// Where the surface as cut crosses it, gear frame, mm; `None` where no pass came near, or it is so far off that no
+    /// ray leads to it.
     pub cut_mm: Option<DVec2>,
     /// Distance along the curve from the target to the surface, mm, positive where material is left.
     pub along_mm: Option<f64>,
@@ -79,26 +80,18 @@ pub fn offsets_mm(job: &HobbingJob) -> Vec<f64> {
     SHARES.into_iter().map(offset_mm).filter(|&mm| -depth_mm < mm && mm < height_mm).collect()
 }
 
-/// Points of some flanks, cut together; curves that do not cross a flank are left out.
+/// Points of some flanks, cut together; curves that do not cross a flank are left out. A point that is still far from
+/// its ray after all rounds has no value: a flank as wrong as that does not cross the curve there.
 ///
 /// # Errors
-/// The backend's; a point that is still further than that from its ray after all rounds.
+/// The backend's.
 pub fn measure(cutter: &HobCutter, backend: &dyn Backend, flanks: &[(u32, Side)]) -> Result<Vec<Vec<CurvePoint>>> {
     let mut flanks: Vec<OpenPoints> =
         flanks.par_iter().map(|&(tooth, side)| OpenPoints::new(cutter, tooth, side)).collect();
-    for round in 0.. {
+    for _ in 0..ROUNDS {
         let mut open: Vec<&mut OpenPoints> = flanks.iter_mut().filter(|flank| !flank.open.is_empty()).collect();
-        let Some(first) = open.first() else { break };
-        if round == ROUNDS {
-            // The bend is what is still missing; where the ray stood last is told by the first point that is open.
-            return Err(NotConverged {
-                what: "the surface as cut on a curve beside the pitch curve",
-                after: ROUNDS,
-                last: first.arcs_mm[first.open[0]],
-                last_step: first.farthest_mm,
-                residual: BEND_MM,
-            }
-            .into());
+        if open.is_empty() {
+            break;
         }
         let cut: Vec<OnceLock<Layer>> = vec![OnceLock::new(); open.len()];
         let make = |index: usize| Ok(Some(cutter.swept(open[index].field(cutter))));
@@ -111,7 +104,7 @@ pub fn measure(cutter: &HobCutter, backend: &dyn Backend, flanks: &[(u32, Side)]
             flank.take(cutter, finished.get().expect("every field is taken"));
         }
     }
-    Ok(flanks.into_iter().map(|flank| flank.points).collect())
+    Ok(flanks.into_iter().map(OpenPoints::settled).collect())
 }
 
 /// Points of a flank whose rays move to where the surface is found.
@@ -122,8 +115,6 @@ struct OpenPoints {
     arcs_mm: Vec<f64>,
     /// What is still to be cut.
     open: Vec<usize>,
-    /// How far from its ray's origin the surface was found at most, mm.
-    farthest_mm: f64,
 }
 
 impl OpenPoints {
@@ -140,7 +131,7 @@ impl OpenPoints {
         };
         let points: Vec<CurvePoint> = offsets_mm(job).into_iter().filter_map(point).collect();
         let arcs_mm = points.iter().map(|point| point.target.foot_arc_mm).collect();
-        Self { side, open: (0..points.len()).collect(), points, arcs_mm, farthest_mm: 0.0 }
+        Self { side, open: (0..points.len()).collect(), points, arcs_mm }
     }
 
     /// Ray of a point, out of the tooth: towards larger arcs on the left flank.
@@ -166,10 +157,8 @@ impl OpenPoints {
     fn take(&mut self, cutter: &HobCutter, finished: &Layer) {
         let (curve, blank) = (&cutter.job.curve, &cutter.job.blank);
         let open = std::mem::take(&mut self.open);
-        self.farthest_mm = 0.0;
         for (column, i) in open.into_iter().enumerate().filter(|&(column, _)| finished.passes[column] != NO_PASS) {
             let height_mm = f64::from(finished.heights_mm[column]);
-            self.farthest_mm = self.farthest_mm.max(height_mm.abs());
             let cut_mm = self.ray(cutter, i).at(height_mm).truncate();
             let foot = blank.height(cut_mm, curve.phi_at_arc(self.arcs_mm[i])).1;
             let moved_mm = curve.arc_mm(foot) - self.arcs_mm[i];
@@ -185,6 +174,14 @@ impl OpenPoints {
                 self.open.push(i);
             }
         }
+    }
+
+    /// The points; those that are still open have no value.
+    fn settled(mut self) -> Vec<CurvePoint> {
+        for i in self.open {
+            (self.points[i].cut_mm, self.points[i].along_mm) = (None, None);
+        }
+        self.points
     }
 }
 

@@ -1,12 +1,14 @@
 //! What is known of a shaped gear before anything is cut; what a run cannot begin with is refused.
 //!
-//! In: the job with the motion of its axes. Out: [`Foreseen`]. A machine that yields displaces its strokes by forces
-//! that only the cut finds: `check` and `axes`, which know its rigid twin, leave to the cut what follows from them.
+//! In: the job with the motion of its axes, what is known of a ring. Out: [`Foreseen`]. A machine that yields displaces
+//! its strokes by forces that only the cut finds: `check` and `axes`, which know its rigid twin, leave to the cut what
+//! follows from them.
 
+use crate::findings::Section;
 use crate::output::text::Sheet;
+use crate::process::shaping::ShapingJob;
 use crate::process::shaping::axes_report::OperationAxes;
 use crate::process::shaping::findings::warnings;
-use crate::process::shaping::{ShapingJob, findings};
 use crate::steps::foreseen::{Foreseen, OF_WINDOWS, print_unknown, windows};
 use crate::steps::parts::Stages;
 use gearcut_core::error::Result;
@@ -15,11 +17,10 @@ use gearcut_core::error::Result;
 ///
 /// # Errors
 /// A window that lies on no flank, too large a blank field, a back-off so large that the retraction leads to no pose.
-pub fn foresee(job: &ShapingJob, motion: &[OperationAxes], wanted: Stages) -> Result<Foreseen> {
+pub fn foresee(job: &ShapingJob, motion: &[OperationAxes], ring: Option<&Section>, wanted: Stages) -> Result<Foreseen> {
     let windows = windows(job, wanted)?;
     job.planar().blank_grid()?;
-    let ring = findings::ring::of_job(job, findings::program::not_of_the_gear(job, motion).as_deref());
-    let own = warnings::before(job, motion, ring.as_ref())?;
+    let own = warnings::before(job, motion, ring)?;
     Foreseen::new(job, &windows, own, job.is_as_cut())
 }
 

@@ -10,6 +10,8 @@ use crate::findings::{Entry, Notice, Place, QuantityRow, Section, Table};
 use crate::measure::damage::LEAST_DEPTH_MM;
 use crate::number_text::significant;
 use crate::process::shaping::ShapingJob;
+use crate::process::shaping::axes_report::OperationAxes;
+use crate::process::shaping::findings::program;
 use crate::process::shaping::gear::ring::{
     CornerPath, RingFacts, RingTooth, TightestCorner, ToothPlace, Trimming, corners_of_any_edge, rolling_module_mm,
     rolling_teeth,
@@ -31,12 +33,12 @@ const SEE_BLANK: &str = "See the whole blank of a run";
 const ROUNDER: &str = "A larger smallest radius of curvature allows more";
 
 /// The section; none of an external gear. Of a drawn tooth it says what holds of any edge: the rest are laws of
-/// involutes. Where a program cuts another ring, `other` says why nothing of it holds.
-pub fn of_job(job: &ShapingJob, other: Option<&str>) -> Option<Section> {
+/// involutes. Where a program cuts another ring nothing of it holds, and it says why.
+pub fn of_job(job: &ShapingJob, motion: &[OperationAxes]) -> Option<Section> {
     (job.blank.kind() == GearKind::Internal).then(|| {
         let section = if job.cutter.involute().is_some() { section(job, &RingFacts::new(job)) } else { of_drawn(job) };
-        match other {
-            Some(why) => section.without_values(why, &[]),
+        match program::not_of_the_gear(job, motion) {
+            Some(why) => section.without_values(&why, &[]),
             None => section,
         }
     })

@@ -40,7 +40,7 @@ pub const USUAL_FORCE_N: f64 = 40e3;
 
 /// What follows from the shapes of gear and cutter alone.
 pub fn of_shapes(job: &ShapingJob, motion: &[OperationAxes]) -> Vec<Notice> {
-    let ring = ring::of_job(job, program::not_of_the_gear(job, motion).as_deref());
+    let ring = ring::of_job(job, motion);
     ranked(of_teeth(job, motion).into_iter().chain(of_ring(job, ring.as_ref())).chain(too_deep(job)))
 }
 

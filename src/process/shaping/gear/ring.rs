@@ -33,7 +33,10 @@ use gearcut_core::units::TURN_RAD;
 use rayon::prelude::*;
 use std::f64::consts::PI;
 
-/// Both sides of a tooth, in the order of what is told of them.
+/// Points of the target's outline, mm: chords of the sharpest fillet, 0.2 mm, then miss a fifteenth of the least
+/// damage.
+const TARGET_SPACING_MM: f64 = 0.01;
+/// Both sides of a tooth, in the order of their values.
 const SIDES: [Side; 2] = [Side::Left, Side::Right];
 
 /// A length with the tooth and side where it is found.
@@ -278,7 +281,8 @@ impl RingFacts {
         let sharpest = job.curve.facts().largest_curvature;
         let rho_mm = 1.0 / sharpest.curvature_per_mm;
         let period = job.curve.period_teeth(gear.teeth);
-        let corners = corners::of_period(job, period);
+        let target = job.target_outline(0.0, TARGET_SPACING_MM).ok();
+        let corners = target.as_ref().map(|target| corners::of_period(job, target, period));
         let corners = |tooth: u32| corners.as_ref().map(|of| of[tooth as usize - 1]);
         let teeth: Vec<RingTooth> =
             (1..=period).into_par_iter().map(|tooth| RingTooth::new(job, tooth, corners(tooth))).collect();
@@ -297,7 +301,7 @@ impl RingFacts {
             rolling_teeth: rolling_teeth(rho_mm, gear.module_mm),
             clearing_teeth: tips.clearing_teeth(gear.module_mm, Way::Rolling),
             radial_teeth: tips.clearing_teeth(gear.module_mm, Way::Radial),
-            trimming: infeed::deepest(job),
+            trimming: target.map(|target| infeed::deepest(job, &target)),
             shortest_involute: ends.flatten().reduce(|a, b| if b.mm < a.mm { b } else { a }),
             generating_teeth: generating_teeth(rho_mm, job.blank.addendum_mm, gear.pressure_angle_rad, gear.module_mm),
             relief: flanks(&teeth, |of| of.relief_mm)
@@ -330,8 +334,9 @@ fn flanks(
 /// What holds of tip corners of any edge: the tightest path, and the deepest place where an infeed trims the ring;
 /// `None` where the target's outline is not known.
 pub fn corners_of_any_edge(job: &ShapingJob) -> (Option<TightestCorner>, Option<Trimming>) {
-    let paths = corners::of_period(job, job.curve.period_teeth(job.transverse.teeth));
-    (tightest_corner((1..).zip(paths.unwrap_or_default())), infeed::deepest(job))
+    let Ok(target) = job.target_outline(0.0, TARGET_SPACING_MM) else { return (None, None) };
+    let paths = corners::of_period(job, &target, job.curve.period_teeth(job.transverse.teeth));
+    (tightest_corner((1..).zip(paths)), Some(infeed::deepest(job, &target)))
 }
 
 fn tightest_corner(spaces: impl Iterator<Item = (u32, [CornerPath; 2])>) -> Option<TightestCorner> {

@@ -16,9 +16,6 @@ use glam::DVec2;
 use rayon::prelude::*;
 use std::f64::consts::{PI, TAU};
 
-/// Points of the target's outline, mm: chords of the sharpest fillet, 0.2 mm, then miss a fifteenth of the least
-/// damage.
-pub(super) const TARGET_SPACING_MM: f64 = 0.01;
 /// Places of a tip corner's path per pitch.
 const PLACES_PER_PITCH: i32 = 64;
 /// A corner is looked for this far from the teeth, in modules: more than half of a space at the tips.
@@ -79,13 +76,11 @@ fn drawn_corners_mm(tooth: &DrawnTooth, largest_mm: f64) -> Vec<Round> {
     places_mm
 }
 
-/// Of the spaces behind the first `teeth` teeth: on the way in, and out. `None` where the target's outline is not
-/// known.
-pub(super) fn of_period(job: &ShapingJob, teeth: u32) -> Option<Vec<[CornerPath; 2]>> {
-    let target = job.target_outline(0.0, TARGET_SPACING_MM).ok()?;
+/// Of the spaces behind the first `teeth` teeth: on the way in, and out.
+pub(super) fn of_period(job: &ShapingJob, target: &TargetOutline, teeth: u32) -> Vec<[CornerPath; 2]> {
     let rounds = tip_rounds(job);
-    let paths = |space: u32| [-1, 1].map(|direction| path(job, &target, &rounds, space, direction));
-    Some((1..=teeth).into_par_iter().map(paths).collect())
+    let paths = |space: u32| [-1, 1].map(|direction| path(job, target, &rounds, space, direction));
+    (1..=teeth).into_par_iter().map(paths).collect()
 }
 
 /// One path, from the middle of the space outwards: backwards in time on the way in.

@@ -6,7 +6,7 @@
 //! has it, and its corners pass the tips of the teeth beside their space on the way out: with few teeth between cutter
 //! and ring they do not come clear.
 
-use super::corners::{TARGET_SPACING_MM, tip_rounds};
+use super::corners::tip_rounds;
 use crate::measure::target_outline::TargetOutline;
 use crate::process::shaping::ShapingJob;
 use glam::DVec2;
@@ -26,18 +26,17 @@ pub struct Trimming {
     pub stroke: usize,
 }
 
-/// The deepest place of all operations; `None` where the target's outline is not known.
-pub(super) fn deepest(job: &ShapingJob) -> Option<Trimming> {
-    let target = job.target_outline(0.0, TARGET_SPACING_MM).ok()?;
+/// The deepest place of all operations.
+pub(super) fn deepest(job: &ShapingJob, target: &TargetOutline) -> Trimming {
     let none = Trimming { depth_mm: 0.0, tooth: 1, operation: 0, stroke: 0 };
     let deeper = |a: Trimming, b: Trimming| if b.depth_mm > a.depth_mm { b } else { a };
     let of_operation = |operation: usize| {
         let [plunged, fed] = job.operations[operation].schedule.corners();
         let strokes = (plunged.max(fed).ceil() as usize).min(job.operations[operation].schedule.count());
-        let of_stroke = |stroke| of_stroke(job, &target, operation, stroke).unwrap_or(none);
+        let of_stroke = |stroke| of_stroke(job, target, operation, stroke).unwrap_or(none);
         (0..strokes).into_par_iter().map(of_stroke).reduce(|| none, deeper)
     };
-    Some((0..job.operations.len()).map(of_operation).fold(none, deeper))
+    (0..job.operations.len()).map(of_operation).fold(none, deeper)
 }
 
 /// The deepest corner of one stroke; `None` where none is inside the target.
