@@ -19,7 +19,7 @@
 //!
 //! Pins in helical gears with an odd number of teeth lie otherwise than balls; the figure is that of balls.
 
-use crate::scene::model::Gear;
+use crate::scene::model::{Gear, base_helix_cosine, transverse_pressure_angle_rad};
 use gearcut_core::gear::{GearKind, PitchCurve};
 use gearcut_core::tool::involute::inv;
 use std::f64::consts::{FRAC_PI_2, PI};
@@ -134,7 +134,7 @@ impl RoundGear {
     }
 
     fn transverse_pressure_angle_rad(&self) -> f64 {
-        (self.normal_pressure_angle_rad.tan() / self.helix_angle_rad.cos()).atan()
+        transverse_pressure_angle_rad(self.normal_pressure_angle_rad, self.helix_angle_rad)
     }
 
     /// d_b, mm.
@@ -144,7 +144,7 @@ impl RoundGear {
 
     /// cos(beta_b): normal over transverse deviations of the flank.
     pub fn base_helix_cosine(&self) -> f64 {
-        (1.0 - (self.helix_angle_rad.sin() * self.normal_pressure_angle_rad.cos()).powi(2)).sqrt()
+        base_helix_cosine(self.normal_pressure_angle_rad, self.helix_angle_rad)
     }
 
     /// x_E: the profile shift that the thickness stands for.

@@ -38,6 +38,16 @@ pub struct Scene {
     pub is_draft: bool,
 }
 
+/// alpha_t of a pressure angle in the normal section: tan(alpha_t) = tan(alpha_n) / cos(beta).
+pub fn transverse_pressure_angle_rad(normal_rad: f64, helix_rad: f64) -> f64 {
+    if helix_rad == 0.0 { normal_rad } else { (normal_rad.tan() / helix_rad.cos()).atan() }
+}
+
+/// cos(beta_b) of a pressure angle in the normal section: sin(beta_b) = sin(beta) cos(alpha_n).
+pub fn base_helix_cosine(normal_rad: f64, helix_rad: f64) -> f64 {
+    (1.0 - (helix_rad.sin() * normal_rad.cos()).powi(2)).sqrt()
+}
+
 impl Gear {
     /// Transverse module m_t = m / cos(beta): pi m_t of the pitch curve for every tooth.
     pub fn transverse_module_mm(&self) -> f64 {
@@ -46,7 +56,7 @@ impl Gear {
 
     /// Transverse pressure angle: tan(alpha_t) = tan(alpha) / cos(beta).
     pub fn transverse_pressure_angle_rad(&self) -> f64 {
-        (self.pressure_angle_rad.tan() / self.helix_angle_rad.cos()).atan()
+        transverse_pressure_angle_rad(self.pressure_angle_rad, self.helix_angle_rad)
     }
 
     /// The transverse section as a spur gear: module and pressure angle are its own, heights stay as they are.
@@ -69,7 +79,7 @@ impl Gear {
     /// cos(beta_b): what is normal to a flank over what is normal to it in the transverse section, for every generated
     /// flank. Along the face the rack moves by tan(beta) along the pitch curve, and the flank by cos(alpha_t) of that.
     pub fn base_helix_cosine(&self) -> f64 {
-        (1.0 - (self.helix_angle_rad.sin() * self.pressure_angle_rad.cos()).powi(2)).sqrt()
+        base_helix_cosine(self.pressure_angle_rad, self.helix_angle_rad)
     }
 
     /// How far its teeth stand along the pitch curve at a height, against those in the middle of the face, mm.

@@ -251,8 +251,8 @@ impl HobbingJob {
         }
         let gear = &self.scene.gear;
         let arc_mm = self.gash_arc_mm();
-        let cos_base = (1.0 - (gear.helix_angle_rad.sin() * gear.pressure_angle_rad.cos()).powi(2)).sqrt();
-        Some(arc_mm * arc_mm * gear.transverse_pressure_angle_rad().sin() * cos_base * curvature_per_mm / 8.0)
+        let ridges_per_mm = gear.transverse_pressure_angle_rad().sin() * gear.base_helix_cosine() / 8.0;
+        Some(arc_mm * arc_mm * ridges_per_mm * curvature_per_mm)
     }
 
     /// Arc of the pitch curve from one gash to the next, mm; the same for every linkage, because hob and work are

@@ -12,6 +12,7 @@
 use super::keys::PROFILE;
 use crate::process::shaping::round_mesh::RoundMesh;
 use crate::scene::build::sector_deg;
+use crate::scene::model::{base_helix_cosine, transverse_pressure_angle_rad};
 use crate::scene::values::Values;
 use gearcut_core::gear::GearKind;
 
@@ -61,7 +62,7 @@ impl Finished {
         let gear = values.view("gear");
         let (module_mm, normal_rad) = (gear.number("module_mm")?, gear.rad("pressure_angle_deg")?);
         let helix_rad = gear.rad("helix_angle_deg")?;
-        let transverse_rad = if helix_rad == 0.0 { normal_rad } else { (normal_rad.tan() / helix_rad.cos()).atan() };
+        let transverse_rad = transverse_pressure_angle_rad(normal_rad, helix_rad);
         let kind = if gear.text("kind")? == "internal" { GearKind::Internal } else { GearKind::External };
         let teeth = [teeth_per_turn(values)?, values.view("tool.shaper_cutter").whole("teeth")?];
         let mesh = RoundMesh::new(kind, module_mm / helix_rad.cos(), transverse_rad, teeth);
@@ -74,12 +75,11 @@ impl Finished {
             Some(drawn_rad) if depth_mm != 0.0 => mesh.working_rad(mesh.offset_mm(drawn_rad) + depth_mm),
             drawn_rad => drawn_rad,
         };
-        let cos_base_helix = (1.0 - (helix_rad.sin() * normal_rad.cos()).powi(2)).sqrt();
         let is_circle = gear.variant("pitch_curve") == Some("circle") && sector_deg(values).is_none();
         Some(Self {
             mesh,
             pressure_angles_rad: [normal_rad, transverse_rad],
-            thickness_of_stock: 2.0 / (transverse_rad.cos() * cos_base_helix),
+            thickness_of_stock: 2.0 / (transverse_rad.cos() * base_helix_cosine(normal_rad, helix_rad)),
             depth_mm,
             working_rad,
             is_round: is_circle && values.view(PROFILE).text("file").is_none(),
