@@ -122,7 +122,7 @@ pub enum Command {
     /// Write the scene of the gear that runs with a scene's gear.
     #[command(after_help = "Example:\n  \
         gearcut mate scenes/shaping/internal_pair_driver.toml --teeth 102 --internal --out ring.toml\n  \
-        gearcut mate scenes/shaping/elliptical_normal.toml --teeth 47 --out mate.toml\n\n\
+        gearcut mate scenes/shaping/elliptical_normal.toml --teeth 28 --out mate.toml\n\n\
         The mate's pitch curve follows from the driver's: equal arcs on both, r2 = a - r1 outside and a + r1 in a \
         ring; the distance of the axes a (mm) is solved so that the curve closes. Tool, machine and operations \
         are the driver's. Prints the scene, or writes it with --out and prints a; an existing file is never \

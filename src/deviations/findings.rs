@@ -1,8 +1,8 @@
 //! Measured points as findings.
 
 use super::Foot;
-use super::fit::{FitFreedom, LaidPoints};
-use super::notices::PointsOffFlanks;
+use super::fit::{COUNTED, FitFreedom, LaidPoints};
+use super::notices::{ContradictedFlanks, PointsOffFlanks};
 use super::probed::ProbedPoint;
 use super::quantities::{
     ALIGNED_TURN, DEEPEST, DEEPEST_OF, DEVIATION, DEVIATIONS, FITTED_POINTS, FLANK_DEVIATIONS, HIGHEST, HIGHEST_OF,
@@ -10,8 +10,9 @@ use super::quantities::{
     TILT_Y, X, Y, Z,
 };
 use crate::findings::quantities::teeth::{FLANK, TOOTH};
-use crate::findings::{Findings, Table};
+use crate::findings::{Findings, Notice, Table};
 use crate::influence::quantities::budget::{U, V};
+use crate::number_text::significant;
 use crate::scene::Scene;
 use gearcut_core::terms::Side;
 use gearcut_core::units::UM_PER_MM;
@@ -77,8 +78,19 @@ pub fn findings(scene: &Scene, points: &[ProbedPoint], freedom: FitFreedom, laid
         entries.push(SHIFT_Z.of(shift_um[2]));
     }
     let section = DEVIATIONS.section(entries).table(flanks(laid)).table(places(points, laid));
-    let off = points.len() - all.count;
-    let warnings = if off > 0 { vec![PointsOffFlanks { off, points: points.len() }.notice()] } else { Vec::new() };
+    let (off, measured) = (points.len() - all.count, points.len());
+    let contradicted = laid.unnamed.map(|unnamed| {
+        ContradictedFlanks {
+            named: all.count,
+            points: measured,
+            rms_um: significant(all.rms_um, 3),
+            unnamed,
+            way_out: COUNTED,
+        }
+        .notice()
+    });
+    let off = (off > 0 && contradicted.is_none()).then(|| PointsOffFlanks { off, points: measured }.notice());
+    let warnings: Vec<Notice> = contradicted.into_iter().chain(off).collect();
     Findings::new(scene.process_name(), &scene.name, true, headline, warnings, vec![section])
 }
 

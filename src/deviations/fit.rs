@@ -9,6 +9,9 @@
 //! Who measures a gear that is alone on a machine, or draws it, knows its axis better than how it is turned. So the
 //! search begins with the whole turn in steps of an eighth of a pitch; of all places that end with the same least sum,
 //! as of a round gear's pitches, the smallest turn is taken.
+//!
+//! Files may say to which flank a point belongs. Where the points then lie badly they are laid once more without that:
+//! if they lie much better, tooth and flank are counted otherwise than here ([`LaidPoints::unnamed`]).
 
 use super::feet::{Foot, TargetFlanks};
 use super::probed::ProbedPoint;
@@ -34,6 +37,11 @@ const SETTLED_MM: f64 = 1e-8;
 const CHOOSING_STEPS: usize = 4;
 /// Most steps of the fit.
 const MOST_STEPS: usize = 30;
+/// Points whose root mean square is beyond this share of how far they may be off are laid once more without their
+/// tooth and flank.
+const BADLY_LAID: f64 = 0.1;
+/// Mean squares without tooth and flank that are below this share of those with them contradict these.
+const CONTRADICTING: f64 = 0.25;
 /// Numbers that a body has: turn, shift across, tilt, shift along the axis.
 const BODY: usize = 6;
 
@@ -85,6 +93,9 @@ pub struct LaidPoints {
     pub moved: RigidMove,
     /// Points by which they were moved: on the evaluated parts of flanks.
     pub fitted: usize,
+    /// Points that lie on flanks if they may lie on any, where the tooth and the flank that they name contradict their
+    /// places.
+    pub unnamed: Option<usize>,
 }
 
 /// A turn about the origin, and then a shift.
@@ -137,34 +148,27 @@ pub fn lay(
 ) -> Result<LaidPoints> {
     let flanks = TargetFlanks::new(gear, probe_radius_mm)?;
     flanks.refuse_unknown(points)?;
-    let fit = RigidFit { gear, flanks, points, freedom };
-    let begun = match freedom {
-        FitFreedom::Fixed => vec![RigidMove::about_axis(0.0)],
-        _ => fit.places(watch)?,
+    let fit = RigidFit { gear, flanks: &flanks, points, freedom };
+    let named = fit.best(watch)?;
+    let badly_mm2 = (BADLY_LAID * flanks.reach_mm()).powi(2);
+    let is_doubtful =
+        named.as_ref().is_none_or(|of| of.mean_mm2 > badly_mm2) && points.iter().any(|p| p.flank.is_some());
+    let unnamed = if is_doubtful {
+        let points: Vec<ProbedPoint> = points.iter().map(|point| ProbedPoint { flank: None, ..*point }).collect();
+        let any = RigidFit { points: &points, ..fit }.best(watch)?;
+        let contradicts = |any: &Fitted| named.as_ref().is_none_or(|of| any.mean_mm2 < CONTRADICTING * of.mean_mm2);
+        any.filter(contradicts).map(|any| any.feet.iter().flatten().count())
+    } else {
+        None
     };
-    let stage = watch.stage("feet", begun.len() + 1, "places of the turn")?;
-    let some = compared(points.len());
-    let mut best: Option<(f64, RigidMove)> = None;
-    for place in begun {
-        if let Some((sum, moved)) = fit.settled(place, &some)?
-            && best.is_none_or(|(least, other)| {
-                sum < (1.0 - SAME_SUM) * least
-                    || sum < (1.0 + SAME_SUM) * least && moved.angle_rad().abs() < other.angle_rad().abs()
-            })
-        {
-            best = Some((sum, moved));
-        }
-        stage.count()?;
-    }
-    let all: Vec<usize> = (0..points.len()).collect();
-    let settled = best.map(|(_, moved)| fit.settled(moved, &all)).transpose()?.flatten();
-    let Some((_, moved)) = settled else { return Err(fit.refused().into()) };
-    let feet = fit.feet(&moved, &all)?;
-    stage.count()?;
-    stage.finish();
+    let Some(Fitted { feet, moved, .. }) = named else { return Err(fit.refused(unnamed).into()) };
     let fitted = feet.iter().flatten().filter(|foot| fit.is_evaluated(foot)).count();
-    Ok(LaidPoints { feet, moved, fitted })
+    Ok(LaidPoints { feet, moved, fitted, unnamed })
 }
+
+/// How a gear and teeth are counted, for files that count otherwise.
+pub(super) const COUNTED: &str = "count teeth counter-clockwise from the x axis of the gear, seen from z, and call left \
+                                  the flank at larger angles; or leave the columns tooth and flank out";
 
 /// Numbers of the points by which places of the turn are compared, of so many: one in each of equal runs, in each at
 /// another place of the run, since flanks may have as many points as a run.
@@ -175,27 +179,74 @@ fn compared(points: usize) -> Vec<usize> {
     (0..runs).map(|i| ((i as f64 + (i as f64 * GOLDEN).fract()) * run) as usize).collect()
 }
 
+/// Points about the move that suits them best.
+struct Fitted {
+    /// Mean square of the deviations; what is on no flank counts as far as it may be off one.
+    mean_mm2: f64,
+    moved: RigidMove,
+    feet: Vec<Option<Foot>>,
+}
+
+#[derive(Clone, Copy)]
 struct RigidFit<'a> {
     gear: &'a dyn GearJob,
-    flanks: TargetFlanks<'a>,
+    flanks: &'a TargetFlanks<'a>,
     points: &'a [ProbedPoint],
     freedom: FitFreedom,
 }
 
 impl RigidFit<'_> {
-    fn refused(&self) -> Refusal {
+    /// The best fit; none where the points determine none.
+    fn best(&self, watch: &Watch<'_>) -> Result<Option<Fitted>> {
+        let begun = match self.freedom {
+            FitFreedom::Fixed => vec![RigidMove::about_axis(0.0)],
+            _ => self.places(watch)?,
+        };
+        let stage = watch.stage("feet", begun.len() + 1, "places of the turn")?;
+        let some = compared(self.points.len());
+        let mut best: Option<(f64, RigidMove)> = None;
+        for place in begun {
+            if let Some((sum, moved)) = self.settled(place, &some)?
+                && best.is_none_or(|(least, other)| {
+                    sum < (1.0 - SAME_SUM) * least
+                        || sum < (1.0 + SAME_SUM) * least && moved.angle_rad().abs() < other.angle_rad().abs()
+                })
+            {
+                best = Some((sum, moved));
+            }
+            stage.count()?;
+        }
+        let all: Vec<usize> = (0..self.points.len()).collect();
+        let settled = best.map(|(_, moved)| self.settled(moved, &all)).transpose()?.flatten();
+        let feet_about = |(mean_mm2, moved): (f64, RigidMove)| -> Result<Fitted> {
+            Ok(Fitted { mean_mm2, moved, feet: self.feet(&moved, &all)? })
+        };
+        let fitted = settled.map(feet_about).transpose()?;
+        stage.count()?;
+        stage.finish();
+        Ok(fitted)
+    }
+
+    /// Why there is no fit; so many points lie on flanks if they may lie on any.
+    fn refused(&self, unnamed: Option<usize>) -> Refusal {
         let reach_mm = self.flanks.reach_mm();
-        Refusal::new(
-            "--measured",
-            format!(
-                "fewer than {} of {} points lie within {reach_mm} mm of evaluated flanks, or they do not determine {}",
-                self.freedom.count() + 1,
-                self.points.len(),
-                self.freedom.words()
-            ),
-            "check the unit of the file, the scene's module and teeth, and that the gear's axis is z and z = 0 is \
-             the middle of its face; or give --fit less to move",
-        )
+        if let Some(on_flanks) = unnamed {
+            let problem = format!(
+                "tooth and flank of the points contradict their places: {on_flanks} of {} lie on flanks if they may \
+                 lie on any, too few on those that they name",
+                self.points.len()
+            );
+            return Refusal::new("--measured", problem, COUNTED);
+        }
+        let (least, points) = (self.freedom.count() + 1, self.points.len());
+        let off = format!("fewer than {least} of {points} points lie within {reach_mm} mm of evaluated flanks");
+        let check = "check the unit of the file, the scene's module and teeth, and that the gear's axis is z and z = 0 is \
+                     the middle of its face";
+        if self.freedom == FitFreedom::Fixed {
+            return Refusal::new("--measured", off, format!("{check}; or let --fit turn the points"));
+        }
+        let problem = format!("{off}, or they do not determine {}", self.freedom.words());
+        Refusal::new("--measured", problem, format!("{check}; or give --fit less to move"))
     }
 
     /// Places of the whole turn about which the points are near to flanks, the nearest first.

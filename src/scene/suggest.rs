@@ -99,7 +99,7 @@ fn best<'a>(candidates: impl Iterator<Item = Candidate<'a>>, name: &str, least: 
 
 /// 1 for equal names, 0 for nothing in common; a name that is a part of the other one counts as rather alike.
 fn likeness(written: &str, known: &str) -> f64 {
-    let written = written.to_ascii_lowercase();
+    let [written, known] = [written, known].map(str::to_ascii_lowercase);
     let part = written.len() >= 4 && known.contains(&written);
-    normalized_damerau_levenshtein(&written, known).max(if part { 0.6 } else { 0.0 })
+    normalized_damerau_levenshtein(&written, &known).max(if part { 0.6 } else { 0.0 })
 }

@@ -99,6 +99,36 @@ fn an_involute_gear_gives_its_deviations() {
     }
 }
 
+/// Tooth 5 left, counted as here, is 10 um high. Files that count teeth clockwise, or call the other flank left, do not
+/// pass for measured gears; without their names the tooth is found.
+#[test]
+fn files_that_count_otherwise_are_contradicted() {
+    let room = Room::new();
+    let named = |tooth_of: &dyn Fn(usize) -> usize, sides: [&str; 2]| {
+        let plain = involute_csv(0.0, 0.0, DVec2::ZERO);
+        let high = involute_csv(10.0, 0.0, DVec2::ZERO);
+        let mut text = "tooth,flank,x_mm,y_mm,z_mm\n".to_owned();
+        for (index, (plain, high)) in plain.lines().zip(high.lines()).skip(1).enumerate() {
+            let (tooth, side) = (index / 18 + 1, index / 9 % 2);
+            let place = if (tooth, side) == (5, 0) { high } else { plain };
+            let _ = writeln!(text, "{},{},{place}", tooth_of(tooth), sides[side]);
+        }
+        std::fs::write(room.path("named.csv"), text).expect("written");
+        room.path("named.csv")
+    };
+    let sides = ["left", "right"];
+    room.run(ROUND, &named(&|tooth| tooth, sides), &["--fit", "none"]).done();
+    assert!((room.value("highest") - 10.0).abs() < 1e-4 && room.value("on_flanks") == 432.0);
+    // A gear that was turned by two pitches counts from another tooth: that is no contradiction.
+    room.run(ROUND, &named(&|tooth| (tooth + 1) % 24 + 1, sides), &[]).done();
+    assert!((room.value("highest") - 10.0).abs() < 0.5 && room.value("on_flanks") == 432.0);
+    let clockwise = named(&|tooth| 25 - tooth, sides);
+    room.run(ROUND, &clockwise, &[]).failed(3, &["contradict their places", "432 if they may lie on any"]);
+    room.run(ROUND, &clockwise, &["--fit", "none"]).failed(1, &["contradict their places", "counter-clockwise"]);
+    let swapped = named(&|tooth| tooth, ["right", "left"]);
+    room.run(ROUND, &swapped, &[]).failed(3, &["contradict their places"]);
+}
+
 /// Points that gearcut writes come back: of a cut gear with its deviations, of helical teeth and of a bevel gear in
 /// inches with none, and of a gear that is not round in any place of its turn.
 #[test]

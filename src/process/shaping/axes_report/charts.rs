@@ -14,6 +14,9 @@ use crate::steps::axes::charts::{chart, panel, panels};
 use gearcut_core::gear::GearKind;
 use gearcut_core::units::UM_PER_MM;
 
+/// Ticks of positions are no closer, deg and mm: a micron on a radius of 60 mm.
+const LEAST_DIVISION: f64 = 1e-3;
+
 /// All charts of an operation.
 pub(super) fn all(job: &ShapingJob, operation: &PreparedOperation, rows: &[StrokeRow]) -> Vec<NamedChart<LineChart>> {
     let limits = dynamics::limits(&job.machine.limits);
@@ -58,16 +61,18 @@ fn positions(job: &ShapingJob, rows: &[StrokeRow]) -> Vec<Panel> {
     let ratio = job.blank.kind().tip_sign() * f64::from(job.scene.gear.teeth) / f64::from(job.cutter.teeth);
     // A value from the positions of the axes and the polar angle of the pitch point, read as positions of `axis` are.
     let under_test = rows.iter().any(|row| row.scene.is_some());
+    // An axis that follows even rolling departs from it by rounding.
+    let at_rest = |panel: Panel| Panel { least_division: LEAST_DIVISION, ..panel };
     let one = |value_name: &str, axis: &Axis, name: &str, value: &dyn Fn([f64; 3], f64) -> f64| {
         let shown = |axes: [f64; 3], row: &StrokeRow| axis.kind.shown(value(axes, row.phi_rad));
         let own = |row: &StrokeRow| (work_angle_deg(row), shown(row.motion.map(|axis| axis.position), row));
         let points = rows.iter().map(own).collect();
         if !under_test {
-            return panel([value_name, position_sign(axis)], vec![(name, points)], []);
+            return at_rest(panel([value_name, position_sign(axis)], vec![(name, points)], []));
         }
         let scene = rows.iter().filter_map(|row| row.scene.map(|axes| (WORK.kind.shown(axes[0]), shown(axes, row))));
         let series = vec![(name, points), ("the scene's own strokes", scene.collect())];
-        panel([value_name, position_sign(axis)], series, [])
+        at_rest(panel([value_name, position_sign(axis)], series, []))
     };
     let even_rolling = match job.blank.kind() {
         GearKind::External => "cutter angle less even rolling, ψb − (z / z0) ψc",

@@ -105,9 +105,9 @@ impl RingTooth {
     }
 }
 
-/// Most cutter teeth whose pitch circle is smaller than a radius.
+/// Most cutter teeth whose pitch circle is smaller than a radius, by more than rounding.
 pub fn rolling_teeth(radius_mm: f64, module_mm: f64) -> u32 {
-    (2.0 * radius_mm / module_mm).ceil() as u32 - 1
+    (2.0 * radius_mm / module_mm - 1e-9).ceil() as u32 - 1
 }
 
 /// Module at which the pitch circle of a cutter is as large as the osculating circle, mm.
@@ -348,7 +348,18 @@ fn tightest_corner(spaces: impl Iterator<Item = (u32, [CornerPath; 2])>) -> Opti
 
 #[cfg(test)]
 mod tests {
-    use super::{TipPair, Way};
+    use super::{TipPair, Way, rolling_teeth};
+
+    /// A cutter with as many teeth as a round ring touches it everywhere.
+    #[test]
+    fn a_cutter_as_large_as_the_ring_does_not_roll() {
+        for teeth in 4..=500_u32 {
+            // As a curvature gives the radius.
+            let radius_mm = 1.0 / (1.0 / (0.5 * 3.0 * f64::from(teeth)));
+            assert_eq!(rolling_teeth(radius_mm, 3.0), teeth - 1);
+        }
+        assert_eq!(rolling_teeth(30.001, 3.0), 20);
+    }
 
     /// Rings of 40, 58 and 118 teeth: 22, 40 and 100 cutter teeth go in radially, as the condition of trimming gives
     /// with the addenda 1.25 and 1 modules, worked out elsewhere from the angles of both corners.
