@@ -167,8 +167,8 @@ pub fn lay(
 }
 
 /// How a gear and teeth are counted, for files that count otherwise.
-pub(super) const COUNTED: &str = "count teeth counter-clockwise from the x axis of the gear, seen from z, and call left \
-                                  the flank at larger angles; or leave the columns tooth and flank out";
+pub(super) const COUNTED: &str = "count teeth counter-clockwise from the x axis of the gear, seen from z, and call \
+                                  left the flank at larger angles; or leave the columns tooth and flank out";
 
 /// Numbers of the points by which places of the turn are compared, of so many: one in each of equal runs, in each at
 /// another place of the run, since flanks may have as many points as a run.
@@ -240,8 +240,8 @@ impl RigidFit<'_> {
         }
         let (least, points) = (self.freedom.count() + 1, self.points.len());
         let off = format!("fewer than {least} of {points} points lie within {reach_mm} mm of evaluated flanks");
-        let check = "check the unit of the file, the scene's module and teeth, and that the gear's axis is z and z = 0 is \
-                     the middle of its face";
+        let check = "check the unit of the file, the scene's module and teeth, and that the gear's axis is z and z = 0 \
+                     is the middle of its face";
         if self.freedom == FitFreedom::Fixed {
             return Refusal::new("--measured", off, format!("{check}; or let --fit turn the points"));
         }
