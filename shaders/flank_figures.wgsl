@@ -1,11 +1,11 @@
-// Figures of every column of a field after an operation: extremes with their rows, counts, stock over the last one.
+// Figures of every column of some fields after an operation: extremes with their rows, counts, stock over the last one.
 //
-// One workgroup per column: each thread looks at every 64th row, then halves of the threads join in a fixed order, so
-// that sums are the same whatever the device does first. Reads launch, the lowest height that each column records, what
-// the operation left and what the last one left; writes figures. Twin: crates/core/src/dexel/figures.rs. Adds to the
-// sum of a column's stock what adding up in f32 rounds: below 1e-6 of it.
+// One workgroup per column (x) of a field (y): each thread looks at every 64th row, then halves of the threads join in
+// a fixed order, so that sums are the same whatever the device does first. Reads fields, the lowest height that each
+// column records, what the operation left and what the last one left; writes figures. Twin:
+// crates/core/src/dexel/figures.rs. Adds to the sum of a column's stock what adding up in f32 rounds: below 1e-6 of it.
 
-@group(0) @binding(0) var<uniform> launch: FigureLaunch;
+@group(0) @binding(0) var<storage, read> fields: array<FlankField>;
 @group(0) @binding(1) var<storage, read> low_mm: array<f32>;
 // Columns follow each other, each filled up to whole fours.
 @group(0) @binding(2) var<storage, read> heights_mm: array<f32>;
@@ -71,12 +71,16 @@ fn joined(a: Figures, b: Figures) -> Figures {
 
 @compute @workgroup_size(WORKGROUP_THREADS)
 fn flank_figures(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index) local: u32) {
-    let column = group.x;
-    let first = 4u * launch.quads * column;
-    let farthest = RowHeight(FARTHEST_MM, launch.rows);
-    let deepest = RowHeight(-FARTHEST_MM, launch.rows);
+    let field = fields[group.y];
+    if group.x >= field.column_count {
+        return;
+    }
+    let column = field.first_column + group.x;
+    let first = 4u * (field.first_quad + field.quads * group.x);
+    let farthest = RowHeight(FARTHEST_MM, field.rows);
+    let deepest = RowHeight(-FARTHEST_MM, field.rows);
     var own = Figures(farthest, farthest, deepest, farthest, deepest, 0.0, 0u, 0u);
-    for (var row = local; row < launch.rows; row += WORKGROUP_THREADS) {
+    for (var row = local; row < field.rows; row += WORKGROUP_THREADS) {
         let height_mm = heights_mm[first + row];
         let pass_id = passes[first + row];
         let here = RowHeight(height_mm, row);
@@ -120,8 +124,8 @@ fn flank_figures(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocat
             all.stock_high.height_mm,
             all.stock_high.row,
             all.stock_sum_mm,
-            heights_mm[first + launch.profile_row],
-            passes[first + launch.profile_row],
+            heights_mm[first + field.profile_row],
+            passes[first + field.profile_row],
         );
     }
 }

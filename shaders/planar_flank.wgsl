@@ -1,23 +1,21 @@
 // Lowers the dexels of a field by every pass that their tile visits.
 //
-// One thread per eight rows of a column; one workgroup row (y) per tile, so that records are read in step. Reads
-// launch, tiles, columns, records, row phases; lowers heights and passes in place; counts iterations that stopped
-// short. Twin: crates/core/src/cut/cpu/planar.rs (derivation there). Adds at most 1 nm to a height, of which the
-// rounding to f32 is a part.
+// One thread per four or eight rows of a column; one workgroup row (y) per tile, so that records are read in step.
+// Reads tiles, columns, records, row phases; lowers heights and passes in place; counts iterations that stopped short.
+// Twin: crates/core/src/cut/cpu/planar.rs (derivation there). Adds at most 1 nm to a height, of which the rounding to
+// f32 is a part.
 
-@group(0) @binding(0) var<uniform> launch: Launch;
-@group(0) @binding(1) var<storage, read> tiles: array<FlankTile>;
-@group(0) @binding(2) var<storage, read> columns: array<FlankColumn>;
-@group(0) @binding(3) var<uniform> records: array<FlankPass, ROUND_RECORDS>;
-// Rows in fours; columns follow each other, each filled up to whole fours. Phase tau of a column's rows.
-@group(0) @binding(4) var<storage, read> row_phases: array<vec4<f32>>;
-@group(0) @binding(5) var<storage, read_write> heights_mm: array<vec4<f32>>;
-@group(0) @binding(6) var<storage, read_write> passes: array<vec4<u32>>;
-@group(0) @binding(7) var<storage, read_write> unconverged: atomic<u32>;
+@group(0) @binding(0) var<storage, read> tiles: array<FlankTile>;
+@group(0) @binding(1) var<storage, read> columns: array<FlankColumn>;
+@group(0) @binding(2) var<storage, read> records: array<FlankPass>;
+// Phase tau of a column's rows in fours, field by field.
+@group(0) @binding(3) var<storage, read> row_phases: array<vec4<f32>>;
+// Rows in fours; columns follow each other, each filled up to whole fours.
+@group(0) @binding(4) var<storage, read_write> heights_mm: array<vec4<f32>>;
+@group(0) @binding(5) var<storage, read_write> passes: array<vec4<u32>>;
+// One for each field.
+@group(0) @binding(6) var<storage, read_write> unconverged: array<atomic<u32>>;
 
-// Records of a launch at most: what a uniform buffer holds everywhere (64 KiB). All threads of a wave read the same
-// one, which is what such buffers are for.
-const ROUND_RECORDS: u32 = 512u;
 // Threads of a workgroup: one wave on every GPU, and the host's number.
 const WORKGROUP_THREADS: u32 = 64u;
 // All strokes are frozen: the cubics are their constants.
@@ -54,13 +52,14 @@ fn cubic(c: vec4<f32>, tau: vec4<f32>) -> vec4<f32> {
     return c.x + tau * (c.y + tau * (c.z + tau * c.w));
 }
 
-fn quad(column: u32, index: u32, column_there: bool) -> Quad {
+fn quad(tile: FlankTile, column: u32, index: u32, column_there: bool) -> Quad {
     // Quads beyond the last repeat it, and are not written.
-    let in_column = min(index, launch.quads - 1u);
-    let at = column * launch.quads + in_column;
-    let there = column_there & (index < launch.quads);
-    let row_there = (vec4(4u * index) + vec4(0u, 1u, 2u, 3u) < vec4(launch.rows)) & vec4(there);
-    return Quad(at, there, row_there, row_phases[in_column], heights_mm[at], passes[at], vec4(0u));
+    let in_column = min(index, tile.quads - 1u);
+    let at = tile.first_quad + column * tile.quads + in_column;
+    let there = column_there & (index < tile.quads);
+    let row_there = (vec4(4u * index) + vec4(0u, 1u, 2u, 3u) < vec4(tile.rows)) & vec4(there);
+    let tau = row_phases[tile.first_phase + in_column];
+    return Quad(at, there, row_there, tau, heights_mm[at], passes[at], vec4(0u));
 }
 
 fn lowered(quad: Quad, ray: RayCubics, record: FlankPass, low_mm: f32) -> Quad {
@@ -99,18 +98,17 @@ fn keep(quad: Quad) {
 fn planar_flank(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index) local: u32) {
     let tile = tiles[group.y];
     let thread = group.x * WORKGROUP_THREADS + local;
-    let column_in_tile = thread / launch.threads_per_column;
-    let thread_of_column = thread % launch.threads_per_column;
+    let thread_of_column = thread % tile.threads_per_column;
     // Threads beyond the tile's last column repeat it, and write nothing: an early return would part the threads of a
     // wave.
-    let column_index = tile.first_column + min(column_in_tile, tile.column_count - 1u);
-    let column = columns[column_index];
-    let column_there = column_in_tile < tile.column_count;
+    let column_there = thread / tile.threads_per_column < tile.column_count;
+    let column_in_tile = min(thread / tile.threads_per_column, tile.column_count - 1u);
+    let column = columns[tile.first_column + column_in_tile];
     // Neighbouring threads take neighbouring quads.
-    var first = quad(column_index, thread_of_column, column_there);
+    var first = quad(tile, column_in_tile, thread_of_column, column_there);
     var second: Quad;
     if QUADS_PER_THREAD == 2u {
-        second = quad(column_index, thread_of_column + launch.threads_per_column, column_there);
+        second = quad(tile, column_in_tile, thread_of_column + tile.threads_per_column, column_there);
     }
 
     for (var i = 0u; i < tile.record_count; i++) {
@@ -136,6 +134,6 @@ fn planar_flank(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocati
     let unknown = first.unknown + second.unknown;
     let short = unknown.x + unknown.y + unknown.z + unknown.w;
     if short > 0u {
-        atomicAdd(&unconverged, short);
+        atomicAdd(&unconverged[tile.field], short);
     }
 }

@@ -8,13 +8,14 @@
 
 @group(0) @binding(0) var<storage, read> tiles: array<SpatialTile>;
 @group(0) @binding(1) var<storage, read> records: array<SpatialPass>;
-// Coefficients of x = c0 + t (c1 + t (c2 + t c3)), all segments after each other.
+// Coefficients of x = c0 + t (c1 + t (c2 + t c3)), all segments of all fields after each other.
 @group(0) @binding(2) var<storage, read> cells: array<vec4<f32>>;
 // Six for each group of rows: x, y, z of the origins against the tile's, x, y, z of the directions.
 @group(0) @binding(3) var<storage, read> rays: array<Lanes>;
 @group(0) @binding(4) var<storage, read_write> heights_mm: array<Lanes>;
 @group(0) @binding(5) var<storage, read_write> passes: array<LaneCounts>;
-@group(0) @binding(6) var<storage, read_write> unconverged: atomic<u32>;
+// One for each field.
+@group(0) @binding(6) var<storage, read_write> unconverged: array<atomic<u32>>;
 
 // Threads of a workgroup: one wave on every GPU, and the host's number.
 const WORKGROUP_THREADS: u32 = 64u;
@@ -162,7 +163,7 @@ fn spatial_flank(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocat
                     Lanes(record.first_cell),
                     Lanes(record.last_cell),
                 );
-                let c = lane_cells(i32(record.base_cell), cell);
+                let c = lane_cells(i32(tile.first_cell + record.base_cell), cell);
                 let from_cell = y.value - cell * record.cell_width_mm;
                 let inside = clamp(from_cell, Lanes(0.0), Lanes(record.cell_width_mm));
                 let slope = c.c1 + inside * (2.0 * c.c2 + inside * (3.0 * c.c3));
@@ -232,6 +233,6 @@ fn spatial_flank(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocat
     }
     let short = counted(unknown);
     if short > 0u {
-        atomicAdd(&unconverged, short);
+        atomicAdd(&unconverged[tile.field], short);
     }
 }

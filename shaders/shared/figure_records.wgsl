@@ -1,14 +1,4 @@
-// What goes over for figures of columns, member by member the same as crates/gpu/src/records.rs; a test compares both.
-
-// A field whose columns are looked at.
-struct FigureLaunch {
-    // Rows of the field.
-    rows: u32,
-    // Quads of rows in a column, the last one filled up.
-    quads: u32,
-    // Row whose dexels come back.
-    profile_row: u32,
-}
+// What comes back of figures of columns, member by member the same as crates/gpu/src/records.rs; a test compares both.
 
 // One column after an operation. Rows count from its first one.
 struct FigureColumn {

@@ -1,21 +1,23 @@
 // What the host hands over, member by member the same as crates/gpu/src/records.rs; a test compares both.
 
-// Rows of one launch.
-struct Launch {
-    // Rows of the field, along the tooth.
-    rows: u32,
-    // Quads of rows in a column, the last one filled up.
-    quads: u32,
-    // Threads that share the rows of one column.
-    threads_per_column: u32,
-}
-
 // Columns that visit the same passes.
 struct FlankTile {
     first_column: u32,
     column_count: u32,
     first_record: u32,
     record_count: u32,
+    // First quad of rows of its first column.
+    first_quad: u32,
+    // Quads of rows in a column, the last one filled up.
+    quads: u32,
+    // Rows of its field, along the tooth.
+    rows: u32,
+    // Threads that share the rows of one column.
+    threads_per_column: u32,
+    // First quad of its field's row phases.
+    first_phase: u32,
+    // Its field among those of the submission.
+    field: u32,
 }
 
 // One ray of the transverse plane, in the frame of its tile.

@@ -1,7 +1,7 @@
 // What the host hands over for rays in space, member by member the same as crates/gpu/src/sweep_records.rs; a test
 // compares both.
 
-// Dexels that visit the same passes, in groups of four rows.
+// Dexels that visit the same passes, in groups of rows.
 struct SpatialTile {
     // Direction of the tile's middle ray, and the lowest height that rays record.
     middle: vec4<f32>,
@@ -9,6 +9,11 @@ struct SpatialTile {
     group_count: u32,
     first_record: u32,
     record_count: u32,
+    // First cell of its field's tables.
+    first_cell: u32,
+    // Its field among those of the submission.
+    field: u32,
+    unused: vec2<u32>,
 }
 
 // One sweep of one segment over one tile. Axes: r from the tool's axis, q in the direction of rotation, y along the
@@ -42,7 +47,7 @@ struct SpatialPass {
     // First and last cell against the base cell.
     first_cell: f32,
     last_cell: f32,
-    // Base cell in the table of all segments.
+    // Base cell in its field's tables.
     base_cell: u32,
     // Id of the pass.
     pass_id: u32,

@@ -80,7 +80,7 @@ pub const fn planar_flank(rows: Rows) -> Stage {
             include_str!("../shared/entry.wgsl"),
             include_str!("../planar_flank.wgsl"),
         ),
-        bindings: &["launch", "tiles", "columns", "records", "row_phases", "heights_mm", "passes", "unconverged"],
+        bindings: &["tiles", "columns", "records", "row_phases", "heights_mm", "passes", "unconverged"],
         variants: match rows {
             Rows::Few => planar_variants!(1.0),
             Rows::Many => planar_variants!(2.0),
@@ -88,19 +88,23 @@ pub const fn planar_flank(rows: Rows) -> Stage {
     }
 }
 
-/// Dexels of a field that is uncut.
+/// Dexels of fields that are uncut.
 pub const PLANAR_UNCUT: Stage = Stage {
     name: "planar_uncut",
-    text: concat!(include_str!("../shared/records.wgsl"), include_str!("../planar_uncut.wgsl")),
-    bindings: &["launch", "blank_mm", "heights_mm", "passes"],
+    text: concat!(include_str!("../shared/field_records.wgsl"), include_str!("../planar_uncut.wgsl")),
+    bindings: &["fields", "blank_mm", "heights_mm", "passes"],
     variants: &[&[]],
 };
 
-/// Figures of the columns of a field.
+/// Figures of the columns of fields.
 pub const FLANK_FIGURES: Stage = Stage {
     name: "flank_figures",
-    text: concat!(include_str!("../shared/figure_records.wgsl"), include_str!("../flank_figures.wgsl")),
-    bindings: &["launch", "low_mm", "heights_mm", "passes", "last_heights_mm", "last_passes", "figures"],
+    text: concat!(
+        include_str!("../shared/field_records.wgsl"),
+        include_str!("../shared/figure_records.wgsl"),
+        include_str!("../flank_figures.wgsl"),
+    ),
+    bindings: &["fields", "low_mm", "heights_mm", "passes", "last_heights_mm", "last_passes", "figures"],
     variants: &[&[]],
 };
 
@@ -169,5 +173,3 @@ pub const STAGES: &[Stage] = &[
 
 /// Rows of a quad, the lanes of the planar kernel's vectors.
 pub const QUAD_ROWS: usize = 4;
-/// Records of a launch of the planar kernel at most.
-pub const ROUND_RECORDS: u32 = 512;

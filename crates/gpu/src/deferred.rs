@@ -11,7 +11,7 @@
 use crate::context::Gpu;
 use crate::in_flight::WholeField;
 use crate::problem::GpuProblem;
-use crate::readback::{self, ReadbackJob, Returned, Shipment};
+use crate::readback::{Returned, Shipment};
 use gearcut_core::cut::cpu::Cpu;
 use gearcut_core::cut::sweep_chips::SweepsCut;
 use gearcut_core::cut::{
@@ -25,7 +25,6 @@ use std::any::Any;
 use std::collections::VecDeque;
 use std::ops::Range;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
-use wgpu::BufferUsages as Use;
 
 /// What goes to the device, of a field of any kind.
 type AnyInputs = Box<dyn Any + Send + Sync>;
@@ -33,17 +32,15 @@ type AnyInputs = Box<dyn Any + Send + Sync>;
 /// A field that waits for the device.
 struct Waiting {
     inputs: AnyInputs,
-    job: for<'a> fn(&'a AnyInputs, &'a Gpu) -> Option<ReadbackJob<'a>>,
-    stage: &'static str,
-    record_usage: Use,
+    shipment: for<'a> fn(&'a AnyInputs, &'a Gpu) -> Option<Shipment<'a>>,
 }
 
 impl Waiting {
     fn of<F: WholeField>(inputs: F::Inputs) -> Self {
-        fn job<'a, F: WholeField>(inputs: &'a AnyInputs, gpu: &'a Gpu) -> Option<ReadbackJob<'a>> {
-            inputs.downcast_ref::<F::Inputs>().map(|inputs| F::job(inputs, gpu))
+        fn shipment<'a, F: WholeField>(inputs: &'a AnyInputs, gpu: &'a Gpu) -> Option<Shipment<'a>> {
+            inputs.downcast_ref::<F::Inputs>().map(|inputs| F::shipment(&[inputs], gpu))
         }
-        Self { inputs: Box::new(inputs), job: job::<F>, stage: F::STAGE, record_usage: F::RECORD_USAGE }
+        Self { inputs: Box::new(inputs), shipment: shipment::<F> }
     }
 }
 
@@ -80,17 +77,14 @@ impl Deferred {
         let waiting = std::mem::take(&mut self.lists().waiting);
         let mut settled = VecDeque::new();
         for waiting in waiting {
-            let Some(Waiting { inputs, job, stage, record_usage }) = waiting else {
+            let Some(Waiting { inputs, shipment }) = waiting else {
                 settled.push_back(None);
                 continue;
             };
-            self.gpu.device.alive()?;
-            let jobs: Vec<ReadbackJob> = job(&inputs, &self.gpu).into_iter().collect();
-            let poison = self.gpu.options.poison_outputs;
-            let sent = readback::send(&self.gpu.device, &Shipment { stage, record_usage, jobs: &jobs, poison }).await?;
-            let (left, device_ns) = sent.collect(&self.gpu.device).await?;
-            self.gpu.log().count(stage, device_ns);
-            drop(jobs);
+            let mut left = Vec::new();
+            if let Some(shipment) = shipment(&inputs, &self.gpu) {
+                left = self.gpu.collect(self.gpu.send(&shipment).await?).await?;
+            }
             settled.push_back(left.into_iter().next().map(|left| (inputs, left)));
         }
         self.lists().settled = settled;

@@ -4,9 +4,10 @@
 //! from it, and several fields share a submission. Two submissions are on their way while the next is made ready. A
 //! field that does not fit the device goes plan by plan in batches.
 
+use crate::batches::Allowance;
 use crate::context::{Gpu, IN_FLIGHT, OnGpuFailure};
 use crate::problem::GpuProblem;
-use crate::readback::{self, InFlight, ReadbackJob, Returned, Shipment};
+use crate::readback::{self, Arrived, InFlight, Returned, Shipment};
 use crate::waiting::wait;
 use gearcut_core::cut::cpu::Cpu;
 use gearcut_core::cut::{Backend, CutLayers};
@@ -14,7 +15,6 @@ use gearcut_core::error::Error;
 use rayon::prelude::*;
 use std::collections::VecDeque;
 use std::ops::Range;
-use wgpu::BufferUsages as Use;
 
 /// Fields that are made ready together at first: enough that waiting for them costs little.
 const FIELDS_AT_ONCE: usize = 12;
@@ -28,19 +28,15 @@ const SUBMISSION_BYTES: u64 = 256 << 20;
 pub(crate) trait WholeField: Send + Sized {
     /// What goes there.
     type Inputs: Send + Sync + 'static;
-    /// Name of the stage that cuts it.
-    const STAGE: &'static str;
-    /// `UNIFORM` or `STORAGE`, whichever the stage reads records from.
-    const RECORD_USAGE: Use;
 
     /// What goes to the device; nothing if it does not fit.
     fn compose(&self, gpu: &Gpu) -> Option<Self::Inputs>;
 
-    /// Bytes on the device.
-    fn bytes(inputs: &Self::Inputs) -> u64;
+    /// Bytes on the device: of all buffers, and of the largest.
+    fn bytes(inputs: &Self::Inputs) -> [u64; 2];
 
-    /// The job.
-    fn job<'a>(inputs: &'a Self::Inputs, gpu: &'a Gpu) -> ReadbackJob<'a>;
+    /// Some fields together.
+    fn shipment<'a>(fields: &[&'a Self::Inputs], gpu: &'a Gpu) -> Shipment<'a>;
 
     /// What is left of it.
     fn layers(&self, inputs: Self::Inputs, left: Returned) -> CutLayers;
@@ -89,10 +85,11 @@ impl Gpu {
             let (made, taken) = rayon::join(|| self.make_some(some, make, take), take_oldest);
             taken?;
             let fields = made?;
-            if fields.iter().map(|field| F::bytes(&field.inputs)).sum::<u64>() < FEW_BYTES {
+            if fields.iter().map(|field| F::bytes(&field.inputs)[0]).sum::<u64>() < FEW_BYTES {
                 at_once *= 2;
             }
-            for fields in groups(fields, SUBMISSION_BYTES.min(self.allowance().batch_bytes)) {
+            let Allowance { buffer_bytes, batch_bytes } = self.allowance();
+            for fields in groups(fields, [SUBMISSION_BYTES.min(batch_bytes), buffer_bytes]) {
                 if waiting.len() == IN_FLIGHT {
                     waiting.pop_front().map_or(Ok(()), |sent| self.take_fields(sent, take))?;
                 }
@@ -123,24 +120,28 @@ impl Gpu {
     }
 
     fn send_fields<F: WholeField>(&self, fields: &[Ready<F>]) -> Result<InFlight, GpuProblem> {
-        self.device.alive()?;
-        let jobs: Vec<ReadbackJob> = fields.iter().map(|field| F::job(&field.inputs, self)).collect();
-        self.send_jobs::<F>(&jobs)
+        let inputs: Vec<&F::Inputs> = fields.iter().map(|field| &field.inputs).collect();
+        wait(self.send(&F::shipment(&inputs, self)))
     }
 
-    /// Sends jobs of fields of a kind, whole ones or parts.
-    pub(crate) fn send_jobs<F: WholeField>(&self, jobs: &[ReadbackJob]) -> Result<InFlight, GpuProblem> {
-        let poison = self.options.poison_outputs;
-        let shipment = Shipment { stage: F::STAGE, record_usage: F::RECORD_USAGE, jobs, poison };
-        wait(readback::send(&self.device, &shipment))
+    /// Sends a submission.
+    pub(crate) async fn send(&self, shipment: &Shipment<'_>) -> Result<InFlight, GpuProblem> {
+        self.device.alive()?;
+        readback::send(&self.device, shipment, self.options.poison_outputs).await
+    }
+
+    /// Waits for a submission: what is left of its fields.
+    pub(crate) async fn collect(&self, in_flight: InFlight) -> Result<Vec<Returned>, GpuProblem> {
+        let Arrived { stage, fields, device_ns } = in_flight.collect(&self.device).await?;
+        self.log().count(stage, device_ns);
+        Ok(fields)
     }
 
     /// Waits for fields; cuts them natively if that is what a failure asks for.
     fn take_fields<F: WholeField>(&self, sent: Sent<F>, take: &Take<F>) -> Result<(), Error> {
         let Sent { fields, in_flight } = sent;
-        match in_flight.and_then(|in_flight| wait(in_flight.collect(&self.device))) {
-            Ok((left, device_ns)) => {
-                self.log().count(F::STAGE, device_ns);
+        match in_flight.and_then(|in_flight| wait(self.collect(in_flight))) {
+            Ok(left) => {
                 let fields = fields.into_par_iter().zip(left);
                 fields.try_for_each(|(Ready { index, field, inputs }, left)| {
                     let left = field.layers(inputs, left);
@@ -159,17 +160,17 @@ impl Gpu {
     }
 }
 
-/// Fields in runs that share a submission of at most so many bytes, or of one field.
-fn groups<F: WholeField>(fields: Vec<Ready<F>>, most_bytes: u64) -> Vec<Vec<Ready<F>>> {
-    let (mut groups, mut bytes): (Vec<Vec<Ready<F>>>, u64) = (Vec::new(), 0);
+/// Fields in runs that share a submission of at most so many bytes, in all buffers and in the largest, or of one field.
+fn groups<F: WholeField>(fields: Vec<Ready<F>>, most: [u64; 2]) -> Vec<Vec<Ready<F>>> {
+    let (mut groups, mut all, mut largest): (Vec<Vec<Ready<F>>>, u64, u64) = (Vec::new(), 0, 0);
     for field in fields {
         let own = F::bytes(&field.inputs);
-        bytes += own;
-        match groups.last_mut().filter(|_| bytes <= most_bytes) {
+        [all, largest] = [all + own[0], largest + own[1]];
+        match groups.last_mut().filter(|_| all <= most[0] && largest <= most[1]) {
             Some(group) => group.push(field),
             None => {
                 groups.push(vec![field]);
-                bytes = own;
+                [all, largest] = own;
             }
         }
     }

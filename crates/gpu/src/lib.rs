@@ -15,15 +15,20 @@
 //! - `pipeline`: pipelines of the stages that the crate `gearcut-shaders` holds
 //! - `stamps`: when launches begin and end
 //! - [`records`]: what the shaders of shaped flanks read and write, byte for byte
-//! - `readback`: a batch sent, cut and brought back
+//! - `readback`: fields sent, cut and brought back
+//! - `launches`: launches over tiles of many fields
 //! - [`sweep_records`]: what the shader of hobbed flanks reads
 //! - [`near_edge`]: the piece of an edge that a tile can meet, as one polynomial
 //! - [`compose`]: from the plan's f64 records to f32 records
-//! - [`batches`]: fields of any size in batches and rounds
+//! - [`batches`]: fields of any size in batches
 //! - `context`: the device, its pipelines, and what it has met
 //! - `in_flight`: fields that the device takes whole, some at a time
+//! - `planar_steps`: what plans need over columns
 //! - `planar`: flanks cut by strokes
 //! - [`edge_cells`]: tables of an edge for the spatial shader
+//! - `sweep_compose`: from the plan's f64 sweeps to f32 records
+//! - `tile_dexels`: rays and dexels in the order of tiles
+//! - `swept_steps`: what plans of sweeps need over tiles
 //! - `spatial`: flanks cut by sweeps
 //! - [`blank_records`]: what the shaders of the blank read and write
 //! - `blank_rays`: rays of the blank on the device, and launches of the kernel that cuts them
@@ -45,15 +50,20 @@ mod deferred;
 mod device;
 pub mod edge_cells;
 mod in_flight;
+mod launches;
 pub mod near_edge;
 mod pipeline;
 mod planar;
+mod planar_steps;
 mod problem;
 mod readback;
 pub mod records;
 mod spatial;
 mod stamps;
+mod sweep_compose;
 pub mod sweep_records;
+mod swept_steps;
+mod tile_dexels;
 pub mod waiting;
 
 pub use context::{Gpu, GpuOptions, OnGpuFailure};

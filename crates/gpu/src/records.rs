@@ -6,30 +6,48 @@
 use bytemuck::{Pod, Zeroable};
 use gearcut_core::dexel::figures::{ColumnHeights, ColumnStock, NO_HEIGHTS, RowHeight};
 
-/// Rows of one launch.
+/// A field among those of a submission.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
-pub struct Launch {
-    /// Rows of the field, along the tooth.
-    pub rows: u32,
+pub struct FlankField {
+    /// Its first column.
+    pub first_column: u32,
+    /// Number of columns.
+    pub column_count: u32,
+    /// Its first quad of rows.
+    pub first_quad: u32,
     /// Quads of rows in a column, the last one filled up.
     pub quads: u32,
-    /// Threads that share the rows of one column.
-    pub threads_per_column: u32,
+    /// Rows, along the tooth.
+    pub rows: u32,
+    /// Row whose dexels come back.
+    pub profile_row: u32,
 }
 
 /// Columns that visit the same passes.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
 pub struct FlankTile {
-    /// First column of the batch.
+    /// First column of the step.
     pub first_column: u32,
     /// Number of columns.
     pub column_count: u32,
-    /// First record of the batch.
+    /// First record of the step.
     pub first_record: u32,
     /// Number of records.
     pub record_count: u32,
+    /// First quad of rows of its first column.
+    pub first_quad: u32,
+    /// Quads of rows in a column, the last one filled up.
+    pub quads: u32,
+    /// Rows of its field, along the tooth.
+    pub rows: u32,
+    /// Threads that share the rows of one column.
+    pub threads_per_column: u32,
+    /// First quad of its field's row phases.
+    pub first_phase: u32,
+    /// Its field among those of the submission.
+    pub field: u32,
 }
 
 /// One ray of the transverse plane, in the frame of its tile.
@@ -79,18 +97,6 @@ pub struct FlankPass {
     pub padding_1: u32,
     /// Nothing.
     pub padding_2: u32,
-}
-
-/// A field whose columns are looked at.
-#[repr(C)]
-#[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
-pub struct FigureLaunch {
-    /// Rows of the field.
-    pub rows: u32,
-    /// Quads of rows in a column, the last one filled up.
-    pub quads: u32,
-    /// Row whose dexels come back.
-    pub profile_row: u32,
 }
 
 /// Figures of one column after an operation; rows count from its first one.

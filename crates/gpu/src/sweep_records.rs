@@ -5,20 +5,26 @@
 
 use bytemuck::{Pod, Zeroable};
 
-/// Dexels that visit the same passes, in groups of four rows.
+/// Dexels that visit the same passes, in groups of rows.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
 pub struct SpatialTile {
     /// Direction of the tile's middle ray, and the lowest height that rays record, mm.
     pub middle: [f32; 4],
-    /// First group of the batch.
+    /// First group of the submission.
     pub first_group: u32,
     /// Number of groups.
     pub group_count: u32,
-    /// First record of the batch.
+    /// First record of the step.
     pub first_record: u32,
     /// Number of records.
     pub record_count: u32,
+    /// First cell of its field's tables.
+    pub first_cell: u32,
+    /// Its field among those of the submission.
+    pub field: u32,
+    /// Structures end at multiples of sixteen bytes.
+    pub unused: [u32; 2],
 }
 
 /// One sweep of one segment over one tile.
@@ -58,7 +64,7 @@ pub struct SpatialPass {
     pub first_cell: f32,
     /// Table: last cell against the base cell.
     pub last_cell: f32,
-    /// Table: base cell among the cells of all segments.
+    /// Table: base cell in its field's tables.
     pub base_cell: u32,
     /// Id of the pass.
     pub pass_id: u32,

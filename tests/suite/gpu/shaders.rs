@@ -1,6 +1,6 @@
 //! The shaders as naga sees them: every file in every variant is valid, and both sides of the border agree.
 
-use gearcut::gpu::shaders::{ROUND_RECORDS, STAGES, STORAGE_BUFFERS, Stage, WORKGROUP_THREADS};
+use gearcut::gpu::shaders::{STAGES, STORAGE_BUFFERS, Stage, WORKGROUP_THREADS};
 use gearcut::gpu::{blank_records, records, sweep_records};
 use naga::back::pipeline_constants::process_overrides;
 use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
@@ -89,8 +89,21 @@ macro_rules! layout {
 #[test]
 fn records_have_the_same_members_on_both_sides() {
     let layouts = [
-        layout!("planar_flank", records::Launch { rows, quads, threads_per_column }),
-        layout!("planar_flank", records::FlankTile { first_column, column_count, first_record, record_count }),
+        layout!(
+            "planar_flank",
+            records::FlankTile {
+                first_column,
+                column_count,
+                first_record,
+                record_count,
+                first_quad,
+                quads,
+                rows,
+                threads_per_column,
+                first_phase,
+                field,
+            }
+        ),
         layout!("planar_flank", records::FlankColumn { offset_mm, normal, normal_change, low_mm, padding }),
         layout!(
             "planar_flank",
@@ -110,7 +123,10 @@ fn records_have_the_same_members_on_both_sides() {
                 padding_2,
             }
         ),
-        layout!("flank_figures", records::FigureLaunch { rows, quads, profile_row }),
+        layout!(
+            "flank_figures",
+            records::FlankField { first_column, column_count, first_quad, quads, rows, profile_row }
+        ),
         layout!(
             "flank_figures",
             records::FigureColumn {
@@ -170,7 +186,16 @@ fn records_have_the_same_members_on_both_sides() {
         layout!("blank_rays", blank_records::RayState { place, count, first }),
         layout!(
             "spatial_flank",
-            sweep_records::SpatialTile { middle, first_group, group_count, first_record, record_count }
+            sweep_records::SpatialTile {
+                middle,
+                first_group,
+                group_count,
+                first_record,
+                record_count,
+                first_cell,
+                field,
+                unused,
+            }
         ),
         layout!(
             "spatial_flank",
@@ -219,7 +244,6 @@ fn records_have_the_same_members_on_both_sides() {
 #[test]
 fn constants_agree() {
     for (stage, name, ours) in [
-        ("planar_flank", "ROUND_RECORDS", ROUND_RECORDS),
         ("blank_rays", "LEDGER_HEAD", blank_records::LEDGER_HEAD as u32),
         ("blank_rays", "NO_ROOM", blank_records::NO_ROOM),
         ("blank_rays", "NO_ACCOUNT", blank_records::NO_ACCOUNT),

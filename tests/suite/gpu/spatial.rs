@@ -5,17 +5,19 @@ use crate::fixtures::oracle_cases::*;
 use crate::fixtures::parity::*;
 use crate::hobbing::drawn_teeth::cycloid_job;
 use gearcut::cut::cpu::Cpu;
-use gearcut::cut::{Backend, SweptBy, SweptField};
+use gearcut::cut::{Backend, CutLayers, SweptBy, SweptField};
 use gearcut::dexel::SpatialField;
 use gearcut::gpu::shaders::Rows;
-use gearcut::gpu::{GpuOptions, OnGpuFailure};
+use gearcut::gpu::{Gpu, GpuOptions, OnGpuFailure};
 use gearcut::passes::{SweepPlan, TurningPasses};
 use gearcut::process::hobbing::{HobCutter, HobbingJob};
 use gearcut::process::load;
 use gearcut::terms::Side;
 use serde_json::Value;
+use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 use std::path::Path;
+use std::sync::Mutex;
 
 /// [`fingerprint`] of the first patch: llvmpipe rounds alike in all its versions.
 const GOLDEN: u64 = 0x4a04_82b3_4b29_1fa3;
@@ -180,6 +182,41 @@ fn operations_in_turn_leave_the_bytes_of_operations_one_by_one() {
     lost.lose_device();
     let native = swept.clone().cut(&Cpu::default()).expect("cuts");
     assert!(swept.cut(&lost).expect("cut natively") == native && lost.incidents().len() == 1);
+}
+
+/// Fields of other sizes and with more or fewer operations share launches; each is left as it is by itself.
+#[test]
+fn fields_that_share_launches_leave_the_bytes_of_each_alone() {
+    let cases = ["p11_patch_circle", "p12_patch_spur", "p09_patch_s2_axial"].map(case);
+    let fields: Vec<SweptField> = (1..4)
+        .zip(&cases)
+        .map(|(operations, (passes, field))| SweptField {
+            field: field.clone(),
+            operations: vec![vec![passes]; operations],
+            by: SweptBy::Candidates,
+        })
+        .collect();
+    let together = |gpu: &Gpu, fields: &[SweptField]| {
+        let done = Mutex::new(BTreeMap::new());
+        let take = |index: usize, _: SweptField, left: CutLayers| {
+            assert!(done.lock().expect("no panic").insert(index, left).is_none(), "field {index} comes twice");
+            Ok(())
+        };
+        gpu.cut_swept(fields.len(), &|index| Ok(Some(fields[index].clone())), &take).expect("cuts");
+        done.into_inner().expect("no panic").into_values().collect::<Vec<CutLayers>>()
+    };
+    for rows in [Rows::Many, Rows::Few] {
+        let gpu = software_gpu(GpuOptions { rows: Some(rows), ..strict() });
+        let left = together(&gpu, &fields);
+        assert_eq!(gpu.stage_times()[0].batches, 1, "one submission");
+        let alone: Vec<CutLayers> = fields.iter().map(|swept| swept.clone().cut(&gpu).expect("cuts")).collect();
+        assert!(left == alone, "layers or counts differ");
+        assert!(together(&gpu, &fields) == left, "other bytes the second time");
+        // Alive: the second field of other passes.
+        let mut other = fields.clone();
+        other[1].operations = vec![vec![&cases[0].0]; 2];
+        assert!(together(&gpu, &other)[1] != left[1]);
+    }
 }
 
 mod slow {

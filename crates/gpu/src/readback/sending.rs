@@ -1,36 +1,57 @@
 //! A submission as it is put together: buffers, launches, copies.
 //!
-//! In: jobs. Out: commands, and the place of everything that comes back, in the order in which it is read.
+//! In: fields with their steps. Out: commands that bring back the parts in their order.
 
-use super::{Before, Input, ReadbackJob, ReadbackStep, Shipment, Wanted};
+use super::parts::{OutputBuffer, ReturnedPart, ReturnedParts, VALUE_BYTES};
+use super::{Before, Input, ReadbackStep, Shipment, Wanted};
 use crate::device::Device;
+use crate::records::FigureColumn;
 use crate::stamps::Stamps;
-use std::ops::Range;
 use wgpu::BufferUsages as Use;
 
 /// A submission as it is put together.
-pub(super) struct Sending<'a> {
-    pub(super) device: &'a Device,
-    pub(super) shipment: &'a Shipment<'a>,
-    pub(super) encoder: wgpu::CommandEncoder,
-    pub(super) stamps: Option<Stamps>,
-    pub(super) timed: usize,
-    pub(super) launched: usize,
-    pub(super) back: wgpu::Buffer,
-    pub(super) place: u64,
+pub struct Sending<'a> {
+    /// The device.
+    pub device: &'a Device,
+    /// Name of the stage.
+    pub stage: &'static str,
+    /// Whether outputs are filled with ones.
+    pub poison: bool,
+    /// Commands so far.
+    pub encoder: wgpu::CommandEncoder,
+    /// Stamps of the first launches.
+    pub stamps: Option<Stamps>,
+    /// How many of them.
+    pub timed: usize,
+    /// Launches so far.
+    pub launched: usize,
+    /// Where parts are copied to.
+    pub back: wgpu::Buffer,
+    /// Bytes there so far.
+    pub place: u64,
 }
 
 impl Sending<'_> {
-    fn buffer(&self, label: &str, bytes: &[u8], usage: Use) -> wgpu::Buffer {
-        let buffer = self.device.empty(label, bytes.len() as u64, usage | Use::COPY_DST);
-        self.device.queue.write_buffer(&buffer, 0, bytes);
+    /// Parts one after the other.
+    fn buffer(&self, label: &str, parts: &[&[u8]], usage: Use) -> wgpu::Buffer {
+        let bytes = parts.iter().map(|part| part.len()).sum::<usize>();
+        let buffer = self.device.empty(label, bytes as u64, usage | Use::STORAGE | Use::COPY_DST);
+        self.fill(&buffer, parts);
         buffer
+    }
+
+    fn fill(&self, buffer: &wgpu::Buffer, parts: &[&[u8]]) {
+        let mut place = 0;
+        for part in parts {
+            self.device.queue.write_buffer(buffer, place, part);
+            place += part.len() as u64;
+        }
     }
 
     /// What the device writes.
     fn output(&self, label: &str, bytes: usize) -> wgpu::Buffer {
         let buffer = self.device.empty(label, bytes as u64, Use::STORAGE | Use::COPY_SRC | Use::COPY_DST);
-        if self.shipment.poison {
+        if self.poison {
             self.device.queue.write_buffer(&buffer, 0, &vec![0xFF; bytes]);
         }
         buffer
@@ -41,118 +62,108 @@ impl Sending<'_> {
         ["heights", "passes"].map(|label| self.output(label, bytes))
     }
 
-    fn shared(&self, inputs: &[Input]) -> Vec<Option<wgpu::Buffer>> {
-        let own = inputs.iter().map(|input| match *input {
-            Input::Shared { label, bytes, usage } => Some(self.buffer(label, bytes, usage)),
-            Input::Rays | Input::Tiles | Input::Records => None,
-        });
-        own.collect()
-    }
-
-    fn run(&mut self, pipeline: &wgpu::ComputePipeline, buffers: &[&wgpu::Buffer], [x, y]: [u32; 2], is_timed: bool) {
-        let entries: Vec<wgpu::BindGroupEntry> = (0..)
-            .zip(buffers)
-            .map(|(binding, buffer)| wgpu::BindGroupEntry { binding, resource: buffer.as_entire_binding() })
+    /// Runs the launches of a step.
+    fn run(&mut self, step: &ReadbackStep, rays: Option<&wgpu::Buffer>, outputs: &[&wgpu::Buffer], is_timed: bool) {
+        if step.launches.is_empty() {
+            return;
+        }
+        let own: Vec<Option<wgpu::Buffer>> = step
+            .inputs
+            .iter()
+            .map(|input| match input {
+                Input::Shared(label, parts) => Some(self.buffer(label, parts, Use::empty())),
+                Input::Rays | Input::Tiles => None,
+            })
             .collect();
-        let group = self.device.handle.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: None,
-            layout: &pipeline.get_bind_group_layout(0),
-            entries: &entries,
-        });
-        let index = self.launched;
-        let timestamp_writes =
-            self.stamps.as_ref().filter(|_| is_timed && index < self.timed).map(|stamps| stamps.writes(index));
-        self.launched += usize::from(is_timed);
-        let label = Some(self.shipment.stage);
-        let mut pass = self.encoder.begin_compute_pass(&wgpu::ComputePassDescriptor { label, timestamp_writes });
-        pass.set_pipeline(pipeline);
-        pass.set_bind_group(0, &group, &[]);
-        pass.dispatch_workgroups(x, y, 1);
+        for launch in &step.launches {
+            let tiles = self.buffer("tiles", &[&launch.tiles], Use::empty());
+            let inputs = step.inputs.iter().zip(&own).map(|(input, own)| match input {
+                Input::Rays => rays.unwrap_or(&tiles),
+                Input::Shared(..) | Input::Tiles => own.as_ref().unwrap_or(&tiles),
+            });
+            let entries: Vec<wgpu::BindGroupEntry> = (0..)
+                .zip(inputs.chain(outputs.iter().copied()))
+                .map(|(binding, buffer)| wgpu::BindGroupEntry { binding, resource: buffer.as_entire_binding() })
+                .collect();
+            let group = self.device.handle.create_bind_group(&wgpu::BindGroupDescriptor {
+                label: None,
+                layout: &launch.pipeline.get_bind_group_layout(0),
+                entries: &entries,
+            });
+            let index = self.launched;
+            let timestamp_writes =
+                self.stamps.as_ref().filter(|_| is_timed && index < self.timed).map(|stamps| stamps.writes(index));
+            self.launched += usize::from(is_timed);
+            let label = Some(self.stage);
+            let mut pass = self.encoder.begin_compute_pass(&wgpu::ComputePassDescriptor { label, timestamp_writes });
+            pass.set_pipeline(launch.pipeline);
+            pass.set_bind_group(0, &group, &[]);
+            let [x, y] = launch.workgroups;
+            pass.dispatch_workgroups(x, y, 1);
+        }
     }
 
-    fn bring(&mut self, from: &wgpu::Buffer, bytes: Range<usize>) {
-        let size = bytes.len() as u64;
-        self.encoder.copy_buffer_to_buffer(from, bytes.start as u64, &self.back, self.place, size);
-        self.place += size;
+    /// Copies parts, neighbours at once.
+    fn bring<'b>(&mut self, parts: &[ReturnedPart], from: impl Fn(OutputBuffer) -> &'b wgpu::Buffer) {
+        for run in parts.chunk_by(|a, b| a.source == b.source && a.bytes.end == b.bytes.start) {
+            let (start, end) = (run[0].bytes.start as u64, run[run.len() - 1].bytes.end as u64);
+            self.encoder.copy_buffer_to_buffer(from(run[0].source), start, &self.back, self.place, end - start);
+            self.place += end - start;
+        }
     }
 
     /// Heights and passes before the first step.
-    fn before(&mut self, before: &Before) -> [wgpu::Buffer; 2] {
-        let [heights, passes] = self.dexels(before.bytes());
+    fn before(&mut self, before: &Before, [heights, passes]: &[wgpu::Buffer; 2]) {
         match before {
-            Before::Layer(heights_mm, ids) => {
-                self.device.queue.write_buffer(&heights, 0, bytemuck::cast_slice(heights_mm));
-                self.device.queue.write_buffer(&passes, 0, bytemuck::cast_slice(ids));
+            Before::Layers(layers) => {
+                let [heights_mm, ids]: [Vec<&[u8]>; 2] = [
+                    layers.iter().map(|(heights_mm, _)| bytemuck::cast_slice(heights_mm)).collect(),
+                    layers.iter().map(|(_, ids)| bytemuck::cast_slice(ids)).collect(),
+                ];
+                self.fill(heights, &heights_mm);
+                self.fill(passes, &ids);
             }
-            Before::Uncut { pipeline, inputs, workgroups, .. } => {
-                let own = self.shared(inputs);
-                let buffers: Vec<&wgpu::Buffer> = own.iter().flatten().chain([&heights, &passes]).collect();
-                self.run(pipeline, &buffers, *workgroups, false);
-            }
+            Before::Uncut(step) => self.run(step, None, &[heights, passes], false),
         }
-        [heights, passes]
     }
 
-    /// Runs the launches of a step; gives its count of iterations that stopped short.
-    fn step(
-        &mut self,
-        step: &ReadbackStep,
-        rays: Option<&wgpu::Buffer>,
-        [heights, passes]: &[wgpu::Buffer; 2],
-    ) -> wgpu::Buffer {
-        let own = self.shared(&step.inputs);
-        let unconverged = self.buffer("unconverged", bytemuck::bytes_of(&0_u32), Use::STORAGE | Use::COPY_SRC);
-        for launch in &step.launches {
-            let tiles = self.buffer("tiles", launch.tiles, Use::STORAGE);
-            let records = self.buffer("records", launch.records, self.shipment.record_usage);
-            let inputs = step.inputs.iter().zip(&own).map(|(input, own)| match (input, own, rays) {
-                (Input::Records, ..) => &records,
-                (Input::Rays, _, Some(rays)) => rays,
-                (_, Some(own), _) => own,
-                (_, None, _) => &tiles,
-            });
-            let buffers: Vec<&wgpu::Buffer> = inputs.chain([heights, passes, &unconverged]).collect();
-            self.run(launch.pipeline, &buffers, launch.workgroups, true);
-        }
-        unconverged
-    }
-
-    /// Runs a job and brings back what is wanted of it.
-    pub(super) fn job(&mut self, job: &ReadbackJob) {
-        let bytes = job.before.bytes();
-        let rays = (!job.rays.is_empty()).then(|| self.buffer("rays", job.rays, Use::STORAGE));
-        let mut dexels = vec![self.before(&job.before)];
-        for (index, step) in job.steps.iter().enumerate() {
-            if matches!(job.wanted, Wanted::Figures(_)) && index > 0 {
+    /// Runs all steps and brings back what is wanted.
+    pub fn ship(&mut self, shipment: &Shipment, parts: &ReturnedParts) {
+        let fields = &shipment.fields;
+        let bytes = VALUE_BYTES * fields.iter().map(|share| share.dexels).sum::<usize>();
+        let rays = (!shipment.rays.is_empty()).then(|| self.buffer("rays", &shipment.rays, Use::empty()));
+        let zeros = vec![0; VALUE_BYTES * fields.len()];
+        let unconverged = self.buffer("unconverged", &[&zeros], Use::COPY_SRC);
+        let mut layers = vec![self.dexels(bytes)];
+        self.before(&shipment.before, &layers[0]);
+        for (index, (step, parts)) in shipment.steps.iter().zip(&parts.of_steps).enumerate() {
+            if shipment.figures.is_some() && index > 0 {
                 // Those before stay as they are.
                 let next = self.dexels(bytes);
-                for (before, next) in dexels[index - 1].iter().zip(&next) {
+                for (before, next) in layers[index - 1].iter().zip(&next) {
                     self.encoder.copy_buffer_to_buffer(before, 0, next, 0, bytes as u64);
                 }
-                dexels.push(next);
+                layers.push(next);
             }
-            let now = &dexels[dexels.len() - 1];
-            let unconverged = self.step(step, rays.as_ref(), now);
-            if let Wanted::Dexels = job.wanted {
-                for of in now {
-                    self.bring(of, 0..bytes);
-                }
-            }
-            self.bring(&unconverged, 0..size_of::<u32>());
+            let [heights, passes] = &layers[layers.len() - 1];
+            self.run(step, rays.as_ref(), &[heights, passes, &unconverged], true);
+            self.bring(parts, |source| if source == OutputBuffer::Heights { heights } else { passes });
         }
-        if let Wanted::Figures(inputs) = &job.wanted {
-            let last = &dexels[dexels.len() - 1];
-            for of_step in &dexels {
-                let (own, figures) = (self.shared(&inputs.inputs), self.output("figures", inputs.bytes()));
-                let buffers: Vec<&wgpu::Buffer> =
-                    own.iter().flatten().chain(of_step).chain(last).chain([&figures]).collect();
-                self.run(inputs.pipeline, &buffers, [inputs.columns, 1], false);
-                self.bring(&figures, 0..inputs.bytes());
-            }
-            for of in last {
-                self.bring(of, inputs.along.clone());
+        let last = &layers[layers.len() - 1];
+        if let Some(step) = &shipment.figures {
+            let columns =
+                fields.iter().map(|share| if let Wanted::Figures { columns, .. } = share.wanted { columns } else { 0 });
+            let bytes = size_of::<FigureColumn>() * columns.sum::<usize>();
+            for (of_step, parts) in layers.iter().zip(&parts.of_figures) {
+                let figures = self.output("figures", bytes);
+                self.run(step, None, &[&of_step[0], &of_step[1], &last[0], &last[1], &figures], false);
+                self.bring(parts, |_| &figures);
             }
         }
-        self.place = self.place.next_multiple_of(8);
+        self.bring(&parts.at_the_end, |source| match source {
+            OutputBuffer::Heights => &last[0],
+            OutputBuffer::Passes => &last[1],
+            OutputBuffer::Figures | OutputBuffer::Unconverged => &unconverged,
+        });
     }
 }
