@@ -227,7 +227,7 @@ impl CylindricalGear for ShapingJob {
     }
 
     fn errors_vary_along_tooth(&self) -> bool {
-        // A feed that goes on during the stroke takes sections in turns, each cut like the others.
+        // A feed that goes on during the stroke moves marks from section to section, and nothing else.
         let differ = |operation: &PreparedOperation| operation.actual.differs_along_tooth();
         self.operations.iter().any(differ) || self.vibrates() || self.cutter_spec.built_up_edge.is_some()
     }
