@@ -222,6 +222,10 @@ pub trait CylindricalGear: GearJob {
         Vec::new()
     }
 
+    /// Whether errors of the machine, of the clamping or of a program may let sections along the tooth differ: a lead
+    /// error, noise, a cutter that vibrates. Marks that repeat along the tooth are none of it.
+    fn errors_vary_along_tooth(&self) -> bool;
+
     /// Surface of the tip land of a tooth after all operations; `None` on a pointed tooth.
     ///
     /// # Errors

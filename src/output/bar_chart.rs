@@ -12,7 +12,7 @@ use maud::{Markup, html};
 use crate::output::axis::{round_range, value_text, widened};
 use crate::output::figure::{Figure, LegendEntry, MOST_SERIES, Name, Plot, Sample};
 use crate::output::line_chart::Limit;
-use crate::output::plot::{BarPlaces, LABELS_PX, PlotFrame, WIDTH_PX, px};
+use crate::output::plot::{BarPlaces, PlotFrame, WIDTH_PX, px};
 use gearcut_core::Result;
 
 /// A bar chart.
@@ -127,7 +127,7 @@ impl BarChart {
                     .map(|index| self.entry(index, extent))
                     .chain(self.limits.iter().map(|limit| limit.legend(frame.range, &self.unit)))
                     .collect(),
-                size_px: (WIDTH_PX, frame.bottom + LABELS_PX),
+                size_px: (WIDTH_PX, frame.bottom + slots.labels_px()),
                 drawing,
             }],
             x_name: Name::new(&self.category_name, String::new()),
@@ -190,6 +190,18 @@ mod tests {
         assert_eq!(text.matches("<rect").count(), 3, "two bars and the frame");
         assert!(text.contains("&lt;b&gt;pitch&lt;/b&gt;") && !text.contains("<b>"));
         assert!(text.contains("tooth 3, left: −1.00 µm"), "{text}");
+        let names =
+            ["period", "turn of A", "2 x turn of A", "3 x turn of A", "4 x turn of A", "turn of B"].map(String::from);
+        let values = vec![Some(1.0); 12];
+        let named = BarChart {
+            categories: names.iter().chain(&names).cloned().collect(),
+            series: vec![BarSeries { name: "left".into(), values }],
+            ..chart.clone()
+        };
+        let numbered =
+            BarChart { categories: (1000..1012).map(|i| format!("{i} of a long row")).collect(), ..named.clone() };
+        let labels = |chart: &BarChart| chart.figure().html().into_string().matches("\"tick middle\"").count();
+        assert_eq!([labels(&named), labels(&numbered)], [12, 6], "names have a label each, numbers every second");
         // A limit far away is named alone: drawn, it would flatten the bars.
         assert_eq!(text.matches("class=\"limit\"").count(), 1, "{text}");
         assert!(text.contains("class 5 2.50 µm") && text.contains("class 11 52.0 µm, outside the panel"), "{text}");

@@ -14,7 +14,7 @@ use maud::html;
 use crate::output::bar_chart::{BarSeries, bars, range};
 use crate::output::figure::{Figure, LegendEntry, MOST_SERIES, Name, Plot, Sample};
 use crate::output::line_chart::Limit;
-use crate::output::plot::{BarPlaces, LABELS_PX, PlotFrame, WIDTH_PX};
+use crate::output::plot::{BarPlaces, PlotFrame, WIDTH_PX};
 use gearcut_core::Result;
 
 /// Height of a panel: some of them shall be seen at once, pixels.
@@ -95,7 +95,7 @@ impl BarPanels {
             Plot {
                 name: Name::new(&panel.value_name, frame.ticks().unit_text(&panel.unit)),
                 legend: panel.series.iter().enumerate().map(entry).chain(limits).collect(),
-                size_px: (WIDTH_PX, frame.bottom + if last { LABELS_PX } else { 4.0 }),
+                size_px: (WIDTH_PX, frame.bottom + if last { slots.labels_px() } else { 4.0 }),
                 drawing,
             }
         });

@@ -13,6 +13,9 @@ use crate::output::axis::Ticks;
 pub(super) const WIDTH_PX: f64 = 960.0;
 /// Room below a frame for the labels of the common axis, pixels.
 pub(super) const LABELS_PX: f64 = 26.0;
+/// Distance of rows of such labels, pixels, and most rows: with more nobody finds the bar of a label.
+const ROW_PX: f64 = 14.0;
+const MOST_ROWS: usize = 3;
 
 /// Rectangle of a plot with its value axis.
 #[derive(Debug, Clone, Copy)]
@@ -66,7 +69,12 @@ impl PlotFrame {
 
     /// Label of the common axis.
     pub(super) fn label_below(&self, x: f64, label: &str) -> Markup {
-        html! { text class="tick middle" x=(px(x)) y=(px(self.bottom + 17.0)) { (label) } }
+        self.label_in_row(x, 0, label)
+    }
+
+    fn label_in_row(&self, x: f64, row: usize, label: &str) -> Markup {
+        let y = self.bottom + 17.0 + ROW_PX * row as f64;
+        html! { text class="tick middle" x=(px(x)) y=(px(y)) { (label) } }
     }
 
     /// The frame itself, over what is inside.
@@ -100,18 +108,36 @@ impl BarPlaces<'_> {
         self.frame.left + self.slot_px() * (category as f64 + 0.1) + self.bar_px() * series as f64
     }
 
-    /// Labels under categories: all, or every second, fifth, tenth ... where they would touch.
-    pub(super) fn labels(&self) -> Markup {
+    /// Every how many categories have labels side by side that do not touch.
+    fn every(&self) -> usize {
         let slot_px = self.slot_px();
         let longest = self.categories.iter().map(|label| label.chars().count()).max().unwrap_or(1);
         let widest_px = longest as f64 * 7.0 + 5.0;
-        let every = [1, 2, 5, 10, 20, 50, 100, 200, 500]
-            .into_iter()
-            .find(|&n| slot_px * f64::from(n) > widest_px)
-            .unwrap_or(1000);
+        let fits = |n: &usize| slot_px * *n as f64 > widest_px;
+        [1, 2, 5, 10, 20, 50, 100, 200, 500].into_iter().find(fits).unwrap_or(1000)
+    }
+
+    /// Rows of labels: numbers follow from those of the bars beside them, names do not.
+    fn rows(&self) -> usize {
+        let are_names = self.categories.iter().any(|label| !label.starts_with(|first: char| first.is_ascii_digit()));
+        let every = self.every();
+        if are_names && every <= MOST_ROWS { every } else { 1 }
+    }
+
+    /// Room for the labels below the frame, pixels.
+    pub(super) fn labels_px(&self) -> f64 {
+        LABELS_PX + ROW_PX * (self.rows() - 1) as f64
+    }
+
+    /// Labels under categories: numbers under all of them, or under every second, fifth, tenth ... where they would
+    /// touch; names in as many rows as it takes, if those are few.
+    pub(super) fn labels(&self) -> Markup {
+        let (rows, every) = (self.rows(), self.every());
+        let step = if rows > 1 { 1 } else { every };
         html! {
-            @for (index, label) in self.categories.iter().enumerate().step_by(every as usize) {
-                (self.frame.label_below(self.frame.left + slot_px * (index as f64 + 0.5), label))
+            @for (index, label) in self.categories.iter().enumerate().step_by(step) {
+                @let x = self.frame.left + self.slot_px() * (index as f64 + 0.5);
+                (self.frame.label_in_row(x, index % rows, label))
             }
         }
     }

@@ -6,7 +6,7 @@ use maud::html;
 
 use crate::output::axis::{round_range, value_text};
 use crate::output::figure::{Figure, LegendEntry, Name, Plot, Sample};
-use crate::output::plot::{BarPlaces, LABELS_PX, PlotFrame, WIDTH_PX, px};
+use crate::output::plot::{BarPlaces, PlotFrame, WIDTH_PX, px};
 
 /// A chart of ranges.
 #[derive(Debug, Clone, PartialEq)]
@@ -74,7 +74,7 @@ impl RangeChart {
             plots: vec![Plot {
                 name: Name::new("smallest to largest, mean marked", frame.ticks().unit_text(&self.unit)),
                 legend: self.series.iter().enumerate().map(entry).collect(),
-                size_px: (WIDTH_PX, frame.bottom + LABELS_PX),
+                size_px: (WIDTH_PX, frame.bottom + slots.labels_px()),
                 drawing,
             }],
             x_name: Name::new(&self.category_name, String::new()),

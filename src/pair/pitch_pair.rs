@@ -56,6 +56,9 @@ pub struct PairTeeth {
     pub module_mm: f64,
     /// Transverse pressure angle.
     pub pressure_angle_rad: f64,
+    /// cos(beta_b): what is normal to the flanks over what is normal to them in the transverse section; 1 of spur
+    /// gears.
+    pub base_helix_cosine: f64,
     /// Numbers of teeth of driver and driven gear.
     pub count: [u32; 2],
     /// Kind of the driven gear: beside the driver, or a ring round it.
@@ -203,9 +206,11 @@ impl PitchPair {
     }
 
     /// Lever of the line of action about the driven axis, mm: what a displacement along the flanks' normal is divided
-    /// by to become a rotation. Right: r2 sin(mu + alpha), left: r2 sin(mu - alpha).
+    /// by to become a rotation. Right: r2 sin(mu + alpha), left: r2 sin(mu - alpha), times cos(beta_b): the normal of a
+    /// helical flank leads out of the transverse section.
     pub fn arm_mm(&self, point: &PitchPoint, side: Side) -> f64 {
-        point.radius_mm[1] * (point.mu_rad - side.sign() * self.teeth.pressure_angle_rad).sin()
+        let in_section_mm = point.radius_mm[1] * (point.mu_rad - side.sign() * self.teeth.pressure_angle_rad).sin();
+        self.teeth.base_helix_cosine * in_section_mm
     }
 
     /// Direction v of the line of action, machine frame.

@@ -3,8 +3,6 @@
 //!
 //! In: a rolled pair and its findings. Out: charts with the names of their files.
 
-use std::f64::consts::TAU;
-
 use super::double_flank::{DoubleFlank, MASTER_TEETH};
 use super::findings::ARCSEC_PER_RAD;
 use super::fit::SIDES;
@@ -132,10 +130,8 @@ fn contact_ratio(rolled: &RolledPair) -> LineChart {
 
 fn double_flank(rolled: &RolledPair) -> Option<LineChart> {
     let curve = |name: String, found: &DoubleFlank| {
-        let mut points: Vec<(f64, f64)> =
-            found.variation_rad_um.iter().map(|[rad, um]| (rad.rem_euclid(TAU).to_degrees(), *um)).collect();
-        points.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
-        LineSeries { name, points }
+        let points = found.variation_rad_um.iter().map(|[rad, um]| (rad.to_degrees(), *um));
+        LineSeries { name, points: points.collect() }
     };
     let mate = rolled.tight.iter().map(|found| curve("A with B".to_owned(), found)).collect();
     let masters = ["A", "B"].iter().zip(&rolled.masters);

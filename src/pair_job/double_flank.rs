@@ -4,7 +4,6 @@
 //! testers report: F_i" over the whole turn, f_i" the largest within one pitch (ISO 1328-2 for round gears; a
 //! non-circular gear is rolled at the distances that its pitch curve asks for, and the deviation from them counts).
 
-use std::f64::consts::TAU;
 use std::sync::Arc;
 
 use rayon::prelude::*;
@@ -32,7 +31,7 @@ pub type Tight = std::result::Result<DoubleFlank, String>;
 /// Variation of the centre distance.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DoubleFlank {
-    /// Angle of the gear, rad, and tight less nominal centre distance, um.
+    /// Angle of the gear since the first place, over all turns, rad, and tight less nominal centre distance, um.
     pub variation_rad_um: Vec<[f64; 2]>,
     places_per_pitch: usize,
 }
@@ -127,7 +126,7 @@ fn around(
     let one = |i: u32| -> Result<_> {
         let found = at(f64::from(i) / f64::from(places));
         stage.count()?;
-        Ok(found.map(|(phi_rad, tight)| [phi_rad.rem_euclid(TAU), UM_PER_MM * tight.distance_error_mm]))
+        Ok(found.map(|(phi_rad, tight)| [phi_rad, UM_PER_MM * tight.distance_error_mm]))
     };
     let found: Vec<_> = (0..places).into_par_iter().map(one).collect::<Result<_>>()?;
     stage.finish();

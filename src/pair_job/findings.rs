@@ -12,7 +12,7 @@ mod tables;
 mod transmission;
 
 use super::flanks::FlankSource;
-use super::notices::{Interference, Jams, Misfit};
+use super::notices::{ContactRatio, EdgeContact, Interference, Jams, Misfit};
 use super::options::PairOptions;
 use super::quantities::{
     BACKLASH, CENTER_DISTANCE, CHANGE_OF_ERROR, CLOSING_DISTANCE, CONTACT, COUNT_OF_POSITIONS, DEEPEST_TIP, DISTANCE,
@@ -33,6 +33,8 @@ pub const PROCESS: &str = "pair";
 pub const ARCSEC_PER_RAD: f64 = 180.0 * 3600.0 / std::f64::consts::PI;
 /// Play below this is none: what is left is the resolution of the dexels, um.
 const JAMS_UM: f64 = -0.1;
+/// Below this, feed marks do not explain what is missing: the gears do not go together, um.
+const WEDGED_UM: f64 = -10.0;
 /// Corners deeper than this are told as interference, um: below it lie scallops.
 const INTERFERES_UM: f64 = 1.0;
 /// Misfit of the pitch curves from which it is told, mm: what the sixth digit of a size makes.
@@ -64,9 +66,9 @@ static HEADLINE: [First; 10] = [
     (&TRANSMISSION_ERROR, Some(&RIGHT), &RANGE_AT_PITCH_POINT, "at the pitch point"),
     (&RATIO, None, &RATIO_DEVIATION, "ratio off by at most"),
     (&BACKLASH, None, &SMALLEST_BACKLASH, "smallest backlash"),
-    (&CONTACT, Some(&RIGHT), &SMALLEST_CONTACT_RATIO, "smallest contact ratio"),
-    (&INTERFERENCE, None, &DEEPEST_TIP, "deepest tip in the mate"),
-    (&INTERFERENCE, None, &TIP_CLEARANCE, "tips clear the mate by"),
+    (&CONTACT, Some(&RIGHT), &SMALLEST_CONTACT_RATIO, "smallest transverse contact ratio"),
+    (&INTERFERENCE, None, &DEEPEST_TIP, "deepest tip in the mate, teeth centred"),
+    (&INTERFERENCE, None, &TIP_CLEARANCE, "tips clear the mate by, teeth centred"),
     (&DOUBLE_FLANK, Some(&MATE), &TIGHT_RANGE, "tight centre distance, range"),
     (&CENTER_DISTANCE, None, &CHANGE_OF_ERROR, "10 um of centre distance do"),
 ];
@@ -165,9 +167,12 @@ fn warnings(rolled: &RolledPair) -> Vec<Notice> {
             Some(_) => "draw the tool's tooth wider",
             None => "gear.tooth_thickness_allowance_mm below 0",
         };
-        warnings.push(Jams { missing_um: format!("{:.1}", -smallest), by }.notice());
+        let jams = Jams { missing_um: format!("{:.1}", -smallest), by }.notice();
+        warnings.push(jams.fault_where(smallest < WEDGED_UM));
     }
     warnings.extend(interference(rolled));
+    warnings.extend(contact::too_short(rolled));
+    warnings.extend(contact::on_edges(rolled));
     if rolled.fit.misfit_mm > TOLD_MISFIT_MM {
         let misfit_um = format!("{:.1}", UM_PER_MM * rolled.fit.misfit_mm);
         warnings.push(Misfit { misfit_um }.notice());

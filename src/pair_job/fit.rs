@@ -46,6 +46,8 @@ const LARGEST_MISFIT_MODULES: f64 = 0.1;
 const COARSE_PLACES: usize = 64;
 /// And for the turn that was taken.
 const FINE_PLACES: usize = 720;
+/// Steps in a pitch in which curves that do not roll on each other with teeth in spaces are turned on.
+const PARTS_OF_PITCH: u32 = 4;
 /// Turns whose misfits differ by less are equal, mm.
 const SAME_MISFIT_MM: f64 = 1e-7;
 
@@ -123,12 +125,14 @@ impl Fit {
         let teeth = PairTeeth {
             module_mm: a.transverse_module_mm(),
             pressure_angle_rad: a.transverse_pressure_angle_rad(),
+            base_helix_cosine: a.base_helix_cosine(),
             count: [a.teeth, b.teeth],
             driven: b.kind,
         };
         let drawn = [driver, driven].map(|scene| scene.process.other_teeth_key().is_some());
         let is_drawn = drawn.contains(&true);
-        let in_mesh = if is_drawn { PairTeeth { pressure_angle_rad: 0.0, ..teeth } } else { teeth };
+        let in_mesh =
+            if is_drawn { PairTeeth { pressure_angle_rad: 0.0, base_helix_cosine: 1.0, ..teeth } } else { teeth };
         let closing = PitchPair::closing(curve.clone(), in_mesh)?;
         let round = is_round(&curve) && is_round(&own);
         let mut fit = Self {
@@ -173,7 +177,10 @@ impl Fit {
         (fit.misfit_mm, fit.misfit_at_rad) = fit.misfit(&own, turns, FINE_PLACES);
         let most_mm = LARGEST_MISFIT_MODULES * teeth.module_mm;
         if fit.misfit_mm > most_mm {
-            return Err(fit.refused(b, &own, most_mm, phase_teeth));
+            return Err(match fit.off_pitches(b, &own, most_mm) {
+                Some(pitches) if phase_teeth == 0 => fit.refused_off_pitch(pitches, most_mm),
+                _ => fit.refused(b, &own, most_mm, phase_teeth),
+            });
         }
         Ok(fit)
     }
@@ -189,11 +196,16 @@ impl Fit {
     }
 
     fn turn_to(&mut self, phase: i64) {
-        let half = if self.pitch.sign() > 0.0 { phase as f64 - 0.5 } else { -(phase as f64 + 0.5) };
+        self.turn_by(phase as f64);
+        self.phase = phase;
+    }
+
+    /// Turns the driven gear on by so many of its pitches; a tooth meets a space where they are whole.
+    fn turn_by(&mut self, pitches: f64) {
+        let half = if self.pitch.sign() > 0.0 { pitches - 0.5 } else { -(pitches + 0.5) };
         let curve = self.pitch.curve();
         let start_rad = self.pitch.at(curve.phi_at_arc(half * self.pitch.pitch_mm())).phi_2_rad;
         self.turn_rad = if self.pitch.sign() > 0.0 { PI - start_rad } else { start_rad };
-        self.phase = phase;
     }
 
     /// Polar angle of the driven gear's scene at the pitch point.
@@ -212,6 +224,31 @@ impl Fit {
             (apart_mm.abs(), point.phi_1_rad)
         };
         (0..places).map(at).fold((0.0, 0.0), |most, here| if here.0 > most.0 { here } else { most })
+    }
+
+    /// The part of a pitch by which the driven gear would have to be turned on for the pitch curves to roll on each
+    /// other; none where they do not at any.
+    fn off_pitches(&self, b: &Gear, own: &PitchCurve, most_mm: f64) -> Option<f64> {
+        let mut turned = self.clone();
+        let turns = f64::from(b.teeth) / f64::from(self.pitch.teeth().count[0]);
+        let mut misfit_mm = |step: u32| {
+            turned.turn_by(f64::from(step) / f64::from(PARTS_OF_PITCH));
+            turned.misfit(own, turns, COARSE_PLACES).0
+        };
+        let found = (0..b.teeth * PARTS_OF_PITCH).map(|step| (misfit_mm(step), step % PARTS_OF_PITCH));
+        let (least_mm, step) = found.min_by(|a, b| a.0.total_cmp(&b.0))?;
+        (least_mm <= most_mm && step > 0).then(|| f64::from(step) / f64::from(PARTS_OF_PITCH))
+    }
+
+    fn refused_off_pitch(&self, pitches: f64, most_mm: f64) -> Refusal {
+        let problem = format!(
+            "the pitch curves close together, but their teeth do not: turned on by {pitches} pitches gear B's curve \
+             rolls on that of gear A, and its teeth would be that far from the spaces; with teeth in spaces the curves \
+             are up to {:.3} mm away from each other, and {most_mm:.3} mm are allowed",
+            self.misfit_mm,
+        );
+        let way_out = "let `gearcut mate` write the scene of gear B, or give --mate TEETH in its place";
+        Refusal::new("gear.pitch_curve", problem, way_out)
     }
 
     fn refused(&self, b: &Gear, own: &PitchCurve, most_mm: f64, phase_teeth: i64) -> Refusal {

@@ -7,12 +7,12 @@
 //! distance from the axis no longer tells places apart, and what comes so deep is found as a corner in the outline.
 //! Nominal flanks are the conjugate ones of the straight-sided rack; they have no root.
 
-use crate::job::rows_z_mm;
+use crate::job::{CylindricalGear, rows_z_mm};
 use crate::pair::assembly::{AssemblyErrors, Meshing, SectionFlanks};
 use crate::pair::flank_chain::{FlankChain, GearFlanks, nominal_section};
 use crate::pair::penetration::SpaceOutline;
 use crate::pair::pitch_pair::Member;
-use crate::process;
+use crate::process::{self, ProcessJob};
 use crate::scene::Scene;
 use crate::scene::model::Gear;
 use crate::steps::view_mesh::ViewMesh;
@@ -36,6 +36,40 @@ pub enum FlankSource {
     Cut,
     /// Conjugate flanks without feed marks, roots and errors of cutting.
     Nominal,
+}
+
+/// Both gears made ready to cut.
+pub type ReadyGears = [Box<dyn ProcessJob>; 2];
+
+/// Makes both gears ready to cut; none for nominal flanks.
+///
+/// # Errors
+/// Geometry that cannot be cut.
+pub fn made_ready(scenes: [&Scene; 2], source: FlankSource) -> Result<Option<ReadyGears>> {
+    match source {
+        FlankSource::Cut => Ok(Some([process::prepare(scenes[0])?, process::prepare(scenes[1])?])),
+        FlankSource::Nominal => Ok(None),
+    }
+}
+
+/// Whether errors may let sections of either gear differ along the tooth.
+///
+/// # Errors
+/// A machine that yields, whose strokes cannot be followed.
+pub fn errors_vary_along_tooth(ready: &ReadyGears) -> Result<bool> {
+    let mut vary = false;
+    for job in ready {
+        job.with_gear(&mut |gear| {
+            vary |= gear.cylindrical().is_some_and(CylindricalGear::errors_vary_along_tooth);
+            Ok(())
+        })?;
+    }
+    Ok(vary)
+}
+
+/// Places of `count` sections over a face, mm from its middle: one in the middle, or evenly with both ends.
+pub fn sections_z_mm(face_mm: f64, count: usize) -> Vec<f64> {
+    if count == 1 { vec![0.0] } else { rows_z_mm(face_mm, face_mm / (count as f64 - 1.0)) }
 }
 
 /// Flanks of one gear in one section.
@@ -87,25 +121,24 @@ pub struct PairFlanks {
 }
 
 impl PairFlanks {
-    /// Flanks of the gears of two scenes in `count` sections: one in the middle of the common face, or evenly over it.
+    /// Flanks of the gears of two scenes in `count` sections over the common face: as they are cut where the gears are
+    /// made ready, else nominal ones.
     ///
     /// # Errors
     /// Gears that cannot be cut; flanks that the teeth do not reach; Ctrl-C.
     pub fn new(
         fit: &Fit,
         scenes: [&Scene; 2],
-        source: FlankSource,
+        ready: Option<&ReadyGears>,
         count: usize,
         backend: &dyn Backend,
         watch: &Watch,
     ) -> Result<Self> {
         let face_mm = scenes[0].gear.face_width_mm.min(scenes[1].gear.face_width_mm);
-        let rows_mm = if count == 1 { vec![0.0] } else { rows_z_mm(face_mm, face_mm / (count as f64 - 1.0)) };
+        let rows_mm = sections_z_mm(face_mm, count);
         let (mut ends, mut views) = (None, None);
-        let sections = match source {
-            FlankSource::Cut => {
-                // What one gear lacks is said before the other is cut.
-                let jobs = [process::prepare(scenes[0])?, process::prepare(scenes[1])?];
+        let sections = match ready {
+            Some(jobs) => {
                 let cut = |at: usize| -> Result<GearInSections> {
                     // A root and two flanks for each tooth.
                     let stage = watch.stage(CUT[at], 3 * scenes[at].gear.teeth as usize, "flanks and roots")?;
@@ -118,7 +151,7 @@ impl PairFlanks {
                 (ends, views) = (Some([a.ends, b.ends]), Some([a.view, b.view]));
                 sections
             }
-            FlankSource::Nominal => {
+            None => {
                 let section = |z_mm: &f64| -> Result<_> {
                     watch.check()?;
                     let shift_mm = shift_mm(fit, &scenes[0].gear, *z_mm);

@@ -3,8 +3,17 @@
 use crate::findings::notice::notices;
 
 notices! {
+    /// Edges carry what flanks should: they wear, and the pair is loud.
+    EdgeContact: Warning "pair.edge_contact", "pair.md", (flanks, percent, lift),
+        "{flanks} flanks: at {percent} % of the positions a tip corner or a fillet carries{lift}";
+        "Give the tips relief or the fillets more room, or correct the mounting."
+    /// The gears lose each other's flanks between two teeth: the ratio jumps with every tooth.
+    ContactRatio: Warning "pair.contact_ratio", "pair.md", (flanks, ratio),
+        "{flanks} flanks: the contact ratio falls to {ratio}, below 1: a pair of flanks parts before the next one meets";
+        "Move the axes nearer to each other, or give the teeth a larger addendum or more of them."
     /// The pair cannot be assembled, or runs under load from both flanks.
-    Jams: Warning "pair.jams", "pair.md", (missing_um, by),
+    Jams: Warning or Fault where "more is missing than feed marks are high, 10 um" "pair.jams", "pair.md",
+        (missing_um, by),
         "the pair jams: {missing_um} um of backlash are missing; "
         + "make the teeth thinner ({by}), or move the axes"
     /// The pair cannot turn through this position.

@@ -10,7 +10,7 @@ use crate::pair::assembly::AssemblyErrors;
 use crate::pair::flank_chain::BEYOND_MODULES;
 use crate::pair::rolling::turns_of_period;
 use crate::scene::model::Gear;
-use gearcut_core::error::Refusal;
+use gearcut_core::error::{Refusal, Result};
 use gearcut_core::units::UM_PER_MM;
 
 /// Largest inclination of the axes, mm per mm: sections are taken across either axis alike, which leaves out half the
@@ -30,7 +30,7 @@ pub struct PairOptions {
     pub source: FlankSource,
     /// Positions in a period; `None`: 2,000, or 12 for each tooth if that is more.
     pub positions: Option<usize>,
-    /// Transverse sections; `None`: 1 where all are alike, else 11.
+    /// Transverse sections; `None`: 1 where errors let all be alike, else 11.
     pub sections: Option<usize>,
     /// Distance of the axes; `None`: what the scenes name, else that of the shifts of round gears and the closing one
     /// of others.
@@ -107,19 +107,20 @@ impl PairOptions {
         Ok(true)
     }
 
-    /// Sections that are looked at.
+    /// Sections that are looked at; `errors_vary` says whether errors let those of a gear differ along the tooth.
     ///
     /// # Errors
-    /// One section of gears whose sections differ.
-    pub fn sections(&self, gears: [&Gear; 2]) -> Result<usize, Refusal> {
-        let differ = gears[0].helix_angle_rad != 0.0 || self.parallelism_um != [0.0; 2];
+    /// One section where contact wanders along the face; those of `errors_vary`.
+    pub fn sections(&self, gears: [&Gear; 2], errors_vary: impl FnOnce() -> Result<bool>) -> Result<usize> {
+        let wanders = gears[0].helix_angle_rad != 0.0 || self.parallelism_um != [0.0; 2];
         match self.sections {
-            None => Ok(if differ { USUAL_SECTIONS } else { 1 }),
-            Some(1) if differ => Err(Refusal::new(
+            None => Ok(if wanders || errors_vary()? { USUAL_SECTIONS } else { 1 }),
+            Some(1) if wanders => Err(Refusal::new(
                 "sections",
                 "1 section is too few where teeth are helical or axes out of parallel: contact wanders along the face",
                 format!("leave --sections out for {USUAL_SECTIONS}, or give 3 or more"),
-            )),
+            )
+            .into()),
             Some(count) => Ok(count),
         }
     }

@@ -3,6 +3,7 @@
 //! In: two scenes and options. Out: [`RolledPair`]: the moments, and from them transmission error, play, ratio, contact
 //! and interference; the same gears in tight mesh; and what ten micrometres of centre distance do.
 
+use std::f64::consts::PI;
 use std::sync::Arc;
 
 use rayon::prelude::*;
@@ -10,7 +11,7 @@ use rayon::prelude::*;
 use super::corners::{self, DeepestCorner};
 use super::double_flank::{self, Tight};
 use super::fit::{Fit, MEMBERS, SIDES};
-use super::flanks::{FlankSource, PairFlanks};
+use super::flanks::{FlankSource, PairFlanks, errors_vary_along_tooth, made_ready};
 use super::generated;
 use super::options::PairOptions;
 use super::teeth::{self, EdgeContact, ToothContact};
@@ -71,6 +72,8 @@ pub struct RolledPair {
     /// Contact ratio of both sides: number of the moment, and its ratio. Nominal flanks go on to the tip curve of the
     /// mate; cut ones end at their form points. Else why there is none.
     pub contact_ratio: std::result::Result<[Vec<(usize, f64)>; 2], String>,
+    /// Overlap ratio of helical gears over the common face; 0 of spur gears.
+    pub overlap_ratio: f64,
     /// Pairs within the marking thickness at every moment, of both sides.
     pub pairs: [Vec<u32>; 2],
     /// Contact by tooth, of both sides.
@@ -117,7 +120,9 @@ pub fn roll_pair(
     let mounting = options.mounting(&fit, gears)?;
     let positions = options.positions(fit.pitch.teeth().count);
     enough(fit.pitch.teeth().count, positions)?;
-    let sections = options.sections(gears)?;
+    // What one gear lacks is said before the other is cut.
+    let ready = made_ready(scenes, options.source)?;
+    let sections = options.sections(gears, || ready.as_ref().map_or(Ok(false), errors_vary_along_tooth))?;
     watch.plan(&RollingWork {
         teeth: fit.pitch.teeth().count,
         ring: fit.pitch.teeth().driven == GearKind::Internal,
@@ -127,7 +132,7 @@ pub fn roll_pair(
         positions,
         pitches: double_flank::pitches(&fit.pitch),
     });
-    let flanks = PairFlanks::new(&fit, scenes, options.source, sections, backend, watch)?;
+    let flanks = PairFlanks::new(&fit, scenes, ready.as_ref(), sections, backend, watch)?;
     let meshing = flanks.meshing(&fit, gears[0], &mounting);
     let period = in_stage(watch, ROLL, positions, |stage| roll(&meshing, positions, || stage.count()))?;
     let moments = &period.moments;
@@ -178,6 +183,7 @@ pub fn roll_pair(
     let masters = [master_a?, master_b?];
     let sensitivity = in_stage(watch, DISTANCE, probes, |stage| sensitivity(&meshing, &period, stage))?;
     watch.check()?;
+    let face_mm = gears[0].face_width_mm.min(gears[1].face_width_mm);
     Ok(RolledPair {
         errors: SIDES.map(|side| period.transmission_error(side)),
         backlash: moments.iter().map(|moment| Backlash::of(&fit.pitch, moment)).collect(),
@@ -193,7 +199,8 @@ pub fn roll_pair(
         tight,
         masters,
         sensitivity,
-        face_mm: gears[0].face_width_mm.min(gears[1].face_width_mm),
+        overlap_ratio: face_mm * gears[0].helix_angle_rad.tan() / (PI * gears[0].transverse_module_mm()),
+        face_mm,
         fit,
         flanks,
         meshing,

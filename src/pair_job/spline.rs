@@ -15,11 +15,10 @@
 pub mod report;
 
 use super::fit::teeth_alike;
-use super::flanks::FlankSource;
+use super::flanks::{FlankSource, errors_vary_along_tooth, sections_z_mm};
 use super::options::PairOptions;
 use super::outline::{self, ToothOutline};
 use super::watch::{CUT, Watch};
-use crate::job::rows_z_mm;
 use crate::measure::round_gear::is_round;
 use crate::pair::flank_chain::{FlankChain, GearFlanks, PolarFlank};
 use crate::process;
@@ -95,12 +94,9 @@ pub fn fit(scenes: [&Scene; 2], options: &PairOptions, backend: &dyn Backend, wa
     teeth_alike(gears[0], gears[1])?;
     can_be_a_fit(scenes, options)?;
     let face_mm = gears[0].face_width_mm.min(gears[1].face_width_mm);
-    let rows_mm = match options.sections {
-        None | Some(1) => vec![0.0],
-        Some(count) => rows_z_mm(face_mm, face_mm / (count as f64 - 1.0)),
-    };
     let teeth = gears[0].teeth;
     let jobs = [process::prepare(scenes[0])?, process::prepare(scenes[1])?];
+    let rows_mm = sections_z_mm(face_mm, options.sections(gears, || errors_vary_along_tooth(&jobs))?);
     let cut = |at: usize| -> Result<Vec<Toothing>> {
         let stage = watch.stage(CUT[at], 3 * teeth as usize, "flanks and roots")?;
         let sections = outline::cut(jobs[at].as_ref(), backend, &rows_mm, &stage)?.sections;

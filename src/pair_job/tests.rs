@@ -3,6 +3,8 @@
 mod cut_pairs;
 mod depths;
 mod generated;
+mod helical;
+mod lead_errors;
 mod mounted;
 mod parallelism;
 mod refusals;

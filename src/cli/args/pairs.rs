@@ -48,7 +48,10 @@ pub struct ContactArguments {
 
 /// Arguments of `pair`.
 #[derive(Debug, Args)]
-#[command(group = ArgGroup::new("gear B").required(true).args(["b", "mate"]))]
+#[command(
+    group = ArgGroup::new("gear B").required(true).args(["b", "mate"]),
+    override_usage = "gearcut pair [OPTIONS] <A> <B | --mate <TEETH>>"
+)]
 pub struct PairArguments {
     /// Gear A, the driver: a scene or a folder that `gearcut cut` wrote.
     pub a: PathBuf,
@@ -72,7 +75,8 @@ pub struct PairArguments {
     /// Positions in a period of the pair, 8 or more for each tooth that passes [default: 2000, or 12 for each tooth].
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(64..=1_000_000))]
     pub positions: Option<u32>,
-    /// Transverse sections that are rolled [default: 1 of spur gears; 11 of helical ones and of axes out of parallel].
+    /// Transverse sections that are rolled [default: 1 of spur gears; 11 of helical ones, of axes out of parallel, and
+    /// where errors of cutting vary along the face].
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=201))]
     pub sections: Option<u32>,
     /// Distance of the axes [default: gear.center_distance_mm of the scenes, else that of the profile shifts of round

@@ -69,6 +69,7 @@ fn pair_of(design: &Value) -> PitchPair {
     let teeth = PairTeeth {
         module_mm: number(design, "m"),
         pressure_angle_rad: number(design, "alpha_deg").to_radians(),
+        base_helix_cosine: 1.0,
         count: ["z1", "z2"].map(|key| number(design, key) as u32),
         driven: if design["internal"] == true { GearKind::Internal } else { GearKind::External },
     };

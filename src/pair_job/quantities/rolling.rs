@@ -56,13 +56,18 @@ rows! {
     CONTACT: "contact", "Contact", "contact.<side>";
 
     SMALLEST_CONTACT_RATIO: "smallest_contact_ratio", "1",
-        "smallest of the contact ratios of all positions: path of contact between the tip curves, of cut flanks \
+        "smallest of the transverse contact ratios of all positions: path of contact between the tip curves, of cut flanks \
          within their form points, over the base pitch; of round gears at the distance of the axes, of others at the \
          closing one"
         => symbol("ε_α");
-    MEAN_CONTACT_RATIO: "mean_contact_ratio", "1", "mean of the contact ratios of all positions" => symbol("ε_α");
-    LARGEST_CONTACT_RATIO: "largest_contact_ratio", "1", "largest of the contact ratios of all positions"
+    MEAN_CONTACT_RATIO: "mean_contact_ratio", "1", "mean of the transverse contact ratios of all positions" => symbol("ε_α");
+    LARGEST_CONTACT_RATIO: "largest_contact_ratio", "1", "largest of the transverse contact ratios of all positions"
         => symbol("ε_α");
+    OVERLAP_RATIO: "overlap_ratio", "1",
+        "of helical gears: how far the teeth wind along the common face, over the pitch: b sin(β) / (π m_n)"
+        => symbol("ε_β");
+    TOTAL_CONTACT_RATIO: "total_contact_ratio", "1",
+        "of helical gears: smallest transverse contact ratio and overlap ratio together" => symbol("ε_γ");
     MEAN_PAIRS: "mean_pairs", "1", "mean number of pairs of flanks closer than the marking thickness"
         => titled("pairs in contact, mean"), shown();
     FEWEST_PAIRS: "fewest_pairs", "pairs", "smallest number of pairs of flanks closer than the marking thickness";

@@ -7,7 +7,7 @@ use crate::pair::backlash::Backlash;
 use crate::pair::rolling::peak_to_peak;
 use crate::pair_job::findings::ARCSEC_PER_RAD;
 use crate::pair_job::fit::Fit;
-use crate::pair_job::flanks::{FlankSource, PairFlanks};
+use crate::pair_job::flanks::{FlankSource, PairFlanks, made_ready};
 use crate::pair_job::member;
 use crate::pair_job::options::PairOptions;
 use crate::pair_job::rolled::roll_pair;
@@ -59,9 +59,10 @@ fn the_third_order_pair_as_cut() {
     let a = third_order(30, 4200, 0.0);
     let b = member::mate(&a, Mate { teeth: 42, kind: GearKind::External }, &[]).expect("a mate");
     let fit = Fit::new(&a.scene, &b.scene, 0).expect("they belong together");
-    let flanks =
-        unwatched(|watch| PairFlanks::new(&fit, [&a.scene, &b.scene], FlankSource::Cut, 1, &Cpu::default(), watch))
-            .expect("flanks");
+    let scenes = [&a.scene, &b.scene];
+    let ready = made_ready(scenes, FlankSource::Cut).expect("gears that can be cut");
+    let flanks = unwatched(|watch| PairFlanks::new(&fit, scenes, ready.as_ref(), 1, &Cpu::default(), watch));
+    let flanks = flanks.expect("flanks");
     let mut play_was_mm = 0.0;
     for case in data("p04_s0_centre_distance")["cases"].as_array().expect("cases") {
         // Teeth that are thinned as well stand in the file of thinned teeth.

@@ -16,7 +16,7 @@ use crate::pair::pitch_pair::{Member, PitchPair};
 use crate::pair::rolling::roll;
 use crate::pair_job::corners::deepest;
 use crate::pair_job::fit::Fit;
-use crate::pair_job::flanks::{FlankSource, PairFlanks};
+use crate::pair_job::flanks::{FlankSource, PairFlanks, made_ready};
 use crate::pair_job::member;
 use crate::pair_job::outline::{ToothOutline, joined};
 use crate::scene::Mate;
@@ -139,7 +139,8 @@ fn depths_are_followed_between_positions() {
     let b = member::mate(&a, Mate { teeth: 42, kind: GearKind::External }, &[]).expect("a mate");
     let fit = Fit::new(&a.scene, &b.scene, 0).expect("they belong together");
     let scenes = [&a.scene, &b.scene];
-    let flanks = unwatched(|watch| PairFlanks::new(&fit, scenes, FlankSource::Cut, 1, &Cpu::default(), watch));
+    let ready = made_ready(scenes, FlankSource::Cut).expect("gears that can be cut");
+    let flanks = unwatched(|watch| PairFlanks::new(&fit, scenes, ready.as_ref(), 1, &Cpu::default(), watch));
     let flanks = flanks.expect("flanks");
     let meshing = flanks.meshing(&fit, &a.scene.gear, &AssemblyErrors::default());
     let found = [336, 840, 4200].map(|positions| {

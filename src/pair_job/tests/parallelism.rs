@@ -7,7 +7,7 @@
 use super::*;
 use crate::pair::pattern::smallest_gaps;
 use crate::pair_job::fit::Fit;
-use crate::pair_job::flanks::{FlankSource, PairFlanks};
+use crate::pair_job::flanks::PairFlanks;
 use crate::pair_job::options::PairOptions;
 use gearcut_core::cut::cpu::Cpu;
 use gearcut_core::terms::Side;
@@ -21,8 +21,7 @@ fn gaps_grow_evenly_over_the_face() {
         let (a, b) = (round("a", 18, "", ""), round("b", teeth, kind, ""));
         let fit = Fit::new(&a.scene, &b.scene, 0).expect("they belong together");
         let scenes = [&a.scene, &b.scene];
-        let flanks =
-            unwatched(|watch| PairFlanks::new(&fit, scenes, FlankSource::Nominal, SECTIONS, &Cpu::default(), watch));
+        let flanks = unwatched(|watch| PairFlanks::new(&fit, scenes, None, SECTIONS, &Cpu::default(), watch));
         let flanks = flanks.expect("flanks");
         let (sin, cos) = 20_f64.to_radians().sin_cos();
         let mut largest = 0.0_f64;

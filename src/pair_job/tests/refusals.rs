@@ -47,6 +47,13 @@ fn what_does_not_mesh_is_told_with_numbers() {
     refused(&pascal, &wrong, 0, &["internal mate of 84 teeth", "do not close together"]);
 }
 
+/// Two ovals of equal pitch curves roll on each other with tooth on tooth: 40 teeth, 10 to a quarter of the turn.
+#[test]
+fn curves_that_close_half_a_pitch_off_are_told_from_others() {
+    let oval = member::read(Path::new("scenes/shaping/order_2.toml"), &[]).expect("a scene");
+    refused(&oval, &oval, 0, &["close together, but their teeth do not", "0.5 pitches", "are allowed"]);
+}
+
 #[test]
 fn gear_b_may_be_turned_on_by_whole_repeats_only() {
     let a = third_order(20, 420, 0.0);
@@ -77,7 +84,7 @@ fn what_parts_the_teeth_is_refused_before_they_are_cut() {
     let inclined = PairOptions { parallelism_um: [0.0, -201.0], ..options(0.0) };
     says(&inclined, &["-201 um", "face of 20 mm", "-200 to 200 um"]);
     let one = PairOptions { sections: Some(1), parallelism_um: [10.0, 0.0], ..PairOptions::default() };
-    assert!(one.sections(gears).expect_err("one section").to_string().contains("11"));
+    assert!(one.sections(gears, || Ok(false)).expect_err("one section").to_string().contains("11"));
 }
 
 /// Tips of 2 mm on both gears reach 4 mm to either side of the 48 mm at which their pitch circles roll.

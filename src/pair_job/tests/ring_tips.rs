@@ -7,7 +7,7 @@ use crate::pair::penetration::SpaceOutline;
 use crate::pair::pitch_pair::Member;
 use crate::pair_job::corners::deepest;
 use crate::pair_job::fit::Fit;
-use crate::pair_job::flanks::{FlankSource, PairFlanks};
+use crate::pair_job::flanks::PairFlanks;
 use gearcut_core::cut::cpu::Cpu;
 use std::f64::consts::TAU;
 
@@ -25,8 +25,7 @@ fn found_mm(teeth: u32) -> f64 {
     let fit = Fit::new(&a.scene, &b.scene, 0).expect("they belong together");
     unwatched(|watch| {
         let scenes = [&a.scene, &b.scene];
-        let mut flanks =
-            PairFlanks::new(&fit, scenes, FlankSource::Nominal, 1, &Cpu::default(), watch).expect("flanks");
+        let mut flanks = PairFlanks::new(&fit, scenes, None, 1, &Cpu::default(), watch).expect("flanks");
         // Nominal flanks have no fillets: a chord closes the space below both.
         let ring = &mut flanks.sections[0][1];
         let spaces = ring.chains.right.iter().zip(&ring.chains.left);

@@ -129,6 +129,18 @@ fn a_part_off_its_axis_takes_from_the_clearance() {
     assert_eq!(both.positions_mm, turned.positions_mm);
 }
 
+/// A guide that leans by f over the face of the hub takes f: sections are looked at without being asked for.
+#[test]
+fn a_leaning_guide_takes_from_the_clearance() {
+    let leans = "[machine.errors.guide]\ntangential_um_per_100mm = 100.0\n";
+    let hub = part("hub", "internal", 0.05, 12, leans, 0.0);
+    let fit = fitted(&shaft(-0.05, 0.0), &hub, &PairOptions::default()).expect("a fit");
+    // 100 um in 100 mm over a face of 10 mm.
+    let expected_um = UM_PER_MM * (width_mm() - cut_shaft_mm(-0.05)[0]) - 10.0;
+    let off_um = UM_PER_MM * fit.clearance_mm - expected_um;
+    assert!(off_um.abs() < 4.0 * STROKES_UM, "{off_um} um off {expected_um} um");
+}
+
 #[test]
 fn options_that_mean_nothing_to_a_spline_are_refused() {
     let (shaft, hub) = (shaft(-0.05, 0.0), hub(0.0));

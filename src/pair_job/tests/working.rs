@@ -2,7 +2,9 @@
 //! any other one with the play of ISO 21771. All against closed forms of involutes.
 
 use super::*;
+use crate::findings::Severity;
 use crate::pair::rolling::{LEAST_POSITIONS_PER_TOOTH, turns_of_period};
+use crate::pair_job::findings::findings;
 use crate::pair_job::fit::Fit;
 use crate::pair_job::flanks::FlankSource;
 use crate::pair_job::options::PairOptions;
@@ -177,4 +179,51 @@ fn distances_without_teeth_in_mesh_are_refused() {
     refused(&named(20, 76.0, ""), &named(30, 76.1, ""), &["76 mm", "76.1 mm", "--center-distance-mm"]);
     // inv(20 deg) = 0.014904 is used up by 0.014904 * 36 / (2 tan(20 deg)) = 0.7371 modules.
     refused(&shifted("a", 12, -0.4, ""), &shifted("b", 24, -0.4, ""), &["-0.4 and -0.4", "above -0.7371"]);
+}
+
+fn told(pair: &RolledPair, gears: [&LoadedScene; 2]) -> Vec<(String, Severity)> {
+    let found = findings("pair", gears.map(|gear| &gear.scene), &PairOptions::default(), pair);
+    found.warnings.iter().map(|notice| (notice.id.to_string(), notice.severity)).collect()
+}
+
+/// Axes 4.5 mm too far apart leave a contact ratio of a third, and edges carry in between.
+#[test]
+fn gears_that_lose_their_flanks_between_teeth_say_so() {
+    let coarse = ["fields.flank.profile_spacing_um=40", "operation.finish.strokes_per_revolution=1080"];
+    let gear = round("a", 18, "", "tooth_thickness_allowance_mm = -0.05\n");
+    let gear = gear.with_settings(&coarse.map(str::to_owned), process::table()).expect("a gear");
+    let at = |mm: f64| {
+        let options = PairOptions { center_distance_mm: Some(mm), positions: Some(144), ..PairOptions::default() };
+        let scenes = [&gear.scene; 2];
+        told(&unwatched(|watch| roll_pair(scenes, &options, &Cpu::default(), watch)).expect("a pair"), [&gear; 2])
+    };
+    let ratio = contact_ratio([18, 18], [0.0; 2], 1.0, 58.5);
+    assert!((0.1..0.6).contains(&ratio), "{ratio}");
+    assert_eq!(at(58.5), ["pair.contact_ratio", "pair.edge_contact"].map(|id| (id.to_owned(), Severity::Warning)));
+    assert_eq!(at(54.2), []);
+}
+
+/// Feed marks of teeth without allowance take some micrometres, which is a warning; more cannot be put together.
+#[test]
+fn gears_that_do_not_go_together_are_a_fault() {
+    let (a, b) = (round("a", 24, "", ""), round("b", 24, "", ""));
+    for (nearer_um, severity) in [(5.0, Severity::Warning), (50.0, Severity::Fault)] {
+        let options = PairOptions { center_distance_error_um: -nearer_um, ..PairOptions::default() };
+        let told = told(&rolled(&a, &b, &options).expect("a pair"), [&a, &b]);
+        assert_eq!(told, [("pair.jams".to_owned(), severity)], "{nearer_um} um nearer");
+    }
+}
+
+/// The tight mesh goes over all turns of the period, and its angle with it.
+#[test]
+fn tight_mesh_is_counted_over_all_turns() {
+    let (a, b) = (round("a", 24, "", ""), round("b", 36, "", ""));
+    let pair = rolled(&a, &b, &PairOptions::default()).expect("a pair");
+    let tight = pair.tight.as_ref().expect("a tight mesh");
+    let deg: Vec<f64> = tight.variation_rad_um.iter().map(|[rad, _]| rad.to_degrees()).collect();
+    // Three turns of A, eight places in a pitch.
+    for (index, deg) in deg.iter().enumerate() {
+        assert!((deg - 15.0 / 8.0 * index as f64).abs() < 1e-6, "place {index} at {deg} deg");
+    }
+    assert_eq!(deg.len(), 3 * 24 * 8);
 }

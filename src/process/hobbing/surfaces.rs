@@ -216,6 +216,10 @@ impl CylindricalGear for HobCutter<'_> {
         }
     }
 
+    fn errors_vary_along_tooth(&self) -> bool {
+        self.job.errors.vary_along_feed() || self.job.operations.iter().any(|operation| operation.program.is_some())
+    }
+
     fn tip_surface(&self, backend: &dyn Backend, tooth: u32) -> Result<Option<SurfaceGrid>> {
         let job = self.job;
         let rows_z_mm = rows_z_mm(job.scene.gear.face_width_mm, TIP_SPACING_MM[1]);

@@ -172,7 +172,7 @@ fn what_cannot_be_rolled_is_refused_with_numbers() {
         .failed(1, &["a driver of 42 teeth does not fit into a ring of 42"]);
     gearcut(&["pair", round, "--mate", "24", "--marking-um", "0"]).failed(1, &["--marking-um", "above 0"]);
     gearcut(&["pair", round, "--mate", "25", "--positions", "100"]).failed(1, &["100 positions", "600", "4800"]);
-    gearcut(&["pair", round]).failed(2, &["--mate"]);
+    gearcut(&["pair", round]).failed(2, &["--mate", "pair [OPTIONS] <A> <B | --mate <TEETH>>"]);
     gearcut(&["pair", round, round, "--mate", "24"]).failed(2, &["--mate"]);
     gearcut(&["pair", round, "--mate", "24", "--internal"]).failed(1, &["no internal mate with 24 teeth"]);
 }

@@ -226,6 +226,12 @@ impl CylindricalGear for ShapingJob {
         (0..CutSection::strokes(self)).map(|stroke| CutSection::work_from_tool(self, stroke)).collect()
     }
 
+    fn errors_vary_along_tooth(&self) -> bool {
+        // A feed that goes on during the stroke moves marks from section to section, and nothing else.
+        let differ = |operation: &PreparedOperation| operation.actual.differs_along_tooth();
+        self.operations.iter().any(differ) || self.vibrates() || self.cutter_spec.built_up_edge.is_some()
+    }
+
     fn tip_surface(&self, backend: &dyn Backend, tooth: u32) -> Result<Option<SurfaceGrid>> {
         let Some(field) = self.planar().tip_field(self.tip_feet(tooth, 0.0)?) else { return Ok(None) };
         let cut = self.cut_on(backend, GearPart::Tip(tooth), field)?;
