@@ -211,7 +211,7 @@ fn slots_are_as_deep_as_the_tips_stand() {
     }
 }
 
-/// Whatever the spacing of rows and the points of the grid, the slot is measured in the middle of the face, where the
+/// With any spacing of rows and any points of the grid the slot is measured in the middle of the face, where the
 /// blank's depth is known in closed form.
 #[test]
 fn a_slot_is_measured_in_the_middle_of_the_face() {

@@ -120,8 +120,8 @@ struct FlankGap {
     closing_mm: f64,
     /// Coordinates of the place on the pinion's envelope.
     coordinates: [f64; 2],
-    /// Whether the pinion's flank is left there.
-    left: bool,
+    /// Whether the pinion has a flank there.
+    on_flank: bool,
 }
 
 impl BevelPair {
@@ -160,7 +160,7 @@ impl BevelPair {
         let start = on_gear.unwrap_or_else(|| gear.envelope.guess(distance_mm));
         let on_flank = OnFlank::Height(place_mm.y);
         let Ok(point) = gear.envelope.find(&gear.blank, distance_mm, on_flank, start) else { return Ok(None) };
-        if !gear.envelope.leaves(&point) {
+        if !gear.envelope.has_flank_at(&point) {
             return Ok(None);
         }
         let turned = |gear_rad: f64| {
@@ -175,7 +175,7 @@ impl BevelPair {
             }
             let coordinates = [point.coordinates, gap.coordinates];
             let (closing_mm, point_mm) = (gap.closing_mm, point.point_mm);
-            if !gap.left {
+            if !gap.on_flank {
                 return ControlFlow::Break(None);
             }
             ControlFlow::Break(Some(BevelTouch { gear_rad: to, closing_mm, point_mm, coordinates }))
@@ -203,7 +203,7 @@ impl BevelPair {
             open_mm: arc * DVec3::X.cross(at_mm).dot(on.normal),
             closing_mm: -axis.cross(at_mm - apex_mm).dot(on.normal),
             coordinates: on.coordinates,
-            left: pinion.envelope.leaves(&on),
+            on_flank: pinion.envelope.has_flank_at(&on),
         })
     }
 

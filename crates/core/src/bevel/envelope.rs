@@ -57,7 +57,7 @@ pub struct FlankPoint {
     pub coordinates: [f64; 2],
 }
 
-/// How far beside its moment a cone is compared with a point of its envelope, rad: it stands over it by hundredths of a
+/// How far beside its moment a cone is compared with a point of its envelope, rad: it is over it by hundredths of a
 /// micrometre there.
 const BESIDE_RAD: f64 = 1e-3;
 /// Places on the edge are known to this, mm.
@@ -115,10 +115,10 @@ impl Envelope {
         (self.surface.point_mm(head_rad, 0.0) - in_tool).dot(self.surface.normal(head_rad))
     }
 
-    /// Whether the flank is left at a point of the envelope: the cone passes over it just before and just after its own
+    /// Whether a point of the envelope lies on the flank: the cone passes over it just before and just after its own
     /// moment. Beyond an edge of regression, as on undercut teeth, the cone goes below it, and the envelope is no flank
     /// there; neither is it below the place where the corner's round begins.
-    pub fn leaves(&self, point: &FlankPoint) -> bool {
+    pub fn has_flank_at(&self, point: &FlankPoint) -> bool {
         if point.edge_mm < self.surface.corner_end_mm() - EDGE_MM {
             return false;
         }
