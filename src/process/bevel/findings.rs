@@ -117,7 +117,7 @@ fn headline(job: &BevelJob, gear: &BevelGear, measured: &BevelMeasured) -> Vec<E
         removed_mm3: measured.whole.and_then(|(blank, _)| Some(blank.blank_mm3 - blank.left_mm3.last()?)),
     };
     let mut entries = headline::headline(&gear.flanks, None, cutting, &gear.work);
-    let middle = gear.slot.get(gear.slot.len() / 2);
+    let middle = gear.slot.iter().min_by(|a, b| a.along_mm.abs().total_cmp(&b.along_mm.abs()));
     entries.extend([
         SLOT_DEPTH.of_or(middle.and_then(|row| row.depth_mm), NO_SLOT),
         WHOLE_DEPTH.of_or(middle.map(|row| row.whole_depth_mm), NO_SLOT),

@@ -140,7 +140,7 @@ pub fn measure(job: &BevelJob, tooth: u32, side: Side, rays: &FreeRays, layers: 
             grid_rows.iter().map(|&row| rows_mm[row]).collect(),
         ],
         left_by_blade,
-        on_pitch_cone_mm: grid_rows.iter().map(on_pitch_cone).collect::<Result<_, _>>()?,
+        on_pitch_cone_mm: slot_rows(&rows, job.spec.grid[1]).iter().map(on_pitch_cone).collect::<Result<_, _>>()?,
     }))
 }
 
@@ -150,7 +150,17 @@ fn grid_places(inner: &Range<usize>, count: usize) -> Vec<usize> {
     (0..count).map(|i| inner.start + (last * i as f64 / (count - 1) as f64).round() as usize).collect()
 }
 
-/// The slot behind a tooth at the rows of the grid: its width from both flanks, its depth from rays into its bottom.
+/// Rows at which a slot is measured: those of the grid, and the one in the middle.
+fn slot_rows(inner: &Range<usize>, count: usize) -> Vec<usize> {
+    let mut rows = grid_places(inner, count);
+    let middle = inner.start + (inner.len() - 1) / 2;
+    if let Err(place) = rows.binary_search(&middle) {
+        rows.insert(place, middle);
+    }
+    rows
+}
+
+/// The slot behind a tooth at the rows of the grid and in the middle of the face: its width from both flanks, its depth from rays into its bottom.
 ///
 /// # Errors
 /// Flanks that do not reach the pitch cone; the backend's.
@@ -158,7 +168,7 @@ pub fn slot(job: &BevelJob, backend: &dyn Backend, flanks: [&BevelReport; 2]) ->
     let [before, after] = flanks;
     let space = job.space_of(before.tooth, before.side);
     let [_, rows_mm] = job.places_mm(before.side);
-    let rows_mm: Vec<f64> = grid_places(&within(&rows_mm, job.evaluated_face_mm()), job.spec.grid[1])
+    let rows_mm: Vec<f64> = slot_rows(&within(&rows_mm, job.evaluated_face_mm()), job.spec.grid[1])
         .into_iter()
         .map(|row| rows_mm[row])
         .collect();

@@ -48,6 +48,6 @@ notices! {
         + "use a smaller dedendum, larger blade angles or more teeth"
     /// Edges carry what flanks should: they wear, and the pair is loud.
     EdgeContact: Warning "pair.edge_contact", "bevel.md", (flanks, percent),
-        "{flanks} flanks: over {percent} % of a pitch the contact is at an edge of the gear's flank";
+        "{flanks} flanks: over {percent} % of a pitch the contact is at an edge of the gear's or the pinion's flank";
         "Give the flanks more ease-off, or correct the mounting."
 }

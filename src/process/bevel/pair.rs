@@ -9,7 +9,9 @@
 //! ones, cut by inside blades, and the other way round.
 //!
 //! At every moment the pair of teeth carries that pushes the gear farthest on: the actual motion error over a pitch is
-//! the extremum of the errors of one pair of teeth, taken a pitch apart.
+//! the largest of the errors of one pair of teeth, taken a pitch apart. A pair is therefore followed until it trails or
+//! its teeth part, at their edges as well: a curve that is cut off while it carries would hand over to the next pair too
+//! early.
 //!
 //! Road not taken: contact on the cut dexel flanks. Their marks are some hundredths of a micrometre high and say
 //! nothing of the bearing; the deviations of the cut flanks are reported by `gearcut cut`.
@@ -22,15 +24,17 @@ pub mod page;
 use super::BevelJob;
 use crate::interrupt::Interrupt;
 use crate::progress::Progress;
-use gearcut_core::bevel::contact::{BevelPair, Contact, Mounting};
+use gearcut_core::bevel::contact::{BevelPair, Contact, Mesh, Mounting};
 use gearcut_core::bevel::face_mill::BladeKind;
 use gearcut_core::error::{Refusal, Result};
 use rayon::prelude::*;
+use std::collections::BTreeMap;
 
-/// Pitches of the pinion over which one pair of teeth is followed.
-const PITCHES: f64 = 2.0;
 /// Intervals of a pitch; errors of neighbouring pairs of teeth are then known at the same angles.
-const PER_PITCH: usize = 20;
+const PER_PITCH: isize = 20;
+/// A pair of teeth is followed for a pitch to either side, and farther until it trails and falls back all along so many
+/// intervals.
+const TRAILING: isize = 5;
 /// Motion errors are known to this, rad, two millionths of an arc second: what the search for contact leaves.
 const KNOWN_RAD: f64 = 1e-11;
 /// Modules that differ by more belong to no pair, mm: rounding of data sheets.
@@ -93,7 +97,8 @@ impl MountingError {
     }
 }
 
-/// How one pair of flanks runs.
+/// How one pair of flanks runs. Angles grow in the sense in which the pinion turns when it drives these flanks; motion
+/// errors are above 0 where the gear is ahead.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Running {
     /// Angle of the pinion about the middle, rad; contact and motion error of one pair of teeth, rad, where they meet.
@@ -102,31 +107,93 @@ pub struct Running {
     pub carrying: Vec<(f64, Contact, f64)>,
 }
 
+/// One pair of teeth, as far as it is followed.
+struct Followed<'a> {
+    mesh: Mesh<'a>,
+    pitch_rad: f64,
+    /// Contacts and motion errors by interval from the middle.
+    met: BTreeMap<isize, Option<(Contact, f64)>>,
+}
+
+impl Followed<'_> {
+    fn angle_rad(&self, i: isize) -> f64 {
+        self.pitch_rad * i as f64 / PER_PITCH as f64
+    }
+
+    /// Contact and motion error at an interval, where they are known.
+    fn at(&self, i: isize) -> Option<(Contact, f64)> {
+        self.met.get(&i).copied().flatten()
+    }
+
+    /// What carries at an interval, of all that is known; of pairs that carry alike, as conjugate ones do, the one
+    /// nearest to the middle stands for them.
+    fn carrying(&self, i: isize) -> Option<(Contact, f64)> {
+        let mut alike: Vec<isize> = self.met.keys().copied().filter(|j| (j - i).rem_euclid(PER_PITCH) == 0).collect();
+        alike.sort_by_key(|j| j.abs());
+        let met = alike.into_iter().filter_map(|j| self.at(j));
+        met.reduce(|best, next| if next.1 > best.1 + KNOWN_RAD { next } else { best })
+    }
+
+    /// Whether the pair trails, and falls back outwards, at the last intervals up to this one; or the teeth have parted.
+    fn trails(&self, last: isize) -> bool {
+        let outwards = last.signum();
+        let falls = |i: isize| match (self.at(i - outwards), self.at(i), self.carrying(i)) {
+            (Some(before), Some(here), Some(carrying)) => {
+                here.1 < before.1 - KNOWN_RAD && here.1 < carrying.1 - KNOWN_RAD
+            }
+            (_, None, _) => true,
+            _ => false,
+        };
+        (0..TRAILING).all(|k| falls(last - k * outwards))
+    }
+
+    /// Goes on to an interval from the one before it, seen from the middle.
+    fn go_on_to(&mut self, i: isize) -> Result<(), Refusal> {
+        let near_rad = self.at(i - i.signum()).map_or(0.0, |(_, error_rad)| error_rad);
+        let met = self.mesh.at(self.angle_rad(i), near_rad)?;
+        self.met.insert(i, met);
+        Ok(())
+    }
+}
+
 impl Running {
     /// How a pair of flanks runs; ellipses are those of `marking_mm` of compound.
     ///
     /// # Errors
     /// Flanks that do not meet.
     pub fn of(pair: &BevelPair, marking_mm: f64) -> Result<Self> {
-        let pitch_rad = std::f64::consts::TAU / f64::from(pair.pinion.blank.teeth);
-        let count = (PITCHES * PER_PITCH as f64) as usize + 1;
-        let found = pair.motion_of_teeth(PITCHES, count as u32, marking_mm)?;
-        let angle = |i: usize| PITCHES * pitch_rad * (i as f64 / (count - 1) as f64 - 0.5);
-        let middle = count / 2;
-        let carrying = (middle - PER_PITCH / 2..=middle + PER_PITCH / 2).map(|i| {
-            let teeth = [Some(i), i.checked_sub(PER_PITCH), Some(i + PER_PITCH)];
-            let met = teeth.into_iter().flatten().filter_map(|i| *found.get(i)?);
-            // A pinion that pushes the gear back is ahead where the gear's angle is smallest; where several pairs of
-            // teeth carry alike, as conjugate ones do, the one nearest to the middle stands for them.
-            let ahead = |(contact, error_rad): &(Contact, f64)| contact.closing * error_rad;
-            let first = met.reduce(|best, next| if ahead(&next) < ahead(&best) - KNOWN_RAD { next } else { best });
-            let (contact, error_rad) = first.ok_or_else(|| {
+        let teeth = pair.pinion.blank.teeth;
+        let mesh = pair.mesh(marking_mm)?;
+        let met = BTreeMap::from([(0, Some((*mesh.middle(), 0.0)))]);
+        let mut followed = Followed { mesh, pitch_rad: std::f64::consts::TAU / f64::from(teeth), met };
+        for i in 1..=PER_PITCH {
+            followed.go_on_to(-i)?;
+            followed.go_on_to(i)?;
+        }
+        let half_turn = PER_PITCH * teeth as isize / 2;
+        for outwards in [-1, 1] {
+            let mut last = outwards * PER_PITCH;
+            while !followed.trails(last) {
+                last += outwards;
+                if last.abs() > half_turn {
+                    return Err(Refusal::new(
+                        "pair",
+                        "one pair of teeth is in contact over half a turn of the pinion",
+                        "check the mounting and both scenes",
+                    )
+                    .into());
+                }
+                followed.go_on_to(last)?;
+            }
+        }
+        let carrying = (-PER_PITCH / 2..=PER_PITCH / 2).map(|i| {
+            let (contact, error_rad) = followed.carrying(i).ok_or_else(|| {
                 Refusal::new("pair", "no teeth meet at an angle of the pinion", "check the mounting and both scenes")
             })?;
-            Ok((angle(i), contact, error_rad))
+            Ok((followed.angle_rad(i), contact, error_rad))
         });
         let carrying = carrying.collect::<Result<_>>()?;
-        let teeth = found.into_iter().enumerate().map(|(i, met)| (angle(i), met)).collect();
+        let teeth = followed.met.iter().map(|(&i, &met)| (followed.angle_rad(i), met)).collect();
         Ok(Self { teeth, carrying })
     }
 
@@ -167,9 +234,9 @@ impl Running {
     /// Mean place of the contact of one pair of teeth over a pitch about the middle: along the gear's tooth from the
     /// middle of the face, and height over the pitch cone, mm. Which teeth carry does not enter: conjugate ones all do.
     pub fn center_mm(&self) -> [f64; 2] {
-        let middle = self.teeth.len() / 2;
-        let pitch = &self.teeth[middle - PER_PITCH / 2..=middle + PER_PITCH / 2];
-        let met: Vec<&Contact> = pitch.iter().filter_map(|(_, met)| met.as_ref().map(|(contact, _)| contact)).collect();
+        let of_pitch = |at_rad: f64| at_rad >= self.carrying[0].0 && at_rad <= self.carrying[self.carrying.len() - 1].0;
+        let met = self.teeth.iter().filter(|(at_rad, _)| of_pitch(*at_rad));
+        let met: Vec<&Contact> = met.filter_map(|(_, met)| met.as_ref().map(|(contact, _)| contact)).collect();
         [0, 1].map(|k| met.iter().map(|contact| contact.place_mm[k]).sum::<f64>() / met.len() as f64)
     }
 

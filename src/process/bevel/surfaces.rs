@@ -30,7 +30,10 @@ impl BevelJob {
         let length_mm = self.target_of(side).length_mm();
         let columns = (length_mm / fields.profile_spacing_mm).round().max(1.0) as usize;
         let arcs_mm = (0..=columns).map(|i| length_mm * i as f64 / columns as f64).collect();
-        [arcs_mm, rows_z_mm(self.blank.face_width_mm, fields.lead_spacing_mm)]
+        // An even number of intervals, so that a row lies in the middle of the face.
+        let width_mm = self.blank.face_width_mm;
+        let half = (0.5 * width_mm / fields.lead_spacing_mm).round().max(1.0);
+        [arcs_mm, rows_z_mm(width_mm, 0.5 * width_mm / half)]
     }
 
     /// Ends of the evaluated part of a flank: arcs, and places along the tooth, mm.

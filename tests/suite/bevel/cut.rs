@@ -211,6 +211,34 @@ fn slots_are_as_deep_as_the_tips_stand() {
     }
 }
 
+/// With any spacing of rows and any points of the grid the slot is measured in the middle of the face, where the
+/// blank's depth is known in closed form.
+#[test]
+fn a_slot_is_measured_in_the_middle_of_the_face() {
+    let cpu = Cpu::default();
+    for (spacing, points) in [(1000, 9), (1000, 6), (1900, 5)] {
+        let settings = [format!("fields.flank.lead_spacing_um={spacing}"), format!("inspection.tooth_points={points}")];
+        let coarse = "fields.flank.profile_spacing_um=800";
+        let job = job("spiral_angle", &[&settings[0], &settings[1], coarse]).expect("a gear");
+        let report = |tooth, side| {
+            let rays = job.rays(tooth, side).expect("rays");
+            let (layers, _) = job.cut_field(&cpu, job.space_of(tooth, side), &rays.field).expect("cuts");
+            measure::measure(&job, tooth, side, &rays, &layers).expect("measured")
+        };
+        let slot = measure::slot(&job, &cpu, [&report(1, Side::Left), &report(2, Side::Right)]).expect("a slot");
+        let middle = slot.iter().find(|row| row.along_mm == 0.0).expect("a row in the middle");
+        // Teeth that get deeper in proportion to the cone distance.
+        let blank = &job.blank;
+        let outer_mm = blank.outer_addendum_mm + blank.outer_dedendum_mm;
+        let angles = [blank.face_angle_rad - blank.pitch_angle_rad, blank.dedendum_angle_rad()].map(f64::tan);
+        let wanted_mm = outer_mm - 0.5 * blank.face_width_mm * (angles[0] + angles[1]);
+        println!("{spacing} um, {points} points: {} of {wanted_mm} mm", middle.whole_depth_mm);
+        assert!((middle.whole_depth_mm - wanted_mm).abs() < 1e-9, "{} of {wanted_mm} mm", middle.whole_depth_mm);
+        assert!(middle.width_mm.is_some() && (middle.depth_mm.expect("cut") - wanted_mm).abs() < 1e-3, "{middle:?}");
+        assert!(slot.is_sorted_by(|a, b| a.along_mm < b.along_mm), "{slot:?}");
+    }
+}
+
 #[test]
 fn candidates_and_all_passes_leave_the_same_flank() {
     let formate = job("formate", &[]).expect("a gear");

@@ -57,6 +57,12 @@ pub struct FlankPoint {
     pub coordinates: [f64; 2],
 }
 
+/// How far beside its moment a cone is compared with a point of its envelope, rad: it is over it by hundredths of a
+/// micrometre there.
+const BESIDE_RAD: f64 = 1e-3;
+/// Places on the edge are known to this, mm.
+const EDGE_MM: f64 = 1e-7;
+
 /// What fixes a point on a flank beside its cone distance.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum OnFlank {
@@ -107,6 +113,17 @@ impl Envelope {
         let in_tool = self.settings.work_from_tool(cradle_rad).inverse().point(point_mm);
         let head_rad = in_tool.y.atan2(in_tool.x);
         (self.surface.point_mm(head_rad, 0.0) - in_tool).dot(self.surface.normal(head_rad))
+    }
+
+    /// Whether a point of the envelope lies on the flank: the cone passes over it just before and just after its own
+    /// moment. Beyond an edge of regression, as on undercut teeth, the cone goes below it, and the envelope is no flank
+    /// there; neither is it below the place where the corner's round begins.
+    pub fn has_flank_at(&self, point: &FlankPoint) -> bool {
+        if point.edge_mm < self.surface.corner_end_mm() - EDGE_MM {
+            return false;
+        }
+        let beside_mm = |by_rad: f64| self.beyond_mm(point.point_mm, point.cradle_rad + by_rad);
+        self.settings.plunges() || beside_mm(BESIDE_RAD) + beside_mm(-BESIDE_RAD) > 0.0
     }
 
     /// Coordinates of a point near the flank at a cone distance: where the circle of the points, seen along the

@@ -23,15 +23,18 @@ pub fn motion_error(rolled: &RolledBevels) -> LineChart {
             let moved = of_teeth.iter().map(move |(at, error)| (at + pitches * pitch_deg, *error));
             moved.filter(move |(at, _)| (ends_deg[0]..=ends_deg[1]).contains(at))
         };
+        // As many pairs to either side as reach into the chart.
+        let most = ((ends_deg[1] - ends_deg[0]) / pitch_deg).ceil() as i32;
+        let others = (-most..=most).filter(|pitches| *pitches != 0);
         let gap = std::iter::once((f64::NAN, f64::NAN));
-        let others: Vec<(f64, f64)> = beside(-1.0).chain(gap).chain(beside(1.0)).collect();
+        let others = others.flat_map(|pitches| beside(f64::from(pitches)).chain(gap.clone())).collect();
         let carrying = side.running.carrying.iter().map(|(at, _, error_rad)| arcsec((*at, *error_rad)));
         Panel {
             value_name: format!("{} flanks of the gear", words(side)),
             unit: "″".to_owned(),
             series: [
                 LineSeries { name: "one pair of teeth".to_owned(), points: of_teeth },
-                LineSeries { name: "the pairs before and after".to_owned(), points: others },
+                LineSeries { name: "other pairs of teeth".to_owned(), points: others },
                 LineSeries { name: "teeth that carry, over a pitch".to_owned(), points: carrying.collect() },
             ]
             .into_iter()
@@ -48,8 +51,8 @@ pub fn motion_error(rolled: &RolledBevels) -> LineChart {
         }
     };
     LineChart {
-        title: "Motion error: the gear's angle less that of a constant ratio".to_owned(),
-        x_name: "angle of the pinion about the middle of the mesh".to_owned(),
+        title: "Motion error: how far the gear is ahead of a constant ratio".to_owned(),
+        x_name: "angle of the pinion about the middle of the mesh, as it drives these flanks".to_owned(),
         x_unit: "°".to_owned(),
         panels: rolled.sides.iter().map(panel).collect(),
     }

@@ -39,7 +39,7 @@ pub fn page(
         "motion-error",
         "Motion error",
         "How unevenly the gear turns without load while the pinion turns evenly. At every moment the pair of teeth \
-        carries that is ahead.",
+        carries that is ahead, in the sense in which these flanks drive.",
         vec![Block::Lines(motion_error)],
     )];
     for (side, id) in rolled.sides.iter().zip(["concave", "convex"]) {

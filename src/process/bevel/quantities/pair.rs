@@ -39,16 +39,17 @@ rows! {
     SIDE: "side", "Flanks of one side", "<side> of a bevel pair; headline, their keys before the side";
 
     MOTION_ERROR: "motion_error", "arcsec",
-        "range over a pitch of the gear's angle less that of a constant ratio, by the teeth that carry; 0 where it is \
+        "range over a pitch of how far the gear is ahead of a constant ratio, by the teeth that carry; 0 where it is \
          below two millionths of an arc second, the tolerance of the search";
     PARABOLA: "motion_error_parabola", "arcsec",
         "parabola through the motion error of one pair of teeth while it carries: how far it falls from its top to \
-         half a pitch beside it, negative where the gear runs behind there"
+         half a pitch beside it, negative where the gear runs behind there in the sense in which these flanks drive"
         => or(&[TOO_FEW_PLACES]);
     CENTER_ALONG: "center_along", "mm",
-        "mean place over a pitch along the gear's tooth, from the middle of the face, positive towards the heel"
+        "mean place of one pair of teeth over a pitch about the middle of its mesh, along the gear's tooth, from the \
+         middle of the face, positive towards the heel"
         => titled("contact along");
-    CENTER_HEIGHT: "center_height", "mm", "mean place over a pitch as height over the gear's pitch cone";
+    CENTER_HEIGHT: "center_height", "mm", "the same as height over the gear's pitch cone";
     ELLIPSE_LENGTH: "ellipse_length", "mm",
         "length of the contact ellipse in the middle of a pitch, beyond the edges of the flank as well"
         => titled("ellipse"), or(&[ALONG_LINE, AT_EDGE]);
@@ -62,8 +63,8 @@ rows! {
     /// Contact of one pair of teeth.
     PATH: "path", "Contact of one pair of teeth", "columns of <side>.path of a bevel pair";
 
-    PINION_ANGLE: "pinion_angle", "deg", "angle of the pinion about the middle of the mesh";
-    ERROR_AT: "motion_error", "arcsec", "gear's angle less that of a constant ratio, one pair of teeth"
+    PINION_ANGLE: "pinion_angle", "deg", "angle of the pinion about the middle of the mesh, growing as the pinion drives these flanks";
+    ERROR_AT: "motion_error", "arcsec", "how far the gear is ahead of a constant ratio in that sense, one pair of teeth; negative behind"
         => or(&[PARTED]);
     ALONG: "along", "mm", "place along the gear's tooth, from the middle of the face, positive towards the heel"
         => or(&[PARTED]);
