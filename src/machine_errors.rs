@@ -66,8 +66,8 @@ pub struct MachineErrors<const N: usize> {
 }
 
 impl<const N: usize> MachineErrors<N> {
-    /// Whether they may let passes that follow each other along the tooth differ: all of them but a gear that is off its
-    /// spindle's axis, parallel to it.
+    /// Whether they may let passes that follow each other along the tooth differ: all of them but a gear that is off
+    /// its spindle's axis, parallel to it.
     pub fn vary_along_feed(&self) -> bool {
         let of_axes = self.axes.iter().any(|axis| !axis.is_none());
         of_axes || !self.guide.is_none() || self.mounting.wobble_rad != 0.0

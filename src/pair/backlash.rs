@@ -4,8 +4,8 @@
 //!
 //! j_angle is what the driven gear can turn while the driver is held; j_c = r2 j_angle across the line of centres at
 //! the pitch point; j_t = j_c sin(mu) along the pitch curves; normal to the flanks j_n = j_c sin(mu -+ alpha)
-//! cos(beta_b), which differs between both sides where the pitch curves are not round. With negative play the pair would
-//! jam.
+//! cos(beta_b), which differs between both sides where the pitch curves are not round. With negative play the pair
+//! would jam.
 
 use super::assembly::Moment;
 use super::pitch_pair::PitchPair;

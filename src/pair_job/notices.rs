@@ -9,7 +9,8 @@ notices! {
         "Give the tips relief or the fillets more room, or correct the mounting."
     /// The gears lose each other's flanks between two teeth: the ratio jumps with every tooth.
     ContactRatio: Warning "pair.contact_ratio", "pair.md", (flanks, ratio),
-        "{flanks} flanks: the contact ratio falls to {ratio}, below 1: a pair of flanks parts before the next one meets";
+        "{flanks} flanks: the contact ratio falls to {ratio}, below 1: a pair of flanks parts before the next one \
+         meets";
         "Move the axes nearer to each other, or give the teeth a larger addendum or more of them."
     /// The pair cannot be assembled, or runs under load from both flanks.
     Jams: Warning or Fault where "more is missing than feed marks are high, 10 um" "pair.jams", "pair.md",

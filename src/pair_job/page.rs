@@ -106,8 +106,8 @@ pub fn page(
         PageSection::new(
             "interference",
             "Interference",
-            "How deep tip corners are in the mate where the pitch curves want them, in the middle of the play, or how far \
-            they are clear of it there. What edges do where one side bears is among the contact.",
+            "How deep tip corners are in the mate where the pitch curves want them, in the middle of the play, or how \
+            far they are clear of it there. What edges do where one side bears is among the contact.",
             part(vec![table(&INTERFERENCE)]),
         ),
         PageSection::new(

@@ -56,11 +56,12 @@ rows! {
     CONTACT: "contact", "Contact", "contact.<side>";
 
     SMALLEST_CONTACT_RATIO: "smallest_contact_ratio", "1",
-        "smallest of the transverse contact ratios of all positions: path of contact between the tip curves, of cut flanks \
-         within their form points, over the base pitch; of round gears at the distance of the axes, of others at the \
+        "smallest of the transverse contact ratios of all positions: path of contact between the tip curves, of cut \
+         flanks within their form points, over the base pitch; of round gears at the distance of the axes, of others at the \
          closing one"
         => symbol("ε_α");
-    MEAN_CONTACT_RATIO: "mean_contact_ratio", "1", "mean of the transverse contact ratios of all positions" => symbol("ε_α");
+    MEAN_CONTACT_RATIO: "mean_contact_ratio", "1",
+        "mean of the transverse contact ratios of all positions" => symbol("ε_α");
     LARGEST_CONTACT_RATIO: "largest_contact_ratio", "1", "largest of the transverse contact ratios of all positions"
         => symbol("ε_α");
     OVERLAP_RATIO: "overlap_ratio", "1",

@@ -1,5 +1,5 @@
-//! Helical round gears, nominal flanks, against closed forms of ISO 21771: play and errors along the normal of the flanks
-//! in space, j_n = j_t cos(alpha_t) cos(beta_b); overlap and total contact ratio.
+//! Helical round gears, nominal flanks, against closed forms of ISO 21771: play and errors along the normal of the
+//! flanks in space, j_n = j_t cos(alpha_t) cos(beta_b); overlap and total contact ratio.
 
 use super::*;
 use crate::pair_job::findings::findings;

@@ -1,6 +1,6 @@
-//! Errors that vary along the face are rolled in sections by default, against closed forms: a guide that leans by f over
-//! the face along the pitch circle takes f of the play, as right flanks touch at one end of the face and left ones at
-//! the other.
+//! Errors that vary along the face are rolled in sections by default, against closed forms: a guide that leans by f
+//! over the face along the pitch circle takes f of the play, as right flanks touch at one end of the face and left ones
+//! at the other.
 
 use super::*;
 use crate::pair_job::flanks::{FlankSource, errors_vary_along_tooth, made_ready};

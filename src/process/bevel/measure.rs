@@ -160,7 +160,8 @@ fn slot_rows(inner: &Range<usize>, count: usize) -> Vec<usize> {
     rows
 }
 
-/// The slot behind a tooth at the rows of the grid and in the middle of the face: its width from both flanks, its depth from rays into its bottom.
+/// The slot behind a tooth at the rows of the grid and in the middle of the face: its width from both flanks, its depth
+/// from rays into its bottom.
 ///
 /// # Errors
 /// Flanks that do not reach the pitch cone; the backend's.

@@ -10,8 +10,8 @@
 //!
 //! At every moment the pair of teeth carries that pushes the gear farthest on: the actual motion error over a pitch is
 //! the largest of the errors of one pair of teeth, taken a pitch apart. A pair is therefore followed until it trails or
-//! its teeth part, at their edges as well: a curve that is cut off while it carries would hand over to the next pair too
-//! early.
+//! its teeth part, at their edges as well: a curve that is cut off while it carries would hand over to the next pair
+//! too early.
 //!
 //! Road not taken: contact on the cut dexel flanks. Their marks are some hundredths of a micrometre high and say
 //! nothing of the bearing; the deviations of the cut flanks are reported by `gearcut cut`.
@@ -134,7 +134,8 @@ impl Followed<'_> {
         met.reduce(|best, next| if next.1 > best.1 + KNOWN_RAD { next } else { best })
     }
 
-    /// Whether the pair trails, and falls back outwards, at the last intervals up to this one; or the teeth have parted.
+    /// Whether the pair trails, and falls back outwards, at the last intervals up to this one; or the teeth have
+    /// parted.
     fn trails(&self, last: isize) -> bool {
         let outwards = last.signum();
         let falls = |i: isize| match (self.at(i - outwards), self.at(i), self.carrying(i)) {

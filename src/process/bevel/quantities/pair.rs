@@ -63,8 +63,10 @@ rows! {
     /// Contact of one pair of teeth.
     PATH: "path", "Contact of one pair of teeth", "columns of <side>.path of a bevel pair";
 
-    PINION_ANGLE: "pinion_angle", "deg", "angle of the pinion about the middle of the mesh, growing as the pinion drives these flanks";
-    ERROR_AT: "motion_error", "arcsec", "how far the gear is ahead of a constant ratio in that sense, one pair of teeth; negative behind"
+    PINION_ANGLE: "pinion_angle", "deg",
+        "angle of the pinion about the middle of the mesh, growing as the pinion drives these flanks";
+    ERROR_AT: "motion_error", "arcsec",
+        "how far the gear is ahead of a constant ratio in that sense, one pair of teeth; negative behind"
         => or(&[PARTED]);
     ALONG: "along", "mm", "place along the gear's tooth, from the middle of the face, positive towards the heel"
         => or(&[PARTED]);
