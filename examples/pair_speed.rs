@@ -7,7 +7,7 @@ use gearcut::gear::GearKind;
 use gearcut::interrupt::Interrupt;
 use gearcut::pair::rolling::roll;
 use gearcut::pair_job::fit::Fit;
-use gearcut::pair_job::flanks::PairFlanks;
+use gearcut::pair_job::flanks::{PairFlanks, made_ready};
 use gearcut::pair_job::member;
 use gearcut::pair_job::options::PairOptions;
 use gearcut::pair_job::watch::Watch;
@@ -28,7 +28,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let fit = Fit::new(scenes[0], scenes[1], 0)?;
     let (progress, interrupt) = (Progress::new(ProgressMode::Quiet), Interrupt::default());
     let watch = Watch::new(&progress, &interrupt);
-    let flanks = PairFlanks::new(&fit, scenes, options.source, 1, &Cpu::default(), &watch)?;
+    let ready = made_ready(scenes, options.source)?;
+    let flanks = PairFlanks::new(&fit, scenes, ready.as_ref(), 1, &Cpu::default(), &watch)?;
     println!("flanks cut in {:.2} s", started.elapsed().as_secs_f64());
     let meshing = flanks.meshing(&fit, gears[0], &options.mounting(&fit, gears)?);
     for positions in [500, 1000, 2000, 4000] {
