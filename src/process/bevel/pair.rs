@@ -24,7 +24,7 @@ pub mod page;
 use super::BevelJob;
 use crate::interrupt::Interrupt;
 use crate::progress::Progress;
-use gearcut_core::bevel::contact::{BevelPair, Contact, Mesh, Mounting};
+use gearcut_core::bevel::contact::{BevelMesh, BevelPair, Contact, Mounting};
 use gearcut_core::bevel::face_mill::BladeKind;
 use gearcut_core::error::{Refusal, Result};
 use rayon::prelude::*;
@@ -109,7 +109,7 @@ pub struct Running {
 
 /// One pair of teeth, as far as it is followed.
 struct Followed<'a> {
-    mesh: Mesh<'a>,
+    mesh: BevelMesh<'a>,
     pitch_rad: f64,
     /// Contacts and motion errors by interval from the middle.
     met: BTreeMap<isize, Option<(Contact, f64)>>,

@@ -18,7 +18,7 @@
 mod first;
 mod motion;
 
-pub use motion::Mesh;
+pub use motion::BevelMesh;
 
 use super::blank::BevelBlank;
 use super::envelope::OnFlank;

@@ -12,7 +12,7 @@ use std::f64::consts::TAU;
 
 /// One pair of teeth.
 #[derive(Debug)]
-pub struct Mesh<'a> {
+pub struct BevelMesh<'a> {
     pair: &'a BevelPair,
     thickness_mm: f64,
     /// Contact at the angle at which the middles of both flanks were cut.
@@ -24,10 +24,10 @@ impl BevelPair {
     ///
     /// # Errors
     /// The flanks do not meet in the middle, or the search does not end.
-    pub fn mesh(&self, thickness_mm: f64) -> Result<Mesh<'_>, Refusal> {
+    pub fn mesh(&self, thickness_mm: f64) -> Result<BevelMesh<'_>, Refusal> {
         let [pinion_rad, gear_rad] = self.middle_rad()?;
         let middle = self.contact(pinion_rad, gear_rad, thickness_mm).map_err(lost)?;
-        Ok(Mesh { pair: self, thickness_mm, middle: middle.ok_or_else(|| not_met(pinion_rad))? })
+        Ok(BevelMesh { pair: self, thickness_mm, middle: middle.ok_or_else(|| not_met(pinion_rad))? })
     }
 
     /// Angles of pinion and gear at which the middles of both flanks were cut: near these they touch there.
@@ -57,7 +57,7 @@ impl BevelPair {
     }
 }
 
-impl Mesh<'_> {
+impl BevelMesh<'_> {
     /// The contact in the middle.
     pub fn middle(&self) -> &Contact {
         &self.middle
