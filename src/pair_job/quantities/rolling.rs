@@ -57,8 +57,8 @@ rows! {
 
     SMALLEST_CONTACT_RATIO: "smallest_contact_ratio", "1",
         "smallest of the transverse contact ratios of all positions: path of contact between the tip curves, of cut \
-         flanks within their form points, over the base pitch; of round gears at the distance of the axes, of others at \
-         the closing one"
+         flanks within their form points, over the base pitch; of round gears at the distance of the axes, of others \
+         at the closing one"
         => symbol("ε_α");
     MEAN_CONTACT_RATIO: "mean_contact_ratio", "1",
         "mean of the transverse contact ratios of all positions" => symbol("ε_α");
