@@ -11,7 +11,7 @@
 // An outline is a chain of cubics in runs, whose chords bound what it encloses on a ray. Of a hundred pairs of ray and
 // pass a few find material within the bounds; only they go round the pieces of the runs near the ray, with places
 // across it: a piece that turns back there is split at its turning point. Neighbours share the bits of their node, so
-// that crossings come in pairs, whatever rounding does.
+// that crossings come in pairs in spite of rounding.
 
 @group(0) @binding(0) var<uniform> launch: BlankLaunch;
 @group(0) @binding(1) var<storage, read> tiles: array<BlankTile>;

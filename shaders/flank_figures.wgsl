@@ -1,7 +1,7 @@
 // Figures of every column of some fields after an operation: extremes with their rows, counts, stock over the last one.
 //
 // One workgroup per column (x) of a field (y): each thread looks at every 64th row, then halves of the threads join in
-// a fixed order, so that sums are the same whatever the device does first. Reads fields, the lowest height that each
+// a fixed order, so that sums do not depend on what the device does first. Reads fields, the lowest height that each
 // column records, what the operation left and what the last one left; writes figures. Twin:
 // crates/core/src/dexel/figures.rs. Adds to the sum of a column's stock what adding up in f32 rounds: below 1e-6 of it.
 

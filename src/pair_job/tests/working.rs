@@ -181,7 +181,7 @@ fn distances_without_teeth_in_mesh_are_refused() {
     refused(&shifted("a", 12, -0.4, ""), &shifted("b", 24, -0.4, ""), &["-0.4 and -0.4", "above -0.7371"]);
 }
 
-fn told(pair: &RolledPair, gears: [&LoadedScene; 2]) -> Vec<(String, Severity)> {
+fn noticed(pair: &RolledPair, gears: [&LoadedScene; 2]) -> Vec<(String, Severity)> {
     let found = findings("pair", gears.map(|gear| &gear.scene), &PairOptions::default(), pair);
     found.warnings.iter().map(|notice| (notice.id.to_string(), notice.severity)).collect()
 }
@@ -195,7 +195,7 @@ fn gears_that_lose_their_flanks_between_teeth_say_so() {
     let at = |mm: f64| {
         let options = PairOptions { center_distance_mm: Some(mm), positions: Some(144), ..PairOptions::default() };
         let scenes = [&gear.scene; 2];
-        told(&unwatched(|watch| roll_pair(scenes, &options, &Cpu::default(), watch)).expect("a pair"), [&gear; 2])
+        noticed(&unwatched(|watch| roll_pair(scenes, &options, &Cpu::default(), watch)).expect("a pair"), [&gear; 2])
     };
     let ratio = contact_ratio([18, 18], [0.0; 2], 1.0, 58.5);
     assert!((0.1..0.6).contains(&ratio), "{ratio}");
@@ -209,8 +209,8 @@ fn gears_that_do_not_go_together_are_a_fault() {
     let (a, b) = (round("a", 24, "", ""), round("b", 24, "", ""));
     for (nearer_um, severity) in [(5.0, Severity::Warning), (50.0, Severity::Fault)] {
         let options = PairOptions { center_distance_error_um: -nearer_um, ..PairOptions::default() };
-        let told = told(&rolled(&a, &b, &options).expect("a pair"), [&a, &b]);
-        assert_eq!(told, [("pair.jams".to_owned(), severity)], "{nearer_um} um nearer");
+        let noticed = noticed(&rolled(&a, &b, &options).expect("a pair"), [&a, &b]);
+        assert_eq!(noticed, [("pair.jams".to_owned(), severity)], "{nearer_um} um nearer");
     }
 }
 

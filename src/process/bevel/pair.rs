@@ -126,7 +126,7 @@ impl Followed<'_> {
     }
 
     /// What carries at an interval, of all that is known; of pairs that carry alike, as conjugate ones do, the one
-    /// nearest to the middle stands for them.
+    /// nearest to the middle is taken.
     fn carrying(&self, i: isize) -> Option<(Contact, f64)> {
         let mut alike: Vec<isize> = self.met.keys().copied().filter(|j| (j - i).rem_euclid(PER_PITCH) == 0).collect();
         alike.sort_by_key(|j| j.abs());

@@ -299,7 +299,7 @@ fn a_synthesised_pinion_runs_as_it_was_chosen() {
     assert!(ARCSEC_PER_RAD * rolled.expect("met").sides[0].running.motion_error_rad() > 50.0);
 }
 
-/// Signs without a convention: where the gear is ahead by e while the pinion drives it, it stands beyond the place of a
+/// Signs without a convention: where the gear is ahead by e while the pinion drives it, it is beyond the place of a
 /// constant ratio, and flanks turned to that place cut into each other by e times their lever; where it is behind, they
 /// are apart by that. And the pinion drives in the sense in which its angles grow: turned on by itself, it cuts in.
 #[test]
