@@ -1,26 +1,25 @@
 // Lowers dexels whose rays stand anywhere in space by every sweep that their tile visits.
 //
 // One thread per group of rows of a column, its lanes (one row on GPUs, four on software adapters:
-// `shared/lanes_*.wgsl`); one workgroup row (y) per tile, so that records are read in step. Reads tiles, records,
-// cells, rays; lowers heights and passes in place; counts iterations that stopped short. Twin:
-// crates/core/src/cut/cpu/spatial.rs; derivation: crates/core/src/passes/spatial/sweep.rs. Adds at most 2 nm to a
-// height.
+// `shared/lanes_*.wgsl`); one workgroup row (y) per tile, so that records are read in step. Reads tiles, records, rays;
+// lowers heights and passes in place; counts iterations that stopped short. Twin: crates/core/src/cut/cpu/spatial.rs;
+// derivation: crates/core/src/passes/spatial/sweep.rs. Adds at most 2 nm to a height.
 
 @group(0) @binding(0) var<storage, read> tiles: array<SpatialTile>;
 @group(0) @binding(1) var<storage, read> records: array<SpatialPass>;
-// Coefficients of x = c0 + t (c1 + t (c2 + t c3)), all segments of all fields after each other.
-@group(0) @binding(2) var<storage, read> cells: array<vec4<f32>>;
 // Six for each group of rows: x, y, z of the origins against the tile's, x, y, z of the directions.
-@group(0) @binding(3) var<storage, read> rays: array<Lanes>;
-@group(0) @binding(4) var<storage, read_write> heights_mm: array<Lanes>;
-@group(0) @binding(5) var<storage, read_write> passes: array<LaneCounts>;
+@group(0) @binding(2) var<storage, read> rays: array<Lanes>;
+@group(0) @binding(3) var<storage, read_write> heights_mm: array<Lanes>;
+@group(0) @binding(4) var<storage, read_write> passes: array<LaneCounts>;
 // One for each field.
-@group(0) @binding(6) var<storage, read_write> unconverged: array<atomic<u32>>;
+@group(0) @binding(5) var<storage, read_write> unconverged: array<atomic<u32>>;
 
 // Threads of a workgroup: one wave on every GPU, and the host's number.
 const WORKGROUP_THREADS: u32 = 64u;
 // Rake faces turn along the tool's axis (helical gashes).
 override TWISTED: bool = false;
+// Some of the records are arcs: software adapters pay for both ways of entering whichever is taken.
+override ARCS: bool = true;
 // Newton steps at most: four suffice from the tile's middle; a ray that grazes a round halves what is missing with
 // every step.
 const MAX_STEPS: u32 = 24u;
@@ -33,14 +32,6 @@ const CONVERGED_MM: f32 = 2e-5;
 // holds.
 const REACH_MM: f32 = 200.0;
 const LARGEST_T: f32 = 1.0;
-
-// Coefficients of the cells in which the lanes are.
-struct LaneCells {
-    c0: Lanes,
-    c1: Lanes,
-    c2: Lanes,
-    c3: Lanes,
-}
 
 // A value that depends on height and moment, with its rates over both.
 struct Varied {
@@ -157,28 +148,25 @@ fn spatial_flank(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocat
             var residual: Lanes;
             var g_x = Lanes(1.0);
             var g_y: Lanes;
-            if record.cells_per_mm > 0.0 {
-                let cell = clamp(
-                    floor(y.value * record.cells_per_mm),
-                    Lanes(record.first_cell),
-                    Lanes(record.last_cell),
-                );
-                let c = lane_cells(i32(tile.first_cell + record.base_cell), cell);
-                let from_cell = y.value - cell * record.cell_width_mm;
-                let inside = clamp(from_cell, Lanes(0.0), Lanes(record.cell_width_mm));
-                let slope = c.c1 + inside * (2.0 * c.c2 + inside * (3.0 * c.c3));
-                let edge = (c.c0 - record.base_x_mm) + inside * (c.c1 + inside * (c.c2 + inside * c.c3));
-                residual = x.value - (edge + (from_cell - inside) * slope);
-                g_y = -slope;
-            } else {
-                let k = record.arc_half_curvature;
-                let m_x = record.base_x_mm;
-                let m_y = record.base_y_mm;
+            if ARCS && record.is_arc == 1u {
+                let m_x = record.curve.x;
+                let m_y = record.curve.y;
+                let k = record.curve.w;
                 let across = x.value * (x.value + 2.0 * m_x);
                 let along = y.value * (y.value + 2.0 * m_y);
-                residual = k * (across + along + record.arc_excess_mm2);
+                residual = k * (across + along + record.curve.z);
                 g_x = 2.0 * k * (x.value + m_x);
                 g_y = 2.0 * k * (y.value + m_y);
+            } else {
+                let c = record.curve;
+                let c5 = record.curve_5;
+                // Beyond its ends the polynomial goes on along its end tangents.
+                let inside = clamp(y.value, Lanes(record.y_from_mm), Lanes(record.y_to_mm));
+                let slope = c.x
+                    + inside * (2.0 * c.y + inside * (3.0 * c.z + inside * (4.0 * c.w + inside * (5.0 * c5))));
+                let edge = inside * (c.x + inside * (c.y + inside * (c.z + inside * (c.w + inside * c5))));
+                residual = x.value - (edge + (y.value - inside) * slope);
+                g_y = -slope;
             }
 
             let far = r.value + record.radius_mm;
@@ -207,7 +195,7 @@ fn spatial_flank(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocat
                 break;
             }
         }
-        let in_front = LaneFlags(record.cells_per_mm > 0.0) | (x_last + record.base_x_mm > Lanes(0.0));
+        let in_front = LaneFlags(record.is_arc == 0u) | (x_last + record.curve.x > Lanes(0.0));
         let on_segment = (y_last >= Lanes(record.y_from_mm))
             & (y_last <= Lanes(record.y_to_mm))
             & in_front

@@ -9,11 +9,11 @@ struct SpatialTile {
     group_count: u32,
     first_record: u32,
     record_count: u32,
-    // First cell of its field's tables.
-    first_cell: u32,
     // Its field among those of the submission.
     field: u32,
-    unused: vec2<u32>,
+    unused_1: u32,
+    unused_2: u32,
+    unused_3: u32,
 }
 
 // One sweep of one segment over one tile. Axes: r from the tool's axis, q in the direction of rotation, y along the
@@ -24,6 +24,9 @@ struct SpatialPass {
     turn: array<vec4<f32>, 9>,
     // Coefficients of u^3 of the place, and the height where the iteration starts.
     place_3: vec4<f32>,
+    // Table: coefficients of t to t^4, t = y against the base point. Arc: base point against the centre; square of its
+    // distance from the centre less that of the radius; half of 1 / radius.
+    curve: vec4<f32>,
     // Distance of the base point from the tool's axis.
     radius_mm: f32,
     // Turn of the rake face per mm of y.
@@ -31,28 +34,17 @@ struct SpatialPass {
     // Direction of the segment's x in (r, y).
     cos: f32,
     sin: f32,
-    // y that belongs to the segment, in the segment's frame against the base point, ends overlapping.
+    // y that belongs to the piece of the segment, in its frame against the base point, ends overlapping.
     y_from_mm: f32,
     y_to_mm: f32,
-    // Table: x of the base cell. Arc: base point against the centre.
-    base_x_mm: f32,
-    base_y_mm: f32,
-    // Arc: square of the base point's distance from the centre less that of the radius.
-    arc_excess_mm2: f32,
-    // Arc: half of 1 / radius.
-    arc_half_curvature: f32,
-    // Table: cells in a millimetre, 0 for an arc.
-    cells_per_mm: f32,
-    cell_width_mm: f32,
-    // First and last cell against the base cell.
-    first_cell: f32,
-    last_cell: f32,
-    // Base cell in its field's tables.
-    base_cell: u32,
+    // Table: coefficient of t^5.
+    curve_5: f32,
+    // 1 for an arc, 0 for a table.
+    is_arc: u32,
     // Id of the pass.
     pass_id: u32,
     // Moments at which the sweep is good.
     t_from: f32,
     t_to: f32,
-    unused: vec2<u32>,
+    unused: u32,
 }

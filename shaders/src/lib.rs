@@ -138,7 +138,12 @@ pub const BLANK_LISTS: Stage = Stage {
     variants: &[&[("BACK", 0.0)], &[("BACK", 1.0)]],
 };
 
-/// The spatial kernel: rake faces that are planes, and helical ones.
+/// Place in the variants of [`spatial_flank`].
+pub fn spatial_variant(twisted: bool, arcs: bool) -> usize {
+    2 * usize::from(twisted) + usize::from(arcs)
+}
+
+/// The spatial kernel: rake faces that are planes, and helical ones; edges without arcs, and all edges.
 pub const fn spatial_flank(rows: Rows) -> Stage {
     Stage {
         name: "spatial_flank",
@@ -154,8 +159,13 @@ pub const fn spatial_flank(rows: Rows) -> Stage {
                 include_str!("../spatial_flank.wgsl"),
             ),
         },
-        bindings: &["tiles", "records", "cells", "rays", "heights_mm", "passes", "unconverged"],
-        variants: &[&[("TWISTED", 0.0)], &[("TWISTED", 1.0)]],
+        bindings: &["tiles", "records", "rays", "heights_mm", "passes", "unconverged"],
+        variants: &[
+            &[("TWISTED", 0.0), ("ARCS", 0.0)],
+            &[("TWISTED", 0.0), ("ARCS", 1.0)],
+            &[("TWISTED", 1.0), ("ARCS", 0.0)],
+            &[("TWISTED", 1.0), ("ARCS", 1.0)],
+        ],
     }
 }
 

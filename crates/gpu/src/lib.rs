@@ -25,7 +25,6 @@
 //! - `in_flight`: fields that the device takes whole, some at a time
 //! - `planar_steps`: what plans need over columns
 //! - `planar`: flanks cut by strokes
-//! - [`edge_cells`]: tables of an edge for the spatial shader
 //! - `sweep_compose`: from the plan's f64 sweeps to f32 records
 //! - `tile_dexels`: rays and dexels in the order of tiles
 //! - `swept_steps`: what plans of sweeps need over tiles
@@ -48,7 +47,6 @@ pub mod compose;
 mod context;
 mod deferred;
 mod device;
-pub mod edge_cells;
 mod in_flight;
 mod launches;
 pub mod near_edge;

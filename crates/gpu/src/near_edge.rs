@@ -3,7 +3,8 @@
 //! In: a record of the plan, the tile's rays. Out: the range of y (segment frame) over which any of them can meet the
 //! segment, and polynomials of degree five that follow the edge's table there. A tile is a tenth of a millimetre wide,
 //! so one polynomial nearly always serves; where rays graze, the range is cut in halves until each is followed within
-//! 0.1 nm.
+//! 0.1 nm. Edges in rake faces that turn through the work are bent so little that one mostly follows a whole segment:
+//! it is found once for a plan, and counted from another place for every record.
 //!
 //! A shader then reads the edge with the record and looks nothing up: a table indexed by every lane for itself costs a
 //! software adapter more than all arithmetic.
@@ -100,6 +101,22 @@ impl EdgePolynomial {
         Self { base_mm, coefficients, range_mm: [from - base_y_mm, to - base_y_mm] }
     }
 
+    /// The same polynomial counted from its place nearest to `near_mm`.
+    #[must_use]
+    pub fn seen_from(&self, near_mm: f64) -> Self {
+        let [from, to] = self.range_mm.map(|t| self.base_mm.y + t);
+        let by = near_mm.clamp(from, to) - self.base_mm.y;
+        let [c1, c2, c3, c4, c5] = self.coefficients;
+        let mut powers = [0.0, c1, c2, c3, c4, c5];
+        for lowest in 0..5 {
+            for k in (lowest..5).rev() {
+                powers[k] += by * powers[k + 1];
+            }
+        }
+        let [x_mm, coefficients @ ..] = powers;
+        Self { base_mm: self.base_mm + DVec2::new(x_mm, by), coefficients, range_mm: self.range_mm.map(|t| t - by) }
+    }
+
     /// x at t, from the base.
     pub fn x_mm(&self, t: f64) -> f64 {
         self.coefficients.iter().rfold(0.0, |sum, c| t * (c + sum))
@@ -160,6 +177,27 @@ mod tests {
         let [curve] = found.as_slice() else { panic!("{} polynomials", found.len()) };
         assert!((curve.base_mm.y - 0.97).abs() < 1e-15);
         assert!((curve.base_mm.x - Circle.x_and_slope(0.97).expect("known")[0]).abs() < 2e-7);
+    }
+
+    #[test]
+    fn a_polynomial_is_the_same_from_wherever_it_counts() {
+        let of = EdgePolynomial {
+            base_mm: DVec2::new(0.3, -1.0),
+            coefficients: [0.2, -0.1, 0.05, 0.02, -0.01],
+            range_mm: [-0.5, 2.5],
+        };
+        for (near_mm, base_y_mm) in [(0.7, 0.7), (-3.0, -1.5), (9.0, 1.5)] {
+            let seen = of.seen_from(near_mm);
+            assert!((seen.base_mm.y - base_y_mm).abs() < 1e-15);
+            for i in 0..=30 {
+                let y_mm = f64::from(i) / 10.0 - 1.5;
+                let x_mm = |from: &EdgePolynomial| from.base_mm.x + from.x_mm(y_mm - from.base_mm.y);
+                assert!((x_mm(&of) - x_mm(&seen)).abs() < 1e-14, "{} and {} mm", x_mm(&of), x_mm(&seen));
+            }
+            for end in 0..2 {
+                assert!((of.range_mm[end] + of.base_mm.y - seen.range_mm[end] - seen.base_mm.y).abs() < 1e-15);
+            }
+        }
     }
 
     #[test]

@@ -19,12 +19,14 @@ pub struct SpatialTile {
     pub first_record: u32,
     /// Number of records.
     pub record_count: u32,
-    /// First cell of its field's tables.
-    pub first_cell: u32,
     /// Its field among those of the submission.
     pub field: u32,
     /// Structures end at multiples of sixteen bytes.
-    pub unused: [u32; 2],
+    pub unused_1: u32,
+    /// The same.
+    pub unused_2: u32,
+    /// The same.
+    pub unused_3: u32,
 }
 
 /// One sweep of one segment over one tile.
@@ -36,6 +38,9 @@ pub struct SpatialPass {
     pub turn: [[f32; 4]; 9],
     /// Coefficients of u^3 of the place, and the height where the iteration starts, mm.
     pub place_3: [f32; 4],
+    /// Table: coefficients of t to t^4, t = y against the base point. Arc: base point against the centre, mm; square of
+    /// its distance from the centre less that of the radius, mm^2; half of 1 / radius, 1/mm.
+    pub curve: [f32; 4],
     /// Distance of the base point from the tool's axis, mm.
     pub radius_mm: f32,
     /// Turn of the rake face per mm of y.
@@ -44,28 +49,14 @@ pub struct SpatialPass {
     pub cos: f32,
     /// Its part along y.
     pub sin: f32,
-    /// First y that belongs to the segment, against the base point, mm.
+    /// First y that belongs to the piece of the segment, against the base point, mm.
     pub y_from_mm: f32,
     /// Last y that belongs to it.
     pub y_to_mm: f32,
-    /// Table: x of the base cell. Arc: x of the base point against the centre, mm.
-    pub base_x_mm: f32,
-    /// Arc: y of the base point against the centre, mm.
-    pub base_y_mm: f32,
-    /// Arc: square of the base point's distance from the centre less that of the radius, mm^2.
-    pub arc_excess_mm2: f32,
-    /// Arc: half of 1 / radius, 1/mm.
-    pub arc_half_curvature: f32,
-    /// Table: cells in a millimetre; 0 for an arc.
-    pub cells_per_mm: f32,
-    /// Table: width of a cell, mm.
-    pub cell_width_mm: f32,
-    /// Table: first cell against the base cell.
-    pub first_cell: f32,
-    /// Table: last cell against the base cell.
-    pub last_cell: f32,
-    /// Table: base cell in its field's tables.
-    pub base_cell: u32,
+    /// Table: coefficient of t^5.
+    pub curve_5: f32,
+    /// 1 for an arc, 0 for a table.
+    pub is_arc: u32,
     /// Id of the pass.
     pub pass_id: u32,
     /// First moment at which the sweep is good.
@@ -73,5 +64,5 @@ pub struct SpatialPass {
     /// Last moment.
     pub t_to: f32,
     /// Structures end at multiples of sixteen bytes.
-    pub unused: [u32; 2],
+    pub unused: u32,
 }
