@@ -6,16 +6,15 @@
 // derivation: crates/core/src/passes/spatial/sweep.rs. Adds at most 2 nm to a height.
 
 @group(0) @binding(0) var<storage, read> tiles: array<SpatialTile>;
-@group(0) @binding(1) var<storage, read> records: array<SpatialPass>;
+@group(0) @binding(1) var<storage, read> visits: array<u32>;
+@group(0) @binding(2) var<storage, read> records: array<SpatialPass>;
 // Six for each group of rows: x, y, z of the origins against the tile's, x, y, z of the directions.
-@group(0) @binding(2) var<storage, read> rays: array<Lanes>;
-@group(0) @binding(3) var<storage, read_write> heights_mm: array<Lanes>;
-@group(0) @binding(4) var<storage, read_write> passes: array<LaneCounts>;
+@group(0) @binding(3) var<storage, read> rays: array<Lanes>;
+@group(0) @binding(4) var<storage, read_write> heights_mm: array<Lanes>;
+@group(0) @binding(5) var<storage, read_write> passes: array<LaneCounts>;
 // One for each field.
-@group(0) @binding(5) var<storage, read_write> unconverged: array<atomic<u32>>;
+@group(0) @binding(6) var<storage, read_write> unconverged: array<atomic<u32>>;
 
-// Threads of a workgroup: one wave on every GPU, and the host's number.
-const WORKGROUP_THREADS: u32 = 64u;
 // Rake faces turn along the tool's axis (helical gashes).
 override TWISTED: bool = false;
 // Some of the records are arcs: software adapters pay for both ways of entering whichever is taken.
@@ -23,11 +22,10 @@ override ARCS: bool = true;
 // Newton steps at most: four suffice from the tile's middle; a ray that grazes a round halves what is missing with
 // every step.
 const MAX_STEPS: u32 = 24u;
-// Steps below these (10 nm, and a moment that moves the blade by as little) are the last.
-const LAST_STEP_MM: f32 = 1e-5;
-const LAST_STEP_T: f32 = 2e-7;
-// A last step above this has not arrived.
-const CONVERGED_MM: f32 = 2e-5;
+// Steps below these (100 nm, and a moment that moves the blade by as little) are the last: the error after them is of
+// their squares, 0.01 nm where an edge's radius is 0.5 mm.
+const LAST_STEP_MM: f32 = 1e-4;
+const LAST_STEP_T: f32 = 2e-6;
 // Heights are held within this of the start, and moments within a sweep, so that no iterate grows beyond what f32
 // holds.
 const REACH_MM: f32 = 200.0;
@@ -92,8 +90,8 @@ fn spatial_flank(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocat
     let low = Lanes(tile.middle.w);
     var unknown = LaneCounts(0u);
 
-    for (var i = 0u; i < tile.record_count; i++) {
-        let record = records[tile.first_record + i];
+    for (var i = 0u; i < tile.visit_count; i++) {
+        let record = records[tile.first_record + visits[tile.first_visit + i]];
         let start = record.place_3.w;
         // Against the tile's middle ray, both at the start height.
         var q: array<Lanes, 3>;
@@ -202,7 +200,7 @@ fn spatial_flank(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocat
             & falls
             & (t > Lanes(record.t_from))
             & (t < Lanes(record.t_to));
-        let converged = abs(step_h) < Lanes(CONVERGED_MM);
+        let converged = abs(step_h) < Lanes(LAST_STEP_MM);
         let height = start + h;
         let recorded = max(height, low);
         let lower = on_segment & converged & (height > 2.0 * low) & (recorded < best);

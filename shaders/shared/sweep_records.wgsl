@@ -1,19 +1,19 @@
 // What the host hands over for rays in space, member by member the same as crates/gpu/src/sweep_records.rs; a test
 // compares both.
 
-// Dexels that visit the same passes, in groups of rows.
+// Dexels of a tile that visit the same passes, in groups of rows.
 struct SpatialTile {
     // Direction of the tile's middle ray, and the lowest height that rays record.
     middle: vec4<f32>,
     first_group: u32,
     group_count: u32,
+    first_visit: u32,
+    visit_count: u32,
+    // First record of the tile; visits count from there.
     first_record: u32,
-    record_count: u32,
     // Its field among those of the submission.
     field: u32,
-    unused_1: u32,
-    unused_2: u32,
-    unused_3: u32,
+    unused: vec2<u32>,
 }
 
 // One sweep of one segment over one tile. Axes: r from the tool's axis, q in the direction of rotation, y along the

@@ -39,6 +39,15 @@ impl Rows {
         }
     }
 
+    /// Threads of a workgroup of the spatial kernel: those of two cells of a tile on a GPU; of one where a workgroup that
+    /// is not full takes as long as a full one.
+    pub const fn spatial_threads(self) -> u32 {
+        match self {
+            Self::Few => WORKGROUP_THREADS,
+            Self::Many => 8,
+        }
+    }
+
     /// Threads of the planar kernel that share the rows of one column.
     pub fn threads_per_column(self, rows: usize) -> usize {
         rows.div_ceil(QUAD_ROWS).div_ceil(self.quads_per_thread())
@@ -159,7 +168,7 @@ pub const fn spatial_flank(rows: Rows) -> Stage {
                 include_str!("../spatial_flank.wgsl"),
             ),
         },
-        bindings: &["tiles", "records", "rays", "heights_mm", "passes", "unconverged"],
+        bindings: &["tiles", "visits", "records", "rays", "heights_mm", "passes", "unconverged"],
         variants: &[
             &[("TWISTED", 0.0), ("ARCS", 0.0)],
             &[("TWISTED", 0.0), ("ARCS", 1.0)],

@@ -21,7 +21,6 @@ impl Backend for Gpu {
     fn cut(&self, field: &Field, plan: &CutPlan, layer: &mut Layer) -> Result<CutStats, Error> {
         self.cut_or_redo(
             layer,
-            [field.len() as u64, plan.dexel_passes()],
             |layer| self.cut_on_device(field, plan, layer),
             |layer| self.native.cut(field, plan, layer),
         )
@@ -55,7 +54,6 @@ impl Backend for Gpu {
     fn cut_spatial(&self, field: &SpatialField, plan: &SweepPlan, layer: &mut Layer) -> Result<CutStats, Error> {
         self.cut_or_redo(
             layer,
-            [field.len() as u64, plan.tile_passes()],
             |layer| spatial::cut_on_device(self, field, plan, layer),
             |layer| self.native.cut_spatial(field, plan, layer),
         )

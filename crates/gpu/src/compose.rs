@@ -25,6 +25,9 @@ use glam::DVec2;
 /// stable for its height to mean anything.
 pub const END_OVERLAP_MM: f64 = 5e-7;
 
+/// Largest distance between an edge's polynomial and its table: twice what the table itself may err.
+const TOLERANCE_MM: f64 = 1e-7;
+
 /// Records for the shader; `columns` are the tile's rays.
 pub fn records(
     record: &PassRecord,
@@ -61,7 +64,7 @@ pub fn records(
                 return;
             }
             let mut curves = Vec::new();
-            near_edge::curves(table, range, place.y, &mut curves);
+            near_edge::curves(table, range, place.y, TOLERANCE_MM, &mut curves);
             out.extend(curves.iter().map(|curve| {
                 let [c1, c2, c3, c4, c5] = curve.coefficients.map(|c| c as f32);
                 records::FlankPass {

@@ -149,14 +149,13 @@ impl Gpu {
     pub(crate) fn cut_or_redo(
         &self,
         layer: &mut Layer,
-        [dexels, dexel_passes]: [u64; 2],
-        on_device: impl FnOnce(&Layer) -> Result<(Layer, u64), GpuProblem>,
+        on_device: impl FnOnce(&Layer) -> Result<(Layer, CutStats), GpuProblem>,
         natively: impl FnOnce(&mut Layer) -> Result<CutStats, Error>,
     ) -> Result<CutStats, Error> {
         match on_device(layer) {
-            Ok((cut, unconverged)) => {
+            Ok((cut, stats)) => {
                 *layer = cut;
-                Ok(CutStats { dexels, dexel_passes, unconverged })
+                Ok(stats)
             }
             Err(problem) if self.options.on_failure == OnGpuFailure::Stop => Err(problem.into()),
             Err(problem) => {

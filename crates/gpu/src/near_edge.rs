@@ -2,9 +2,9 @@
 //!
 //! In: a record of the plan, the tile's rays. Out: the range of y (segment frame) over which any of them can meet the
 //! segment, and polynomials of degree five that follow the edge's table there. A tile is a tenth of a millimetre wide,
-//! so one polynomial nearly always serves; where rays graze, the range is cut in halves until each is followed within
-//! 0.1 nm. Edges in rake faces that turn through the work are bent so little that one mostly follows a whole segment:
-//! it is found once for a plan, and counted from another place for every record.
+//! so one polynomial nearly always serves; where rays graze, the range is cut in halves until each is followed closely
+//! enough. Edges in rake faces that turn through the work are bent so little that one follows a whole segment: it is
+//! found once for a plan, and counted from another place for every record.
 //!
 //! A shader then reads the edge with the record and looks nothing up: a table indexed by every lane for itself costs a
 //! software adapter more than all arithmetic.
@@ -17,8 +17,6 @@ use gearcut_core::passes::PassRecord;
 use gearcut_core::tool::edge_table::EdgeTable;
 use glam::DVec2;
 
-/// Largest distance between polynomial and table: twice what the table itself may err.
-const TOLERANCE_MM: f64 = 1e-7;
 /// Places at which a polynomial is compared with the table, between those that define it.
 const CHECKS: usize = 16;
 /// A range is not halved below this share of a table's cell: there the polynomial is the table's own cubic, but for the
@@ -62,17 +60,23 @@ fn hull([c0, c1, c2, c3]: [f64; 4]) -> [f64; 4] {
     [a0, a0 + a1 / 3.0, a0 + (2.0 * a1 + a2) / 3.0, a0 + a1 + a2 + a3]
 }
 
-/// Polynomials that follow a table over a range, in order of y; each counts from the place nearest to `near_mm`, so
-/// that what stands near it is small.
-pub fn curves(table: &EdgeTable, [from, to]: [f64; 2], near_mm: f64, curves: &mut Vec<EdgePolynomial>) {
+/// Polynomials that follow a table over a range within a tolerance, in order of y; each counts from the place nearest to
+/// `near_mm`, so that what is near it is small.
+pub fn curves(
+    table: &EdgeTable,
+    [from, to]: [f64; 2],
+    near_mm: f64,
+    tolerance_mm: f64,
+    curves: &mut Vec<EdgePolynomial>,
+) {
     let curve = EdgePolynomial::through(table, [from, to], near_mm.clamp(from, to));
-    if (to - from) * table.cells_per_mm <= SMALLEST_CELLS || curve.follows(table) {
+    if (to - from) * table.cells_per_mm <= SMALLEST_CELLS || curve.follows(table, tolerance_mm) {
         curves.push(curve);
         return;
     }
     let middle = 0.5 * (from + to);
-    self::curves(table, [from, middle], near_mm, curves);
-    self::curves(table, [middle, to], near_mm, curves);
+    self::curves(table, [from, middle], near_mm, tolerance_mm, curves);
+    self::curves(table, [middle, to], near_mm, tolerance_mm, curves);
 }
 
 impl EdgePolynomial {
@@ -122,12 +126,12 @@ impl EdgePolynomial {
         self.coefficients.iter().rfold(0.0, |sum, c| t * (c + sum))
     }
 
-    fn follows(&self, table: &EdgeTable) -> bool {
+    fn follows(&self, table: &EdgeTable, tolerance_mm: f64) -> bool {
         let [from, to] = self.range_mm;
         (0..=CHECKS).all(|i| {
             let t = from + (to - from) * i as f64 / CHECKS as f64;
             let x_mm = table.x_and_slope(self.base_mm.y + t)[0];
-            (self.base_mm.x + self.x_mm(t) - x_mm).abs() <= TOLERANCE_MM
+            (self.base_mm.x + self.x_mm(t) - x_mm).abs() <= tolerance_mm
         })
     }
 }
@@ -152,7 +156,7 @@ mod tests {
     fn the_polynomials_follow_the_profile_over_the_whole_range_without_gaps() {
         let table = EdgeTable::fit(&Circle, [-2.0, 2.0]).expect("fits");
         let mut found = Vec::new();
-        curves(&table, [-1.9, 1.7], 0.4, &mut found);
+        curves(&table, [-1.9, 1.7], 0.4, 1e-7, &mut found);
         assert!(found.len() > 1, "a circle over its whole width is no quintic");
         let mut end = -1.9;
         for curve in &found {
@@ -173,7 +177,7 @@ mod tests {
     fn a_narrow_range_takes_one_polynomial_that_starts_at_the_place_asked_for() {
         let table = EdgeTable::fit(&Circle, [-2.0, 2.0]).expect("fits");
         let mut found = Vec::new();
-        curves(&table, [0.9, 1.1], 0.97, &mut found);
+        curves(&table, [0.9, 1.1], 0.97, 1e-7, &mut found);
         let [curve] = found.as_slice() else { panic!("{} polynomials", found.len()) };
         assert!((curve.base_mm.y - 0.97).abs() < 1e-15);
         assert!((curve.base_mm.x - Circle.x_and_slope(0.97).expect("known")[0]).abs() < 2e-7);

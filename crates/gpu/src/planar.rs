@@ -66,7 +66,7 @@ impl Gpu {
         field: &Field,
         plan: &CutPlan,
         layer: &Layer,
-    ) -> Result<(Layer, u64), GpuProblem> {
+    ) -> Result<(Layer, CutStats), GpuProblem> {
         self.device.alive()?;
         let (rows, padded) = (field.rows(), batches::padded(field.rows()));
         let mut result = layer.clone();
@@ -103,7 +103,7 @@ impl Gpu {
             waiting.push((batch, in_flight));
         }
         waiting.into_iter().try_for_each(collect)?;
-        Ok((result, unconverged))
+        Ok((result, CutStats { dexels: field.len() as u64, dexel_passes: plan.dexel_passes(), unconverged }))
     }
 }
 

@@ -17,8 +17,8 @@ use gearcut_core::cut::cpu::Cpu;
 use gearcut_core::cut::{CutLayers, CutStats, SweptField};
 use gearcut_core::dexel::{Layer, SpatialField};
 use gearcut_core::error::Error;
-use gearcut_core::passes::SweepPlan;
 use gearcut_core::passes::spatial::sweep_tile::SweepTile;
+use gearcut_core::passes::{SweepPlan, TurningPasses};
 use gearcut_shaders::{Rows, spatial_flank};
 use std::ops::Range;
 
@@ -35,9 +35,10 @@ pub fn cut_on_device(
     field: &SpatialField,
     plan: &SweepPlan,
     layer: &Layer,
-) -> Result<(Layer, u64), GpuProblem> {
+) -> Result<(Layer, CutStats), GpuProblem> {
     gpu.device.alive()?;
     let mut result = layer.clone();
+    let mut stats = CutStats { dexels: field.len() as u64, ..CutStats::default() };
     let mut unconverged = 0;
     let mut waiting: Vec<(Range<usize>, InFlight)> = Vec::new();
     let mut collect = |(tiles, in_flight): (Range<usize>, InFlight)| -> Result<(), GpuProblem> {
@@ -53,11 +54,12 @@ pub fn cut_on_device(
         }
         let dexels = TileDexels::new(field, &plan.tiles[tiles.clone()], gpu.rows.lanes(), layer);
         let step = [SweptStep::compose(gpu, field, plan, tiles.clone())];
+        stats.dexel_passes += step[0].dexel_passes;
         let in_flight = wait(gpu.send(&shipment(gpu, &[(&dexels, &step)])))?;
         waiting.push((tiles, in_flight));
     }
     waiting.into_iter().try_for_each(collect)?;
-    Ok((result, unconverged))
+    Ok((result, CutStats { unconverged, ..stats }))
 }
 
 impl WholeField for SweptField<'_> {
@@ -68,13 +70,14 @@ impl WholeField for SweptField<'_> {
         let of_rows = gpu.rows.lanes();
         let mut inputs = SweptInputs { of_rows, ..SweptInputs::default() };
         for set in operations.iter().flatten() {
-            let plan = SweepPlan::in_tiles(field, set);
+            let plan = plan(gpu, field, set);
             let whole = batches(&plan.tiles, gpu.allowance(), of_rows).ok()?;
             if whole.len() != 1 || plan.records.len() > records_at_most(gpu.allowance()) {
                 return None;
             }
-            inputs.steps.push(SweptStep::compose(gpu, field, &plan, whole[0].clone()));
-            inputs.dexel_passes += plan.tile_passes();
+            let step = SweptStep::compose(gpu, field, &plan, whole[0].clone());
+            inputs.dexel_passes += step.dexel_passes;
+            inputs.steps.push(step);
             if inputs.tiles.is_empty() {
                 inputs.dexels = TileDexels::new(field, &plan.tiles, of_rows, &field.blank_layer());
                 inputs.tiles = plan.tiles;
@@ -117,11 +120,20 @@ impl WholeField for SweptField<'_> {
     }
 
     fn cut_in_batches(&self, gpu: &Gpu) -> Result<CutLayers, Error> {
-        self.cut_in_turn(gpu, |set| [SweepPlan::in_tiles(&self.field, set)])
+        self.cut_in_turn(gpu, |set| [plan(gpu, &self.field, set)])
     }
 
     fn cut_natively(&self, native: Cpu) -> Result<CutLayers, Error> {
         self.cut_in_turn(&native, |set| self.by.plans(&self.field, set))
+    }
+}
+
+/// Plan that serves a device: the search for the cells in which a record can be lowest takes longer on the host than what
+/// it spares a GPU, and less than what it spares a software adapter.
+fn plan(gpu: &Gpu, field: &SpatialField, set: &TurningPasses) -> SweepPlan {
+    match gpu.rows {
+        Rows::Few => SweepPlan::in_tiles(field, set),
+        Rows::Many => SweepPlan::new(field, set),
     }
 }
 

@@ -5,7 +5,7 @@
 
 use bytemuck::{Pod, Zeroable};
 
-/// Dexels that visit the same passes, in groups of rows.
+/// Dexels of a tile that visit the same passes, in groups of rows.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
 pub struct SpatialTile {
@@ -15,18 +15,16 @@ pub struct SpatialTile {
     pub first_group: u32,
     /// Number of groups.
     pub group_count: u32,
-    /// First record of the step.
+    /// First visit of the step.
+    pub first_visit: u32,
+    /// Number of visits.
+    pub visit_count: u32,
+    /// First record of the tile; visits count from there.
     pub first_record: u32,
-    /// Number of records.
-    pub record_count: u32,
     /// Its field among those of the submission.
     pub field: u32,
     /// Structures end at multiples of sixteen bytes.
-    pub unused_1: u32,
-    /// The same.
-    pub unused_2: u32,
-    /// The same.
-    pub unused_3: u32,
+    pub unused: [u32; 2],
 }
 
 /// One sweep of one segment over one tile.

@@ -8,59 +8,76 @@ use super::launches::{ROUND_RECORDS, TileVisit, launches};
 use super::readback::{Input, ReadbackStep};
 use super::sweep_compose::{compose, pieces};
 use super::sweep_records::{SpatialPass, SpatialTile};
-use super::tile_dexels::groups;
 use gearcut_core::dexel::SpatialField;
 use gearcut_core::passes::SweepPlan;
-use gearcut_shaders::{WORKGROUP_THREADS, spatial_variant};
+use gearcut_core::passes::spatial::sweep_tile::SweepTile;
+use gearcut_shaders::spatial_variant;
 use std::ops::Range;
 
 /// (Dexel, pass) pairs of a launch at most: as for planar fields; a pair costs a few times as much.
 const LAUNCH_PAIRS: u64 = 1 << 27;
 
 /// What a plan needs over some tiles, composed; places count from the first tile's.
+#[derive(Default)]
 pub struct SweptStep {
     records: Vec<SpatialPass>,
+    /// Records that the parts of tiles visit, from the first one of the tile.
+    lists: Vec<u32>,
     visits: Vec<TileVisit<SpatialTile>>,
+    /// (Dexel, record) pairs.
+    pub dexel_passes: u64,
 }
 
 impl SweptStep {
     /// Composed.
     pub fn compose(gpu: &Gpu, field: &SpatialField, plan: &SweepPlan, tiles: Range<usize>) -> Self {
         let of_rows = gpu.rows.lanes();
+        let threads = gpu.rows.spatial_threads();
         let pieces: Vec<_> = plan.segments.iter().map(pieces).collect();
-        let (mut records, mut visits) = (Vec::new(), Vec::new());
+        let whole = plan.records.iter().all(|record| record.cells == u16::MAX);
+        let mut step = Self::default();
         let mut first_group = 0;
         for tile in &plan.tiles[tiles] {
             let [column, row] = tile.middle();
             let middle = field.ray(column, row).normal.as_vec3();
-            let group_count = groups(tile, of_rows) as u32;
-            let first_record = records.len();
+            let first_record = step.records.len();
+            let mut cells = Vec::new();
             for record in &plan.records[tile.records.clone()] {
                 let segment = record.segment as usize;
-                compose(record, &plan.segments[segment], &pieces[segment], middle.as_dvec3(), &mut records);
+                compose(record, &plan.segments[segment], &pieces[segment], middle.as_dvec3(), &mut step.records);
+                cells.resize(step.records.len() - first_record, record.cells);
             }
-            for (round, some) in records[first_record..].chunks(ROUND_RECORDS).enumerate() {
-                visits.push(TileVisit {
-                    tile: SpatialTile {
-                        middle: middle.extend(field.low_mm as f32).to_array(),
-                        first_group,
-                        group_count,
-                        first_record: (first_record + round * ROUND_RECORDS) as u32,
-                        record_count: some.len() as u32,
-                        ..bytemuck::Zeroable::zeroed()
-                    },
-                    round,
-                    variant: spatial_variant(
-                        some.iter().any(|record| record.twist_rad_per_mm != 0.0),
-                        some.iter().any(|record| record.is_arc == 1),
-                    ),
-                    workgroups: group_count.div_ceil(WORKGROUP_THREADS),
-                    pairs: u64::from(group_count) * (of_rows * some.len()) as u64,
-                });
+            let own = &step.records[first_record..];
+            for part in parts(tile, whole, of_rows, threads) {
+                let list: Vec<u32> =
+                    (0..own.len() as u32).filter(|&record| cells[record as usize] & part.cells != 0).collect();
+                step.dexel_passes += (part.dexels * list.len()) as u64;
+                for (round, some) in list.chunks(ROUND_RECORDS).enumerate() {
+                    let any = |is: fn(&SpatialPass) -> bool| some.iter().any(|&record| is(&own[record as usize]));
+                    step.visits.push(TileVisit {
+                        tile: SpatialTile {
+                            middle: middle.extend(field.low_mm as f32).to_array(),
+                            first_group,
+                            group_count: part.groups,
+                            first_visit: step.lists.len() as u32,
+                            visit_count: some.len() as u32,
+                            first_record: first_record as u32,
+                            ..bytemuck::Zeroable::zeroed()
+                        },
+                        round,
+                        variant: spatial_variant(
+                            any(|record| record.twist_rad_per_mm != 0.0),
+                            any(|record| record.is_arc == 1),
+                        ),
+                        workgroups: part.groups.div_ceil(threads),
+                        pairs: u64::from(part.groups) * (of_rows * some.len()) as u64,
+                    });
+                    step.lists.extend(some);
+                }
+                first_group += part.groups;
             }
-            first_group += group_count;
         }
-        Self { records, visits }
+        step
     }
 
     /// Bytes of the records.
@@ -76,7 +93,8 @@ pub fn steps<'a>(gpu: &'a Gpu, fields: &[(u32, &'a [SweptStep])]) -> Vec<Readbac
 }
 
 fn step<'a>(gpu: &'a Gpu, fields: &[(u32, &'a [SweptStep])], index: usize) -> ReadbackStep<'a> {
-    let (mut records, mut first_record) = (Vec::new(), 0);
+    let (mut records, mut lists) = (Vec::new(), Vec::new());
+    let [mut first_record, mut first_visit] = [0; 2];
     let mut visits = Vec::new();
     for (field, (first_group, own)) in fields.iter().enumerate() {
         let Some(own) = own.get(index) else { continue };
@@ -85,14 +103,50 @@ fn step<'a>(gpu: &'a Gpu, fields: &[(u32, &'a [SweptStep])], index: usize) -> Re
             let tile = &mut visit.tile;
             tile.first_group += first_group;
             tile.first_record += first_record;
+            tile.first_visit += first_visit;
             tile.field = field as u32;
             visit
         }));
         first_record += own.records.len() as u32;
+        first_visit += own.lists.len() as u32;
         records.push(bytemuck::cast_slice(&own.records));
+        lists.push(bytemuck::cast_slice(&own.lists));
     }
     ReadbackStep {
-        inputs: vec![Input::Tiles, Input::Shared("records", records), Input::Rays],
+        inputs: vec![Input::Tiles, Input::Shared("visits", lists), Input::Shared("records", records), Input::Rays],
         launches: launches(&gpu.spatial_flank, visits, LAUNCH_PAIRS),
     }
+}
+
+/// Dexels of a tile that visit the same records.
+struct Part {
+    groups: u32,
+    dexels: usize,
+    /// Its cells, as bits.
+    cells: u16,
+}
+
+/// A tile whole, or in parts of a workgroup.
+fn parts(tile: &SweepTile, whole: bool, of_rows: usize, threads: u32) -> Vec<Part> {
+    let part = |[columns, rows]: [Range<usize>; 2], cells| Part {
+        groups: (columns.len() * rows.len().div_ceil(of_rows)) as u32,
+        dexels: columns.len() * rows.len(),
+        cells,
+    };
+    if whole {
+        return vec![part([tile.columns.clone(), tile.rows.clone()], u16::MAX)];
+    }
+    let mut parts: Vec<Part> = Vec::new();
+    for [columns, rows] in tile.cells() {
+        let cell = part([columns.clone(), rows.clone()], 1 << tile.cell(columns.start, rows.start));
+        match parts.last_mut().filter(|part| part.groups + cell.groups <= threads) {
+            Some(part) => {
+                part.groups += cell.groups;
+                part.dexels += cell.dexels;
+                part.cells |= cell.cells;
+            }
+            None => parts.push(cell),
+        }
+    }
+    parts
 }

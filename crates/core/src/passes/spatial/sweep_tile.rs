@@ -29,6 +29,17 @@ impl SweepTile {
         cell_of([self.columns.start, self.rows.start], [column, row])
     }
 
+    /// Columns and rows of its cells, in the order of their bits.
+    pub fn cells(&self) -> impl Iterator<Item = [Range<usize>; 2]> + use<> {
+        let parts = |lines: &Range<usize>, of: usize| {
+            let end = lines.end;
+            lines.clone().step_by(of).map(move |first| first..end.min(first + of))
+        };
+        let rows = parts(&self.rows, TILE_ROWS / CELLS);
+        parts(&self.columns, TILE_COLUMNS / CELLS)
+            .flat_map(move |columns| rows.clone().map(move |rows| [columns.clone(), rows]))
+    }
+
     /// Column and row of the middle ray.
     pub fn middle(&self) -> [usize; 2] {
         [&self.columns, &self.rows].map(|lines| usize::midpoint(lines.start, lines.end - 1))
