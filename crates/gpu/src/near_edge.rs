@@ -60,8 +60,8 @@ fn hull([c0, c1, c2, c3]: [f64; 4]) -> [f64; 4] {
     [a0, a0 + a1 / 3.0, a0 + (2.0 * a1 + a2) / 3.0, a0 + a1 + a2 + a3]
 }
 
-/// Polynomials that follow a table over a range within a tolerance, in order of y; each counts from the place nearest to
-/// `near_mm`, so that what is near it is small.
+/// Polynomials that follow a table over a range within a tolerance, in order of y; each counts from the place nearest
+/// to `near_mm`, so that what is near it is small.
 pub fn curves(
     table: &EdgeTable,
     [from, to]: [f64; 2],

@@ -128,12 +128,12 @@ impl WholeField for SweptField<'_> {
     }
 }
 
-/// Plan that serves a device: the search for the cells in which a record can be lowest takes longer on the host than what
-/// it spares a GPU, and less than what it spares a software adapter.
+/// Plan that serves a device: the search for the cells in which a record can be lowest takes longer on the host than
+/// what it spares a GPU, and less than what it spares a software adapter.
 fn plan(gpu: &Gpu, field: &SpatialField, set: &TurningPasses) -> SweepPlan {
     match gpu.rows {
         Rows::Few => SweepPlan::in_tiles(field, set),
-        Rows::Many => SweepPlan::new(field, set),
+        Rows::Many => SweepPlan::in_cells(field, set),
     }
 }
 

@@ -119,7 +119,7 @@ fn step<'a>(gpu: &'a Gpu, fields: &[(u32, &'a [SweptStep])], index: usize) -> Re
 }
 
 /// Dexels of a tile that visit the same records.
-struct Part {
+struct TilePart {
     groups: u32,
     dexels: usize,
     /// Its cells, as bits.
@@ -127,8 +127,8 @@ struct Part {
 }
 
 /// A tile whole, or in parts of a workgroup.
-fn parts(tile: &SweepTile, whole: bool, of_rows: usize, threads: u32) -> Vec<Part> {
-    let part = |[columns, rows]: [Range<usize>; 2], cells| Part {
+fn parts(tile: &SweepTile, whole: bool, of_rows: usize, threads: u32) -> Vec<TilePart> {
+    let part = |[columns, rows]: [Range<usize>; 2], cells| TilePart {
         groups: (columns.len() * rows.len().div_ceil(of_rows)) as u32,
         dexels: columns.len() * rows.len(),
         cells,
@@ -136,7 +136,7 @@ fn parts(tile: &SweepTile, whole: bool, of_rows: usize, threads: u32) -> Vec<Par
     if whole {
         return vec![part([tile.columns.clone(), tile.rows.clone()], u16::MAX)];
     }
-    let mut parts: Vec<Part> = Vec::new();
+    let mut parts: Vec<TilePart> = Vec::new();
     for [columns, rows] in tile.cells() {
         let cell = part([columns.clone(), rows.clone()], 1 << tile.cell(columns.start, rows.start));
         match parts.last_mut().filter(|part| part.groups + cell.groups <= threads) {

@@ -65,7 +65,10 @@ fn hobbed_flanks_are_cut_alike() {
         assert_eq!(parity.verdict_within(ADDED_NM), Ok(()), "{name} in tiles");
         let swept = SweptField { field: field.clone(), operations: vec![vec![&passes]], by: SweptBy::Candidates };
         let own = |gpu: &Gpu| swept.clone().cut(gpu).expect("cuts").layers;
-        assert!(own(&gpu) == [got.clone()], "{name}: a job is its plan");
+        let in_cells = SweepPlan::in_cells(&field, &passes);
+        let (parity, .., of_cells) = cut_both_in_space(&gpu, name, &field, &in_cells);
+        assert_eq!(parity.verdict_within(ADDED_NM), Ok(()), "{name} in cells");
+        assert!(own(&gpu) == [of_cells], "{name}: a job is its plan");
         let mut alone = field.blank_layer();
         let stats = few.cut_spatial(&field, &plan, &mut alone).expect("cuts");
         assert!(
@@ -182,7 +185,7 @@ fn operations_in_turn_leave_the_bytes_of_operations_one_by_one() {
     assert_eq!(gpu.stage_times()[0].batches, 1, "one submission");
     let mut layer = field.blank_layer();
     for (passes, left) in operations.iter().zip(&left.layers) {
-        let stats = gpu.cut_spatial(&field, &SweepPlan::new(&field, passes), &mut layer).expect("cuts");
+        let stats = gpu.cut_spatial(&field, &SweepPlan::in_cells(&field, passes), &mut layer).expect("cuts");
         assert!(stats.unconverged == 0 && layer == *left, "an operation by itself leaves something else");
     }
     assert!(left.layers[0] != left.layers[1]);

@@ -70,6 +70,12 @@ impl SweepPlan {
         SweepPlanner::new(field, set, Considered::CandidatesInTiles).plan()
     }
 
+    /// Plan with candidates only, cell by cell, in tiles for frames in f32: for devices whose pairs cost as much as the
+    /// host's.
+    pub fn in_cells(field: &SpatialField, set: &TurningPasses) -> Self {
+        SweepPlanner::new(field, set, Considered::CandidatesInCells).plan()
+    }
+
     /// Plan with every segment of every pass that can reach the field at all, in tiles as large as they may be: for few
     /// passes, over rays so far apart that nothing would be culled.
     pub fn of_near_passes(field: &SpatialField, set: &TurningPasses) -> Self {
@@ -141,6 +147,8 @@ enum Considered {
     Candidates,
     /// The same, tile by tile and not cell by cell.
     CandidatesInTiles,
+    /// Candidates cell by cell, in the tiles of `CandidatesInTiles`.
+    CandidatesInCells,
     /// All whose blades come near the field.
     Near,
     /// The same, in tiles as large as they may be.
@@ -161,11 +169,11 @@ impl<'a> SweepPlanner<'a> {
         }
         let whole = match self.passes {
             Considered::NearUnculled => Region::in_tiles(self.field, [TILE_COLUMNS, TILE_ROWS]),
-            Considered::CandidatesInTiles => Region::in_small_tiles(self.field),
+            Considered::CandidatesInTiles | Considered::CandidatesInCells => Region::in_small_tiles(self.field),
             _ => Region::whole(self.field),
         };
         let near = match self.passes {
-            Considered::Candidates | Considered::CandidatesInTiles => {
+            Considered::Candidates | Considered::CandidatesInTiles | Considered::CandidatesInCells => {
                 let mut tiles = vec![None; whole.tiles()];
                 for ceiling_mm in self.ceilings_mm {
                     self.search(&whole, ceiling_mm, &mut tiles);
