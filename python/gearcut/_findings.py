@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import json
 import os
+import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from difflib import get_close_matches
@@ -309,9 +310,15 @@ def read_csv(path: Path, key: str, title: str, columns: list[Mapping[str, Any]] 
         heads, *rows = csv.reader(file)
     keys = heads if columns is None else [column["key"] for column in columns]
     read = {key: column_of([parsed(row[place]) for row in rows]) for place, key in enumerate(keys)}
-    units = dict.fromkeys(keys) if columns is None else {column["key"]: column["unit"] for column in columns}
+    units = {of: unit_of(of) for of in heads} if columns is None else {of["key"]: of["unit"] for of in columns}
     definitions = {column["key"]: column["definition"] for column in columns or ()}
     return Table(key, title, read, units, {**dict.fromkeys(keys, ""), **definitions})
+
+
+def unit_of(head: str) -> str:
+    """The unit at the end of a head of numbers: ``deg/s^2`` of ``work_acceleration_deg_per_s2``."""
+    found = re.search(r"_((?:mm|deg|s)(?:_per_s2?)?)$", head)
+    return "1" if found is None else found[1].replace("_per_s2", "/s^2").replace("_per_s", "/s")
 
 
 def parsed(text: str) -> float | int | str | None:

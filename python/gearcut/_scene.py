@@ -60,7 +60,7 @@ class Scene:
         elif isinstance(source, Mapping):
             text = tomli_w.dumps(plain(source))
             self._native = NativeScene.parse(text, f"{name}.toml", Path(folder), lines)
-        elif isinstance(source, str) and "\n" in source:
+        elif isinstance(source, str) and ("\n" in source or not source.strip()):
             self._native = NativeScene.parse(source, f"{name}.toml", Path(folder), lines)
         else:
             path = Path(source)

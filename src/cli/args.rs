@@ -336,6 +336,9 @@ pub struct AxesArguments {
     /// Folder to write [default: out/<scene>_axes].
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
+    /// Show no progress and no summary.
+    #[arg(long)]
+    pub quiet: bool,
     /// What makes the verdict bad.
     #[command(flatten)]
     pub verdict: VerdictArguments,

@@ -22,13 +22,15 @@ pub fn run(arguments: &AxesArguments) -> Result<(), Failure> {
     let out = arguments.out.clone().unwrap_or_else(default);
     let mut sheet = Sheet::default();
     let write = |output: &OutputFolder, interrupt: &Interrupt| -> Result<(Record, Vec<Notice>), Error> {
-        let axes = || process::prepare(&scene.scene)?.axes(output, interrupt, &mut sheet);
-        let warnings = print::waiting("axes", "scene", axes)?;
+        let mut axes = || process::prepare(&scene.scene)?.axes(output, interrupt, &mut sheet);
+        let warnings = if arguments.quiet { axes() } else { print::waiting("axes", "scene", axes) }?;
         Ok((vec![("scene", json!(scene.resolved_toml()))], warnings))
     };
     let (path, warnings) = folder::fill(&out, "axes", write).map_err(|error| Failure::of_scene(&scene, error))?;
     let written = format!("\ntables, charts and programs are in {}\n", path.join("axes").display());
-    print::sheet(&(sheet.into_text() + &written))?;
+    if !arguments.quiet {
+        print::sheet(&(sheet.into_text() + &written))?;
+    }
     print::warnings(&warnings);
     Failure::verdict(&warnings, &arguments.verdict.rules())
 }

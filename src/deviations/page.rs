@@ -96,7 +96,7 @@ fn dots(laid: &LaidPoints, side: Side, name: &str, of: fn(&Foot) -> f64) -> DotC
                 Side::Right => "Right",
             }
         ),
-        axes: [axis(name, "mm", LEAST_DIVISIONS[1]), axis("from the flank's mean", "um", LEAST_DIVISIONS[0])],
+        axes: [axis(name, "mm", LEAST_DIVISIONS[1]), axis("from the flank's mean", "µm", LEAST_DIVISIONS[0])],
         name: "points".to_owned(),
         dots: laid.feet.iter().flatten().filter(|foot| foot.side == side).map(dot).collect(),
         line: None,
@@ -117,7 +117,7 @@ fn bars(laid: &LaidPoints) -> BarChart {
         category_name: "tooth".to_owned(),
         categories: teeth.iter().map(u32::to_string).collect(),
         value_name: "mean normal deviation".to_owned(),
-        unit: "um".to_owned(),
+        unit: "µm".to_owned(),
         least_division: LEAST_DIVISIONS[0],
         series: vec![series(Side::Left), series(Side::Right)],
         limits: Vec::new(),

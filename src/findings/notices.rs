@@ -46,6 +46,10 @@ notices! {
     /// Part of the flanks is still the blank, and no number covers it.
     Untouched: Warning "flank.uncut", "hobbing.md", (dexels, why),
         "{dexels} dexels were reached by no pass: {why}"; "Let the tool travel or roll further."
+    /// Deviations of these flanks are evaluated over another part of the profile than the drawing says.
+    Unreached: Note "measure.unreached", "results.md", (flanks),
+        "{flanks} flanks do not reach an end of [measure]: there 5 % of the profile are left out instead";
+        "Name ends that all flanks reach."
     /// A file or a chapter of this run is missing.
     PartFailed: Fault "cut.part_failed", "howto.md", (part, why),
         "{part}: {why}; everything else is there"; "Remove the reason that the notice names and run again."

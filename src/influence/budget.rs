@@ -38,8 +38,8 @@ const WHOLE_TEETH: u32 = 4;
 pub struct BudgetOptions {
     /// Parameters by their keys, their sections or their whole names; empty: all.
     pub parameters: Vec<String>,
-    /// Flanks that are looked at, these alone; empty: both flanks of four teeth, and of all others the middle, for
-    /// pitch.
+    /// Flanks that are looked at, these alone; empty: both flanks of four teeth, and of all where pitch is
+    /// taken.
     pub flanks: Vec<(u32, Side)>,
     /// Whether whole cuts are made for the influences on all numbers that they report.
     pub numbers: bool,

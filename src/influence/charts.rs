@@ -21,9 +21,6 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 use std::path::Path;
 
-/// Places along a profile among which its crossing with the pitch curve is looked for; between them it is straight.
-const CROSSING_PLACES: f64 = 256.0;
-
 /// A line of a chart.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MeasuredLine {
@@ -134,8 +131,8 @@ impl LaidCharts {
                 Chart::Helix => grid.flanks.push(FlankGrid::new(gear, tooth, side, vec![u_mm], all(|p| p.v_mm))?),
                 Chart::Pitch => {
                     for (point, per_height) in line.points.iter().zip(&mut per_height) {
-                        let (flank, along) = at_pitch_curve(gear, point)?;
-                        *per_height = along;
+                        let flank = at_pitch_curve(gear, point)?;
+                        *per_height = flank.along_per_height;
                         grid.flanks.push(flank);
                     }
                 }
@@ -175,29 +172,16 @@ impl LaidCharts {
     }
 }
 
-/// The place of a flank in the middle of the face where its target crosses the pitch curve, and how far along the curve
-/// it goes when it rises by 1.
-fn at_pitch_curve(gear: &dyn GearJob, point: &MeasuredPoint) -> Result<(FlankGrid, f64)> {
+/// The place of a flank where its target crosses the pitch curve.
+fn at_pitch_curve(gear: &dyn GearJob, point: &MeasuredPoint) -> Result<FlankGrid> {
     let MeasuredPoint { tooth, side, .. } = *point;
     refuse_tooth(gear, tooth)?;
-    let refuse = |problem: String| Refusal::new("--measured", problem, "leave out the chart of pitch");
-    let cylinder = gear.cylindrical().ok_or_else(|| refuse("the gear has no pitch curve".to_owned()))?;
-    let blank = cylinder.blank();
-    let arcs_mm = gear.even_arcs_mm(tooth, side, gear.profile_length_mm(tooth, side)? / CROSSING_PLACES)?;
-    let rows = gear.target_points(tooth, side, &arcs_mm, &[0.0])?;
-    let foot = |i: usize| {
-        let place_mm = rows[0][i].origin_mm.truncate();
-        blank.height(place_mm, place_mm.to_angle())
-    };
-    let heights_mm: Vec<f64> = (0..arcs_mm.len()).map(|i| foot(i).0).collect();
-    let above = heights_mm.partition_point(|&height| height < 0.0);
-    if above == 0 || above == heights_mm.len() {
-        let problem = format!("tooth {tooth} {} does not cross the pitch curve", side.name());
-        return Err(refuse(problem).into());
-    }
-    let share = heights_mm[above - 1] / (heights_mm[above - 1] - heights_mm[above]);
-    let u_mm = arcs_mm[above - 1] + share * (arcs_mm[above] - arcs_mm[above - 1]);
-    let flank = FlankGrid::new(gear, tooth, side, vec![u_mm], vec![0.0])?;
-    let along = 1.0 / cylinder.curve().frame(foot(above).1).tangent.dot(flank.rays[0].normal.truncate());
-    Ok((flank, along))
+    let found = FlankGrid::on_pitch_curve(gear, tooth, side)?;
+    Ok(found.ok_or_else(|| {
+        let problem = match gear.cylindrical() {
+            Some(_) => format!("tooth {tooth} {} does not cross the pitch curve", side.name()),
+            None => "the gear has no pitch curve".to_owned(),
+        };
+        Refusal::new("--measured", problem, "leave out the chart of pitch")
+    })?)
 }

@@ -1,8 +1,8 @@
 //! Inspection figures of a map of heights: what an inspector writes down of a gear that deviates so.
 //!
 //! In: places on the flanks and a height at each. Out: [`Figures`]. Profile and helix figures are those of ISO 1328-1
-//! ([`Trace::deviation`]), the largest over the flanks that are looked at as a whole; pitch is taken at the middle of
-//! every flank, along the circle through it. All of them grow in proportion to the heights, so that figures of an
+//! ([`Trace::deviation`]), the largest over the flanks that are looked at as a whole; pitch is taken where every flank
+//! crosses the pitch curve, along it. All of them grow in proportion to the heights, so that figures of an
 //! influence map are what a unit of the error alone makes of an ideal gear.
 
 use super::derivative::largest;
@@ -75,10 +75,10 @@ fn whole(places_mm: Vec<f64>, heights_mm: Vec<f64>) -> Option<TraceDeviation> {
     Trace { places_mm, heights_mm }.deviation(ends_mm)
 }
 
-/// How far the middle of each flank of a side has moved counter-clockwise.
+/// How far each flank of a side has moved counter-clockwise where pitch is taken.
 fn around(grid: &GearGrid, heights: &[f64], side: Side) -> Vec<f64> {
-    let of_side = grid.split(heights).filter(|(flank, _)| flank.side == side);
-    of_side.map(|(flank, of)| of[flank.middle()] * flank.around_per_height(flank.middle())).collect()
+    let of_side = grid.split(heights).filter(|(flank, _)| flank.side == side && flank.is_point());
+    of_side.map(|(flank, of)| of[0] * flank.along_per_height).collect()
 }
 
 fn of_largest_size(values: impl Iterator<Item = f64>) -> f64 {

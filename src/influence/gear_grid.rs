@@ -37,7 +37,15 @@ pub struct FlankGrid {
     pub faces_mm: Vec<f64>,
     /// Points and normals of the target, arc by arc.
     pub rays: Vec<Ray>,
+    /// How far the middle goes counter-clockwise where it rises by 1 along its normal: along the pitch curve if it lies
+    /// there, else along the circle through it.
+    pub along_per_height: f64,
 }
+
+/// A profile's crossing with the pitch curve is looked for among so many places, and again between two of them, where
+/// the profile is straight.
+const CROSSING_PLACES: usize = 17;
+const CROSSING_ROUNDS: usize = 2;
 
 impl FlankGrid {
     /// A grid over these places.
@@ -46,9 +54,52 @@ impl FlankGrid {
     /// The tool generates no flank there.
     pub fn new(gear: &dyn GearJob, tooth: u32, side: Side, arcs_mm: Vec<f64>, faces_mm: Vec<f64>) -> Result<Self> {
         let rows = gear.target_points(tooth, side, &arcs_mm, &faces_mm)?;
-        let rays = (0..arcs_mm.len()).flat_map(|column| rows.iter().map(move |row| row[column])).collect();
+        let rays: Vec<Ray> = (0..arcs_mm.len()).flat_map(|column| rows.iter().map(move |row| row[column])).collect();
         let rolls_mm = gear.rolls_mm(tooth, side, &arcs_mm)?;
-        Ok(Self { tooth, side, arcs_mm, rolls_mm, faces_mm, rays })
+        let mut grid = Self { tooth, side, arcs_mm, rolls_mm, faces_mm, rays, along_per_height: 1.0 };
+        grid.along_per_height = grid.around_per_height(grid.middle());
+        Ok(grid)
+    }
+
+    /// The place in the middle of the face where the target crosses the pitch curve, as pitch is measured; none where
+    /// it does not, and on gears without such a curve.
+    ///
+    /// # Errors
+    /// The tool generates no flank there.
+    pub fn on_pitch_curve(gear: &dyn GearJob, tooth: u32, side: Side) -> Result<Option<Self>> {
+        let Some(cylinder) = gear.cylindrical() else { return Ok(None) };
+        let foot = |ray: &Ray| {
+            let place_mm = ray.origin_mm.truncate();
+            cylinder.blank().height(place_mm, place_mm.to_angle())
+        };
+        let mut crossing_mm = 0.0;
+        let mut ends_mm = [0.0, gear.profile_length_mm(tooth, side)?];
+        for round in 0..CROSSING_ROUNDS {
+            let arcs_mm = evenly(ends_mm, CROSSING_PLACES);
+            let rows = gear.target_points(tooth, side, &arcs_mm, &[0.0])?;
+            let heights_mm: Vec<f64> = rows[0].iter().map(foot).map(|(height_mm, _)| height_mm).collect();
+            let above = heights_mm.partition_point(|&height| height < 0.0);
+            if round == 0 && (above == 0 || above == CROSSING_PLACES) {
+                return Ok(None);
+            }
+            let above = above.clamp(1, CROSSING_PLACES - 1);
+            let [below_mm, above_mm] = [heights_mm[above - 1], heights_mm[above]];
+            let [from_mm, to_mm] = [arcs_mm[above - 1], arcs_mm[above]];
+            crossing_mm = from_mm + below_mm / (below_mm - above_mm) * (to_mm - from_mm);
+            ends_mm = [from_mm, to_mm];
+        }
+        let mut place = Self::new(gear, tooth, side, vec![crossing_mm], vec![0.0])?;
+        let tangent = cylinder.curve().frame(foot(&place.rays[0]).1).tangent;
+        place.along_per_height = 1.0 / tangent.dot(place.rays[0].normal.truncate());
+        Ok(Some(place))
+    }
+
+    /// Where the pitch of a flank is taken: on the pitch curve, or in the middle of a profile that does not cross one.
+    ///
+    /// # Errors
+    /// The tool generates no flank there.
+    pub fn of_pitch(gear: &dyn GearJob, tooth: u32, side: Side) -> Result<Self> {
+        Self::on_pitch_curve(gear, tooth, side)?.map_or_else(|| Self::inspected(gear, tooth, side, [1, 1]), Ok)
     }
 
     /// So many places evenly over the evaluated part of the profile and over the face without its ends; of one the
@@ -92,7 +143,7 @@ impl FlankGrid {
         self.arcs_mm.len() * self.faces_mm.len()
     }
 
-    /// Whether only its middle is looked at.
+    /// Whether it is a single place, where pitch is taken.
     pub fn is_point(&self) -> bool {
         self.places() == 1
     }
@@ -124,19 +175,21 @@ pub struct GearGrid {
 }
 
 impl GearGrid {
-    /// These flanks as a whole, the evaluated part of the profile over the face without its ends; `and_others`: of all
-    /// others the middle of that.
+    /// These flanks as a whole, the evaluated part of the profile over the face without its ends; `and_pitch`: of all
+    /// flanks the place where pitch is taken as well.
     ///
     /// # Errors
     /// The tool generates no flank there.
-    pub fn inspected(gear: &dyn GearJob, whole: &[(u32, Side)], and_others: bool) -> Result<Self> {
+    pub fn inspected(gear: &dyn GearJob, whole: &[(u32, Side)], and_pitch: bool) -> Result<Self> {
         let mut asked = flanks_of(gear);
-        asked.retain(|flank| and_others || whole.contains(flank));
+        asked.retain(|flank| and_pitch || whole.contains(flank));
         let flanks = asked.into_par_iter().map(|(tooth, side)| {
-            let places = if whole.contains(&(tooth, side)) { WHOLE_FLANK } else { [1, 1] };
-            FlankGrid::inspected(gear, tooth, side, places)
+            let is_whole = whole.contains(&(tooth, side));
+            let of_profile = is_whole.then(|| FlankGrid::inspected(gear, tooth, side, WHOLE_FLANK));
+            let of_pitch = and_pitch.then(|| FlankGrid::of_pitch(gear, tooth, side));
+            of_profile.into_iter().chain(of_pitch).collect()
         });
-        Ok(Self { teeth: gear.scene().gear.teeth, flanks: flanks.collect::<Result<_>>()? })
+        Ok(Self { teeth: gear.scene().gear.teeth, flanks: flanks.collect::<Result<Vec<Vec<_>>>>()?.concat() })
     }
 
     /// How many places it has.

@@ -19,7 +19,7 @@ use std::ops::Range;
 /// Share of profile and face that is left out at either end.
 pub const MARGIN: f64 = 0.05;
 /// Rounding of places, mm: a dexel so near to an end of the evaluated part belongs to it.
-const PLACE_MM: f64 = 1e-9;
+pub const PLACE_MM: f64 = 1e-9;
 
 /// Ends of the evaluated part of a length that begins at 0, mm: those that a scene names, else without the margins.
 pub fn evaluated_mm(length_mm: f64, [from_mm, to_mm]: [Option<f64>; 2]) -> [f64; 2] {

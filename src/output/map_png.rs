@@ -145,6 +145,7 @@ fn draw_notes(canvas: &mut Canvas, map: PixelBox, picture: &MapPicture, u_stretc
     let y = bottom + 78.0;
     let mut column_x = left;
     let column_px = (right - left) / 3.0;
+    let [u_name, v_name] = [&picture.grid.u.name, &picture.grid.v.name];
     let finite = || picture.values.iter().enumerate().filter(|(_, value)| value.is_finite());
     // On equal values the first place wins, so that the same map is always marked at the same place.
     let largest = finite().reduce(|best, next| if next.1 > best.1 { next } else { best });
@@ -158,7 +159,7 @@ fn draw_notes(canvas: &mut Canvas, map: PixelBox, picture: &MapPicture, u_stretc
         draw_mark(canvas, (column_x + 7.0, y), upward);
         let unit = if picture.unit == "1" { String::new() } else { format!(" {}", picture.unit) };
         let (u, v) = (number_text(u_mm, 2), number_text(v_mm, 2));
-        let words = format!("{word} {}{unit} at v {v}, u {u} mm", value_text(value.into()));
+        let words = format!("{word} {}{unit} at {v_name} {v}, {u_name} {u} mm", value_text(value.into()));
         let em_px = fitting_em_px(&words, EM_PX, column_px - 30.0)?;
         canvas.text(&words, (column_x + 20.0, y), em_px, Align::Start)?;
         column_x += column_px;
@@ -171,11 +172,11 @@ fn draw_notes(canvas: &mut Canvas, map: PixelBox, picture: &MapPicture, u_stretc
         canvas.text(&words, (column_x + 20.0, y), em_px, Align::Start)?;
     }
     let scale_note = if (u_stretch - 1.0).abs() < 0.01 {
-        "u and v to the same scale".to_owned()
+        format!("{u_name} and {v_name} to the same scale")
     } else if u_stretch > 1.0 {
-        format!("u drawn {} times as large as v", value_text(u_stretch))
+        format!("{u_name} drawn {} times as large as {v_name}", value_text(u_stretch))
     } else {
-        format!("v drawn {} times as large as u", value_text(1.0 / u_stretch))
+        format!("{v_name} drawn {} times as large as {u_name}", value_text(1.0 / u_stretch))
     };
     canvas.text(&scale_note, (right, bottom + 40.0), EM_PX, Align::End)
 }

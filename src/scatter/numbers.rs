@@ -4,8 +4,9 @@
 //!
 //! The window of texture is 0.25 mm long in both directions in the middle of the evaluated profile and of the face;
 //! its form is taken off by a polynomial of second order. Profile and helix are lines through that place. Pitch and
-//! stock are means of normal deviations over 0.25 mm of profile there, as a ball would feel them: single rays of a
-//! rough flank would give its roughness. For pitch they are turned into shifts along the circle through the place.
+//! stock are taken in the middle of the face where flanks cross the pitch curve, as by `gearcut cut`.
+//!
+//! Road not taken: means over a part of the profile, as a ball would feel them. A row would not be what a cut finds.
 
 use super::FlankWish;
 use super::quantities::{SA, SIDE_SINGLE_PITCH, SIDE_TOTAL_PITCH, SK, SPK, SQ, SVK, UNEVENNESS};
@@ -26,7 +27,7 @@ use gearcut_core::error::{Refusal, Result};
 use gearcut_core::terms::Side;
 use gearcut_core::units::UM_PER_MM;
 
-/// Length of the window and of the part of a profile whose mean stands for a place, mm.
+/// Length of the window, mm.
 const WINDOW_MM: f64 = 0.25;
 /// Points of the window along the profile, 2.5 um apart, and along the tooth, where marks of shaping run straight.
 const WINDOW_STEPS: [f64; 2] = [100.0, 10.0];
@@ -35,8 +36,6 @@ const PROFILE_STEP_MM: f64 = 0.01;
 /// Distance of points on helices, mm; their ends leave out 5 % of the face.
 const HELIX_STEP_MM: f64 = 0.5;
 const HELIX_SHARE: f64 = 0.9;
-/// Rays whose mean stands for a place.
-const PLACE_RAYS: usize = 11;
 
 /// All of them, in order.
 pub static NUMBERS: [&QuantityRow; 13] = [
@@ -65,7 +64,7 @@ pub type Values = RowValues;
 pub fn measure(scene: &Scene, like: &dyn ProcessJob, flank: FlankWish, backend: &dyn Backend) -> Result<Values> {
     if !(1..=scene.gear.teeth).contains(&flank.tooth) {
         let problem = format!("there is no tooth {}, the gear has {}", flank.tooth, scene.gear.teeth);
-        return Err(Refusal::new("gear.teeth", problem, "take a tooth from 1 to the number of teeth").into());
+        return Err(Refusal::new("--tooth", problem, "take a tooth from 1 to the number of teeth").into());
     }
     let mut scene = scene.clone();
     scene.textures = vec![TextureWindow {
@@ -138,30 +137,24 @@ fn texture(gear: &dyn GearJob, backend: &dyn Backend) -> Result<Values> {
 /// Single and total pitch deviation, unevenness.
 fn of_all_teeth(gear: &dyn GearJob, side: Side, backend: &dyn Backend) -> Result<[Option<f64>; 3]> {
     let teeth = gear.scene().gear.teeth;
-    // Mean normal deviation of the first operation and of the last one at the place of every tooth.
-    let place = |tooth: u32, side: Side| -> Result<[f64; 2]> {
-        let [from_mm, to_mm] = gear.evaluated_profile_mm(tooth, side)?;
-        let start_mm = 0.5 * (from_mm + to_mm - WINDOW_MM);
-        let arcs_mm: Vec<f64> =
-            (0..PLACE_RAYS).map(|i| start_mm + WINDOW_MM * i as f64 / (PLACE_RAYS - 1) as f64).collect();
-        let layers = gear.cut_flank(backend, tooth, side, &arcs_mm, &[0.0])?;
-        let mean = |layer: &Layer| heights_mm(layer).iter().sum::<f64>() / PLACE_RAYS as f64;
-        Ok([mean(&layers[0]), mean(last(&layers))])
+    // Heights of the first operation and of the last one on the pitch curve, and where the flank lies along it.
+    let of_side = |side: Side| -> Result<Vec<([f64; 2], f64)>> {
+        let place = |tooth: u32| {
+            let FlankGrid { arcs_mm, along_per_height, .. } = FlankGrid::of_pitch(gear, tooth, side)?;
+            let layers = gear.cut_flank(backend, tooth, side, &arcs_mm, &[0.0])?;
+            let heights_mm = [&layers[0], last(&layers)].map(|layer| heights_mm(layer)[0]);
+            Ok((heights_mm, along_per_height * heights_mm[1]))
+        };
+        (1..=teeth).map(place).collect()
     };
-    let of_side = |side: Side| (1..=teeth).map(|tooth| place(tooth, side)).collect::<Result<Vec<[f64; 2]>>>();
     let own = of_side(side)?;
-    let around = |(tooth, [_, finished_mm]): (u32, &[f64; 2])| -> Result<f64> {
-        let [from_mm, to_mm] = gear.evaluated_profile_mm(tooth, side)?;
-        let place = FlankGrid::new(gear, tooth, side, vec![0.5 * (from_mm + to_mm)], vec![0.0])?;
-        Ok(finished_mm * place.around_per_height(0))
-    };
-    let places_mm = (1..=teeth).zip(&own).map(around).collect::<Result<Vec<f64>>>()?;
+    let places_mm: Vec<f64> = own.iter().map(|(_, along_mm)| *along_mm).collect();
     let pitch = PitchDeviations::of_places(&places_mm);
     let known = |value: f64| value.is_finite().then_some(value);
     let pitches = [pitch.largest_single_mm(), pitch.total_mm()].map(|mm| known(mm * UM_PER_MM));
     let uneven = if gear.operations().len() > 1 {
         let other = of_side(if side == Side::Left { Side::Right } else { Side::Left })?;
-        let stock = |[rough, finished]: &[f64; 2]| rough - finished;
+        let stock = |([rough, finished], _): &([f64; 2], f64)| rough - finished;
         let percents = own.iter().zip(&other).map(|(own, other)| {
             let (a, b) = (stock(own), stock(other));
             if a + b > 0.0 { 200.0 * (a - b).abs() / (a + b) } else { f64::NAN }

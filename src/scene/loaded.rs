@@ -84,11 +84,15 @@ pub fn parse(
     let mut root = match parse_document(text) {
         Ok(root) => root,
         Err(errors) => {
-            for (span, message) in errors {
+            // A table or a program instead of a scene is wrong in every line.
+            let others = if errors.len() > MOST_SYNTAX_ERRORS { errors.len() - 1 } else { 0 };
+            let shown = errors.len() - others;
+            let where_else = if others > 0 { format!(", nor are {others} more places") } else { String::new() };
+            for (span, message) in errors.into_iter().take(shown) {
                 let way_out = way_out(text, span.start).unwrap_or_else(|| {
                     "a scene is TOML: [section] lines and name = value lines, each name once".to_owned()
                 });
-                problems.add(&At::Scene(span), format!("not TOML: {message}"), way_out);
+                problems.add(&At::Scene(span), format!("not TOML{where_else}: {message}"), way_out);
             }
             return Err(SceneErrors::new(problems.list));
         }
@@ -146,6 +150,8 @@ fn implied_process(root: &Node, table: &KeyTable, overrides: &[String]) -> Optio
     chosen(&root, table)
 }
 
+/// With more places that are none of TOML only the first is shown.
+const MOST_SYNTAX_ERRORS: usize = 10;
 /// Name and view of the pictures of a scene that lists none.
 const PICTURES: [(&str, &str); 3] = [("gear", "gear"), ("tooth", "tooth"), ("flank", "flank")];
 

@@ -10,7 +10,7 @@
 //! default. Counts per turn of the work grow with the number of teeth, so that the feed per tooth stays. A helix
 //! changes its hand on an external mate and keeps it on a ring; a profile shift changes its sign. Left out is what
 //! belongs to the driver alone: its bore on a ring, places on its teeth (`[[texture]]`, `[[picture]]`, windows),
-//! programs and the name of its folder.
+//! how it is clamped (`[mounting]`), programs and the name of its folder.
 
 use std::fmt::Write as _;
 use std::path::Path;
@@ -29,8 +29,8 @@ use gearcut_core::terms::Hand;
 const OWN_OF_GEAR: [&str; 5] = ["kind", "teeth", "hand", "rim_mm", "profile_shift_coefficient"];
 /// Beginning of the paths of operations among the values.
 const OPERATIONS: &str = "operation.";
-/// Outermost tables with places on the driver's teeth.
-const PLACES: [&str; 2] = ["texture[]", "picture[]"];
+/// Outermost tables of the driver alone: places on its teeth, and how it is clamped.
+const OWN: [&str; 3] = ["texture[]", "picture[]", "mounting"];
 
 /// The gear that is wanted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -112,8 +112,7 @@ impl Writer<'_> {
             self.driver.scene.name,
             env!("CARGO_PKG_VERSION"),
         );
-        let sections =
-            own.sections().iter().filter(|section| !PLACES.iter().any(|list| section.path.starts_with(list)));
+        let sections = own.sections().iter().filter(|section| !OWN.iter().any(|list| section.path.starts_with(list)));
         let mut written = Ok(());
         walk_sections(sections, &self.driver.values, |section, path| {
             if written.is_ok() {

@@ -7,13 +7,18 @@ use crate::output::text::Sheet;
 use crate::scene::Scene;
 use crate::scene::model::Gear;
 use gearcut_core::gear::{FormulaMeaning, GearKind, PitchCurve, PitchCurveShape, TableScaling};
-use gearcut_core::units::UM_PER_MM;
+use gearcut_core::units::{TURN_RAD, UM_PER_MM};
 
 /// A closure error above this (in modules) is worth a warning: single pitch deviations of good gears are of this size.
 const NOTABLE_CLOSURE_MODULES: f64 = 1e-3;
 
 /// Radii scaled by more than this share are worth a warning: no rounding of points explains it.
 const NOTABLE_SCALING: f64 = 1e-3;
+
+/// Places of a turn over which a ratio is summed; of a smooth function that closes the sum is exact to rounding.
+const MATE_PLACES: u32 = 4096;
+/// How near to a whole number the teeth of a mate are to be one.
+const WHOLE_TEETH: f64 = 1e-6;
 
 /// `rolling_radius_mm`: pitch radius of a cutter that has to roll in hollows.
 pub fn print(sheet: &mut Sheet, curve: &PitchCurve, gear: &Gear, rolling_radius_mm: Option<f64>) {
@@ -24,6 +29,13 @@ pub fn print(sheet: &mut Sheet, curve: &PitchCurve, gear: &Gear, rolling_radius_
     let solved = if curve.sector_rad().is_none() { "the curve closes" } else { "the teeth fill the sector" };
     let origin = if given { "given".to_owned() } else { format!("solved so that {solved}") };
     sheet.details(|sheet| sheet.line(name, format!("{:.6} mm, {origin}", curve.size_mm())));
+    if let Some(teeth) = mate_teeth(curve, gear) {
+        let whole = (teeth - teeth.round()).abs() < WHOLE_TEETH;
+        let moved = ": no mate closes there, and `gearcut mate` moves the axes, which changes the ratio";
+        let words = if whole { format!("{teeth:.0} teeth") } else { format!("{teeth:.3} teeth{moved}") };
+        let mate = if gear.kind == GearKind::External { "external mate" } else { "gear inside" };
+        sheet.line(&format!("{mate} of that ratio"), words);
+    }
     if let Some(factor) = curve.scaling() {
         sheet.line("scaling", format!("radii of the points times {factor:.6}"));
     }
@@ -91,6 +103,21 @@ pub fn print(sheet: &mut Sheet, curve: &PitchCurve, gear: &Gear, rolling_radius_
             rolling_radius_mm.map_or(String::new(), |radius_mm| format!("; the cutter rolls on {radius_mm:.3} mm"))
         ),
     );
+}
+
+/// Teeth of the gear that runs with a curve given by its ratio, at the distance that the scene gives or solves: in a
+/// turn the mate turns by the integral of r / (C - r) over phi.
+fn mate_teeth(curve: &PitchCurve, gear: &Gear) -> Option<f64> {
+    let is_ratio = matches!(
+        gear.pitch_curve,
+        PitchCurveShape::SinusoidalRatio { .. } | PitchCurveShape::Formula { meaning: FormulaMeaning::Ratio(_), .. }
+    );
+    let speed = |i: u32| {
+        let radius_mm = curve.frame(TURN_RAD * f64::from(i) / f64::from(MATE_PLACES)).point_mm.length();
+        radius_mm / (curve.size_mm() - radius_mm).abs()
+    };
+    let turns = || (0..MATE_PLACES).map(speed).sum::<f64>() / f64::from(MATE_PLACES);
+    is_ratio.then(|| f64::from(gear.teeth) / turns())
 }
 
 /// What must be known of the curve before cutting.

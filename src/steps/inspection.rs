@@ -19,6 +19,7 @@ use crate::findings::quantities::sizes::{
 };
 use crate::findings::{Entry, Notice, QuantityRow, Section, Table};
 use crate::job::CylindricalGear;
+use crate::measure::cut_grid::PLACE_MM;
 use crate::measure::flank_tolerance::{InspectionFigure, ToleranceSizes};
 use crate::measure::inspection::{GearInspection, InspectedFlank};
 use crate::measure::round_gear::{RoundGear, is_round};
@@ -101,8 +102,11 @@ fn beyond(judged: &JudgedFigure) -> Option<Notice> {
 /// Sizes of a round gear's target; with a mean thickness as cut, also the measures of the cut gear.
 pub fn sizes(round: &RoundGear, measure: &Measure, cut_thickness_mm: Option<f64>) -> Section {
     let height = |height_mm: f64| round.reference_diameter_mm() + 2.0 * round.kind.tip_sign() * height_mm;
-    let active_mm = measure.profile_start_height_mm.map(height).or_else(|| round.active_diameter_with_rack_mm());
-    let active_tip_mm = measure.profile_end_height_mm.map_or(round.tip_form_diameter_mm, height);
+    let [form_mm, tip_mm] = [round.form_diameter_mm, round.tip_form_diameter_mm];
+    let reached = |mm: &f64| (form_mm.min(tip_mm) - PLACE_MM..=form_mm.max(tip_mm) + PLACE_MM).contains(mm);
+    let [start_mm, end_mm] = measure.heights_mm().map(|of| of.map(height).filter(reached));
+    let active_mm = start_mm.or_else(|| round.active_diameter_with_rack_mm());
+    let active_tip_mm = end_mm.unwrap_or(tip_mm);
     let chordal_mm = round.chordal_mm();
     let ball_mm = measure.ball_diameter_mm.unwrap_or_else(|| round.usual_ball_mm());
     let over = |gear: &RoundGear, row: &QuantityRow| match gear.over_balls(ball_mm) {

@@ -84,8 +84,9 @@ fn column(path: &str, of: &Quantity) -> TableColumn {
 
 fn unknown(path: &str, all: &[String]) -> Refusal {
     let last = path.rsplit('.').next().unwrap_or(path);
-    // Who knows the key and not the section gets the section.
-    let same = all.iter().find(|known| known.rsplit('.').next() == Some(last));
+    // Who knows the key and not the section gets the section: of several the one with most of the names.
+    let named = |known: &str| known.split('.').filter(|name| path.split('.').any(|own| own == *name)).count();
+    let same = all.iter().rev().filter(|known| known.rsplit('.').next() == Some(last)).max_by_key(|known| named(known));
     let hint = match same {
         Some(same) => format!("; did you mean {same}?"),
         None => did_you_mean(all.iter().map(String::as_str), path),

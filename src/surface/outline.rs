@@ -104,7 +104,7 @@ impl Outline {
             outline.append(&tooth.right, &all(&tooth.right), blank, &mut gap);
             outline.begin(format!("tip_{number:02}"));
             if let Some(tip) = &tooth.tip {
-                outline.append(tip, &all(tip), blank, &mut gap);
+                outline.append(tip, &tip_columns(tooth, tip, blank), blank, &mut gap);
             }
             outline.begin(flank_name(number, Side::Left));
             let down: Vec<usize> = (0..tooth.left.columns()).rev().collect();
@@ -254,6 +254,22 @@ impl Outline {
             self.columns.pop();
         }
     }
+}
+
+/// Columns of a tip land without those that end on a flank below its own end: on a tooth that is displaced along the
+/// curve they find the flank again, and the outline would fold.
+fn tip_columns(tooth: &ToothSurfaces, tip: &SurfaceGrid, blank: &Blank) -> Vec<usize> {
+    let height_mm = |grid: &SurfaceGrid, column: usize| {
+        let points_mm = &grid.points_mm[column * grid.rows()..][..grid.rows()];
+        let heights_mm = points_mm.iter().map(|point| blank.height(point.truncate(), point.truncate().to_angle()).0);
+        heights_mm.fold(f64::INFINITY, f64::min)
+    };
+    let end_mm = |flank: &SurfaceGrid| height_mm(flank, flank.columns() - 1) - BODY_MM;
+    let [right_mm, left_mm] = [&tooth.right, &tooth.left].map(end_mm);
+    let columns = 0..tip.columns();
+    let first = columns.clone().take_while(|&column| height_mm(tip, column) < right_mm).count();
+    let last = columns.clone().rev().take_while(|&column| height_mm(tip, column) < left_mm).count();
+    columns.take(tip.columns() - last).skip(first).collect()
 }
 
 /// The column behind the widest step of a root: behind the last tooth of a sector, where the dwell is left out. Both

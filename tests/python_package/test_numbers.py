@@ -88,6 +88,9 @@ def test_axes_are_those_of_the_command(command: Command, scene_file: Path, tmp_p
     expected = np.genfromtxt(file, delimiter=",", names=True)
     for key, column in moved.tables["finish"].items():
         assert np.array_equal(column, expected[key]), key
+    units = moved.tables["finish"].units
+    heads = ["stroke", "phi_deg", "center_distance_mm", "work_speed_deg_per_s", "cutter_acceleration_deg_per_s2"]
+    assert [units[head] for head in heads] == ["1", "deg", "mm", "deg/s", "deg/s^2"]
     # A round gear: the spindles run at 12 to 20 teeth.
     ratio = moved.tables["finish"]["cutter_speed_deg_per_s"] / moved.tables["finish"]["work_speed_deg_per_s"]
     assert np.allclose(ratio, 12 / 20)

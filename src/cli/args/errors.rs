@@ -156,7 +156,7 @@ pub struct BudgetArguments {
     #[arg(long, value_name = "KEYS", value_delimiter = ',')]
     pub parameters: Vec<String>,
     /// Cut these flanks alone, such as 1-left,7-right; pitch is left out then [default: both flanks of four teeth, and
-    /// the middle of all others].
+    /// all on the pitch curve].
     #[arg(long, value_name = "FLANKS", value_delimiter = ',')]
     pub flanks: Vec<String>,
     /// Make whole cuts as well, and write the influence on every number that they report to tables/numbers.csv.

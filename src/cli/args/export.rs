@@ -12,6 +12,7 @@ const FILES: [&str; 6] = ["dxf", "tool_dxf", "step", "points", "qif", "wire"];
 #[derive(Debug, Args)]
 #[command(group = ArgGroup::new("files").required(true).multiple(true).args(FILES))]
 #[command(group = ArgGroup::new("lists").multiple(true).args(["points", "qif"]))]
+#[command(group = ArgGroup::new("sections").multiple(true).args(["dxf", "wire"]))]
 pub struct ExportArguments {
     /// The scene.
     #[command(flatten)]
@@ -59,7 +60,7 @@ pub struct ExportArguments {
     #[arg(long, value_name = "FROM..TO", value_parser = tooth_range)]
     pub teeth: Option<ToothRange>,
     /// Place of the section along the tooth, from the middle of the face.
-    #[arg(long, value_name = "MM", default_value_t = 0.0)]
+    #[arg(long, value_name = "MM", default_value_t = 0.0, requires = "sections")]
     pub section_mm: f64,
     /// Unit of length of the files.
     #[arg(long, value_enum, default_value_t = LengthUnitChoice::Mm)]
@@ -104,6 +105,7 @@ fn tooth_range(text: &str) -> Result<ToothRange, String> {
     let number = |word: &str| word.trim().parse::<u32>().ok().filter(|&tooth| tooth > 0);
     match (number(first), number(last)) {
         (Some(first), Some(last)) if first <= last => Ok(ToothRange([first, last])),
+        (Some(first), Some(last)) => Err(format!("the first tooth comes first: give {last}..{first}")),
         _ => Err("teeth are counted from 1: give one, such as 4, or the first and the last, such as 3..5".to_owned()),
     }
 }

@@ -21,7 +21,7 @@ rows! {
 
     SHIFTED: "parameters", "parameters", "parameters that were shifted";
     WHOLE_FLANKS: "whole_flanks", "flanks",
-        "flanks that are cut on many places; without a wish of all others the middle, for pitch";
+        "flanks that are cut on many places; without a wish of all flanks the pitch curve as well";
     LARGEST_OF_STEP: "rank", "um", "predicted: largest normal deviation that a natural step of the error makes";
 }
 

@@ -32,10 +32,6 @@ notices! {
         "the hob's tip corner undercuts {count} teeth ({teeth}): "
         + "use more teeth, a larger gear.profile_shift_coefficient, a smaller addendum_coefficient of the hob, or a \
            pitch curve that is flatter there"
-    /// Deviations of these flanks are evaluated over another part of the profile than the drawing says.
-    Unreached: Note "measure.unreached", "results.md", (flanks),
-        "{flanks} flanks do not reach an end of [measure]: there 5 % of the profile are left out instead";
-        "Name ends that all flanks reach."
     /// What the hob is made to take off counts as damage.
     Protuberance: Note "hob.protuberance", "hobbing.md", (),
         "the target knows no protuberance: its relief at the roots is reported as a cut below the \

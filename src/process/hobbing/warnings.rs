@@ -12,11 +12,12 @@ use super::measure::blank_report::HobbedBlankReport;
 use super::measure::hob_load::OperationLoad;
 use super::notices::{
     BeyondRecord, CurveClosure, HeadAngle, Hunting, Protuberance, ResultantFeed, ThickChip, ThickChipAtEnd, TipRelief,
-    Tops, Undercut, Unreached,
+    Tops, Undercut,
 };
 use super::scene::model::HobbingKind;
 use super::{HobCutter, HobbingJob, foreseen_chips};
 use crate::findings::notice::ranked;
+use crate::findings::notices::Unreached;
 use crate::findings::{Notice, damage};
 use crate::job::RAY_DEPTH_MODULES;
 use crate::measure::damage::{Damage, gouge_mm};

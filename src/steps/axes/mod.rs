@@ -138,13 +138,15 @@ pub fn svg_charts(operations: &[impl AxesOfOperation]) -> Result<Vec<(String, St
     operations.iter().flat_map(|operation| operation.charts().iter().map(move |chart| of(operation, chart))).collect()
 }
 
-/// Writes the programs of all operations into `axes/`, the faults and warnings among `warnings` in their heads (notes
-/// say how to read numbers). An operation that has none is told in [`warnings`].
+/// Writes the programs of all operations into `axes/`, the faults and warnings among `warnings` in their heads: notes
+/// say how to read numbers, and nothing at the machine hangs on how texture is sampled. An operation that has none is
+/// told in [`warnings`].
 ///
 /// # Errors
 /// Files that cannot be written.
 pub fn write_programs<O: AxesOfOperation>(operations: &[O], warnings: &[Notice], folder: &OutputFolder) -> Result<()> {
-    let head: Vec<Notice> = warnings.iter().filter(|of| of.severity > Severity::Note).cloned().collect();
+    let concerns = |of: &&Notice| of.severity > Severity::Note && !of.id.starts_with("texture.");
+    let head: Vec<Notice> = warnings.iter().filter(concerns).cloned().collect();
     for operation in operations {
         let Some(Ok(programs)) = operation.programs(&head) else { continue };
         for (file, text) in programs {

@@ -66,6 +66,27 @@ fn every_shape_gives_a_closed_body() {
     }
 }
 
+/// Teeth stand aside of their target, and the gear is the true one, displaced within the blank's outline: where its
+/// teeth are pushed out by d they lose d^2 tan(alpha_a), and as much where they are drawn in, cos(alpha_a) being r_b /
+/// r_a. Corners between rays may leave 0.004 mm^2 a tooth beside it.
+#[test]
+fn a_gear_off_its_axis_has_the_true_gears_body() {
+    let section_mm2 = |eccentricity_um: u32| {
+        let off = format!("mounting.eccentricity_um={eccentricity_um}");
+        let (outline, solid) = outline_and_solid(&load(Path::new("scenes/shaping/circular_m3_z24.toml"), &[&off]));
+        assert_eq!(crossings(&outline.row_mm(0)), 0, "{eccentricity_um} um");
+        solid.volume_mm3() / (outline.rows_z_mm[outline.rows() - 1] - outline.rows_z_mm[0])
+    };
+    let true_mm2 = section_mm2(0);
+    for eccentricity_um in [30, 120] {
+        let lost_mm2 =
+            12.0 * (1e-3 * f64::from(eccentricity_um)).powi(2) * (36.0 * 20_f64.to_radians().cos() / 39.0).acos().tan();
+        let off_mm2 = section_mm2(eccentricity_um) - true_mm2 + lost_mm2;
+        println!("{eccentricity_um} um off: {off_mm2} mm^2 more than {true_mm2} - {lost_mm2}");
+        assert!(off_mm2.abs() < 0.16, "{eccentricity_um} um: {off_mm2}");
+    }
+}
+
 /// Ways that share nothing but the scene: dexels on the flanks lofted, rays through the blank as the pictures of
 /// the cut draw them, and polygons of every stroke clipped off. Chords of the clipped polygons over some 500 mm of
 /// outline may leave 0.7 mm^2; a single stroke left out where the cutter plunges is far more.

@@ -239,4 +239,29 @@ fn a_pitch_curve_by_a_formula_is_checked_like_any_other() {
     assert!(curve(&formula.out).len() > 4);
     assert_eq!(curve(&built_in.out), curve(&formula.out));
     assert!(formula.out.contains("driver of the ratio 1.2 + 0.1*sin(2*phi)"), "{}", formula.out);
+    // A mate turns by 2 pi / sqrt(c^2 - b^2) in a turn: 42 sqrt(1.43) teeth, and 42 where c^2 is 1 + b^2.
+    assert!(formula.out.contains("50.225 teeth: no mate closes there"), "{}", formula.out);
+    let closing = scene("ratio_formula]\nratio = \"sqrt(1.01) + 0.1*sin(2*phi)\"").done();
+    assert!(closing.out.contains("external mate of that ratio   42 teeth\n"), "{}", closing.out);
+}
+
+/// Flanks run from 1.933 mm under the pitch circle to 3 mm over it: an end there is reached, one beyond is not, and the
+/// active diameters are those of the flanks.
+#[test]
+fn ends_of_the_drawing_that_no_flank_reaches_are_noted() {
+    let check = |ends: [f64; 2]| {
+        let [start, end] = ends.map(|mm| format!("{mm:?}"));
+        let ends = ["start", "end"].map(|end| format!("measure.profile_{end}_height_mm="));
+        let settings = [format!("{}{start}", ends[0]), format!("{}{end}", ends[1])];
+        let scene = ["check", "scenes/shaping/circular_m3_z24.toml"];
+        gearcut(&[&scene[..], &["--set", &settings[0], "--set", &settings[1]]].concat()).done()
+    };
+    let noted = "48 flanks do not reach an end of [measure]";
+    let [reached, beyond] = [[-1.5, 3.0], [-3.0, 4.0]].map(check);
+    assert!(!reached.err.contains(noted) && beyond.err.contains(noted), "{}{}", reached.err, beyond.err);
+    for (told, [start_mm, end_mm]) in [(reached, ["69.", "78."]), (beyond, ["68.", "78."])] {
+        let size = |name: &str| told.out.lines().find(|line| line.contains(name)).expect("a size").to_owned();
+        println!("{}\n{}", size("d_Nf"), size("d_Na"));
+        assert!(size("d_Nf").contains(start_mm) && size("d_Na").contains(end_mm), "{}", told.out);
+    }
 }

@@ -130,8 +130,12 @@ fn the_shortest_scene_roughs_on_a_spiral_and_finishes() {
         panic!("{} operations", shaping(&scene).operations.len())
     };
     assert_eq!((rough.name.as_str(), finish.name.as_str(), finish.offset_mm), ("rough", "finish", 0.0));
-    let offset_mm = 0.2 / 20_f64.to_radians().sin();
-    assert!((rough.offset_mm - offset_mm).abs() < 1e-12, "{}", rough.offset_mm);
+    // Both base circles together have (r_b1 + r_b2) (inv(alpha_w) - inv(alpha)) of room for each flank's stock.
+    let (alpha_rad, offset_mm) = (20_f64.to_radians(), rough.offset_mm);
+    let (base_mm, involute) = (66.0 * alpha_rad.cos(), |rad: f64| rad.tan() - rad);
+    let working_rad = (base_mm / (66.0 + offset_mm)).acos();
+    let stock_mm = base_mm * (involute(working_rad) - involute(alpha_rad));
+    assert!((stock_mm - 0.2).abs() < 1e-10, "{offset_mm}: {stock_mm}");
     let angle_deg = |depth_mm: f64| 90.0 * depth_mm / 6.75;
     let deg = [6.75 - offset_mm, offset_mm].map(angle_deg);
     assert_close(spiral(rough), [6.75 - offset_mm, deg[0], deg[0]]);

@@ -131,10 +131,15 @@ fn operations_that_nobody_wrote_pass_to_the_mate() {
 fn places_on_the_driver_stay_there() {
     let driver = driver(
         "shaping/order_1",
-        &["operation.finish.window_deg=[0.0, 40.0]", "output.folder='out/driver'", "gear.addendum_coefficient=0.9"],
+        &[
+            "operation.finish.window_deg=[0.0, 40.0]",
+            "output.folder='out/driver'",
+            "mounting.eccentricity_um=12",
+            "gear.addendum_coefficient=0.9",
+        ],
     );
     let text = driver.mate(Mate { teeth: 36, kind: GearKind::External }, Path::new("/")).expect("a mate").text;
-    for left_out in ["window_deg", "folder", "[[picture]]", "[[texture]]"] {
+    for left_out in ["window_deg", "folder", "[[picture]]", "[[texture]]", "[mounting]"] {
         assert!(!text.contains(left_out), "{text}");
     }
     assert!(text.contains("addendum_coefficient = 0.9") && text.contains("bore_diameter_mm = 16.0"), "{text}");

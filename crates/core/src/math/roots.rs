@@ -71,7 +71,8 @@ pub fn try_bisect<E>(is_low: impl FnMut(f64) -> Result<bool, E>, lo: f64, hi: f6
 }
 
 /// Zero of a function that is at most 0 at `from` and at least 0 at `to`: where it is nearer to 0 than `residual`, or
-/// to some 1e-14 of the place. `None` where the function does not change its sign, or is not a number.
+/// to some 1e-14 of the place. `None` where the function does not change its sign nor is so near to 0 at an end, or is
+/// not a number.
 ///
 /// Regula falsi with the value at the end that stays halved (Illinois rule), so that both ends close in; after 200
 /// steps the bracket is halved to the last bit.
@@ -79,7 +80,7 @@ pub fn regula_falsi(mut f: impl FnMut(f64) -> f64, from: f64, to: f64, residual:
     let (mut a, mut b) = (from, to);
     let (mut f_a, mut f_b) = (f(a), f(b));
     if !(f_a <= 0.0 && f_b >= 0.0) {
-        return None;
+        return [(from, f_a), (to, f_b)].into_iter().find_map(|(end, f)| (f.abs() < residual).then_some(end));
     }
     for _ in 0..MOST_SECANTS {
         if f_b == f_a || (b - a).abs() < 1e-14 * (1.0 + a.abs()) {
@@ -173,6 +174,7 @@ mod tests {
             assert!((regula_falsi(f, from, to, 1e-13).unwrap() - 2.0_f64.sqrt()).abs() < 1e-13);
         }
         assert_eq!(regula_falsi(|x| x * x + 1.0, -1.0, 2.0, 1e-13), None);
+        assert_eq!(regula_falsi(|x| x - 2.0 - 1e-15, 0.0, 2.0, 1e-13), Some(2.0));
         assert_eq!(regula_falsi(|_| f64::NAN, -1.0, 2.0, 1e-13), None);
     }
 

@@ -102,9 +102,9 @@ fn undercut(facts: &RingFacts) -> [Entry; 4] {
     let [left_mm2, right_mm2] = facts.printed.sides_mm2(facts.sharpest.0);
     let sign = if left_mm2 <= right_mm2 { "<=" } else { ">" };
     let printed = format!("The printed condition, of an external gear, reads {left_mm2:.0} {sign} {right_mm2:.0} mm^2");
-    let undercut = UNDERCUT.of(facts.undercut_flanks).at(on_tooth(start));
+    let undercut = UNDERCUT.of(facts.undercut_flanks);
     let undercut = if facts.undercut_flanks > 0 {
-        undercut.change(format!(
+        undercut.at(on_tooth(start)).change(format!(
             "Use a smaller tool.shaper_cutter.addendum_coefficient, or a curve that is less hollow towards the ring. \
              {printed}"
         ))

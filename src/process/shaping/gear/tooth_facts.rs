@@ -7,6 +7,8 @@
 //! non-circular gear.
 
 use crate::findings::Notice;
+use crate::findings::notices::Unreached;
+use crate::measure::cut_grid::PLACE_MM;
 use crate::measure::damage::{LEAST_DEPTH_MM, gouge_mm};
 use crate::number_text::significant;
 use crate::process::shaping::ShapingJob;
@@ -101,11 +103,19 @@ impl FlankFacts {
 pub fn warnings(job: &ShapingJob, facts: &[ToothFacts]) -> Vec<Notice> {
     let mut warnings = Vec::new();
     let undercut = flanks_with(facts, FlankFacts::is_undercut);
-    if undercut != NONE {
-        let flanks = facts.iter().flat_map(|tooth| tooth.flanks().map(|(_, flank)| flank));
-        let deepest_mm = flanks.map(|flank| flank.undercut_mm).fold(0.0, f64::max);
+    let flanks = facts.iter().flat_map(|tooth| tooth.flanks().map(|(_, flank)| flank));
+    let deepest_mm = flanks.map(|flank| flank.undercut_mm).fold(0.0, f64::max);
+    if deepest_mm >= LEAST_DEPTH_MM {
         let depth_um = significant(UM_PER_MM * deepest_mm, 3);
         warnings.push(Undercut { flanks: undercut, depth_um }.notice());
+    }
+    let reaches = |flank: &FlankFacts| {
+        let ends_mm = flank.start_height_mm - PLACE_MM..=flank.tip_height_mm + PLACE_MM;
+        job.scene.measure.heights_mm().into_iter().flatten().all(|height_mm| ends_mm.contains(&height_mm))
+    };
+    let unreached = facts.iter().flat_map(ToothFacts::flanks).filter(|(_, flank)| !reaches(flank)).count();
+    if unreached > 0 {
+        warnings.push(Unreached { flanks: unreached }.notice());
     }
     let base = flanks_with(facts, |flank| flank.end == FlankEnd::CutterBase);
     if base != NONE {

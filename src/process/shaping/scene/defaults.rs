@@ -10,7 +10,7 @@
 //!
 //! Road not taken: a spiral where the scene gives a window. A window shows a piece of a cut that is under way.
 
-use super::stock::{offset_mm, teeth_per_turn};
+use super::stock::{offset_for_mm, offset_mm, teeth_per_turn};
 use crate::scene::build::sector_deg;
 use crate::scene::values::{Checked, Values};
 use gearcut_core::units::UM_PER_MM;
@@ -119,7 +119,7 @@ fn standard_roughing(values: &mut Values) -> Option<()> {
     }
     let gear = values.view("gear");
     let (module_mm, teeth) = (gear.number("module_mm")?, teeth_per_turn(values)?);
-    let offset_mm = STOCK_MODULES * module_mm / gear.rad("pressure_angle_deg")?.sin();
+    let offset_mm = offset_for_mm(values, 0, STOCK_MODULES * module_mm)?;
     let path = "operation.0";
     if !values.is_written(path, "stock_per_flank_mm") {
         values.put_default(path, "offset_mm", Checked::Number(offset_mm));

@@ -44,6 +44,11 @@ pub(super) fn offset_mm(values: &Values, index: usize) -> Option<f64> {
     let path = format!("operation.{index}");
     let operation = values.view(&path);
     let Some(stock_mm) = operation.number("stock_per_flank_mm") else { return operation.number("offset_mm") };
+    offset_for_mm(values, index, stock_mm)
+}
+
+/// How far the cutter stays back in an operation that leaves this stock on each flank, mm.
+pub(super) fn offset_for_mm(values: &Values, index: usize, stock_mm: f64) -> Option<f64> {
     Some(Finished::of(values, index)?.offset_mm(stock_mm))
 }
 

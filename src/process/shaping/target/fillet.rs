@@ -104,7 +104,8 @@ impl<'a> Fillet<'a> {
     fn on_piece(&self, piece: &FilletPiece, share: f64) -> Option<(f64, DVec2, DVec2)> {
         match piece {
             FilletPiece::Tip { part, phi_rad: [from, to] } => {
-                let phi = from + (to - from) * share;
+                // Beyond its very end, by rounding, nothing touches.
+                let phi = if share < 1.0 { from + (to - from) * share } else { *to };
                 let (point, normal) = self.generation.tip_contact(phi, self.space, part)?;
                 Some((phi, point, normal))
             }
