@@ -264,7 +264,7 @@ fn tip_columns(tooth: &ToothSurfaces, tip: &SurfaceGrid, blank: &Blank) -> Vec<u
         let heights_mm = points_mm.iter().map(|point| blank.height(point.truncate(), point.truncate().to_angle()).0);
         heights_mm.fold(f64::INFINITY, f64::min)
     };
-    let end_mm = |flank: &SurfaceGrid| height_mm(flank, flank.columns() - 1) - BODY_MM;
+    let end_mm = |flank: &SurfaceGrid| height_mm(flank, flank.columns() - 1) - NEAREST_MM;
     let [right_mm, left_mm] = [&tooth.right, &tooth.left].map(end_mm);
     let columns = 0..tip.columns();
     let first = columns.clone().take_while(|&column| height_mm(tip, column) < right_mm).count();

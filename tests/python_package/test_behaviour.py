@@ -60,7 +60,7 @@ def test_errors_say_key_line_range_and_way_out(
     assert raised.value.key == "gear.teeth" and "tooth 13 does not exist" in str(raised.value)
     with pytest.raises(gearcut.SceneError, match="cannot read the scene"):
         gearcut.Scene("nowhere.toml")
-    with pytest.raises(gearcut.SceneError, match="tool"):
+    with pytest.raises(gearcut.SceneError, match="is missing"):
         gearcut.Scene("")
     with pytest.raises(ValueError, match="no side of a tooth"):
         gearcut.Job(gear).flank(1, "top")

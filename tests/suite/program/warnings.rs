@@ -82,7 +82,8 @@ fn every_place_shows_the_same_list() {
         for operation in ["rough", "finish"].into_iter().filter(|_| !line.starts_with("note")) {
             let program = text(&cut.join(format!("axes/{operation}.ngc")));
             let comment = format!("({})", sentence.replace(['(', ')'], " "));
-            assert!(program.contains(&comment), "{comment} is not in the program's head");
+            // How texture is sampled concerns nobody at the machine.
+            assert_ne!(program.contains(&comment), id.starts_with("texture."), "{comment} in the program's head");
         }
     }
     let count = format!("shown above {}", counted(&listed));

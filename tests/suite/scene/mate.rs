@@ -119,8 +119,15 @@ fn operations_that_nobody_wrote_pass_to_the_mate() {
         let [rough, finish] = Shaping::of(&scene).expect("shaping").operations.as_slice() else { panic!("two") };
         let of_driver = &Shaping::of(&driver.scene).expect("shaping").operations;
         for (operation, driver) in [rough, finish].into_iter().zip(of_driver) {
-            let what = (&operation.name, operation.offset_mm, operation.infeed, operation.overlap_rad);
-            assert_eq!(what, (&driver.name, driver.offset_mm, driver.infeed, driver.overlap_rad));
+            assert_eq!(operation.name, driver.name);
+            if settings.is_empty() {
+                // A mate's curve is no circle by its name: its stock is left by the law of a rack.
+                let stock_mm = if driver.name == "rough" { 0.2 } else { 0.0 };
+                assert!((operation.offset_mm - stock_mm / 20_f64.to_radians().sin()).abs() < 1e-12, "{operation:?}");
+            } else {
+                let what = (operation.offset_mm, operation.infeed, operation.overlap_rad);
+                assert_eq!(what, (driver.offset_mm, driver.infeed, driver.overlap_rad));
+            }
         }
         let strokes = if settings.is_empty() { 4800 } else { 4848 };
         assert_eq!([rough.feed, finish.feed], [960, strokes].map(Feed::StrokesPerRevolution));
