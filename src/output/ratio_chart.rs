@@ -58,7 +58,7 @@ impl SkConstruction {
             },
             LegendEntry {
                 sample: Sample::Area(2),
-                words: format!("Svk {} on 100 % − Smr2, Smr2 {}", um(self.svk_um), percent(self.smr2_percent)),
+                words: format!("Svk {} on 100 % − Smrk2, Smrk2 {}", um(self.svk_um), percent(self.smr2_percent)),
             },
         ]
     }
