@@ -258,7 +258,7 @@ impl ShapingJob {
             }
             let commanded = Commanded { schedule: &schedule, program: program.as_ref() };
             let errors = scattered(&machine.errors, spec.stock_scatter, &schedule);
-            let actual = ActualStrokes::new(&errors, commanded, start_s, 0.5 * gear.face_width_mm);
+            let actual = ActualStrokes::new(&errors, commanded, start_s, 0.5 * gear.face_width_mm, helix.as_ref());
             start_s += schedule.time_s(count as f64);
             let crank = machine.crank(gear.face_width_mm);
             let law = if spec.feed_during_stroke {
@@ -271,7 +271,7 @@ impl ShapingJob {
             let posed = if has_poses { count } else { 0 };
             let strokes = StrokeSet::along_guide(first_pass, &cutter, law, posed, |lambda, z_mm| {
                 let at_rest = if law.rests() { crank.stroke_share(crank.tau(z_mm)) } else { 0.0 };
-                actual.placed(&actual.pose(commanded, lambda, at_rest), z_mm)
+                actual.placed(&schedule, lambda, &actual.pose(commanded, lambda, at_rest), z_mm)
             });
             first_pass = strokes.end_pass();
             let (generation, envelope, survey) = match same {
