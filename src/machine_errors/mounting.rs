@@ -59,6 +59,13 @@ impl WorkMounting {
         self.eccentricity_mm * DVec2::from_angle(self.eccentricity_angle_rad) + lean
     }
 
+    /// Height on the machine of a place of the gear, both over the middle of the face of a gear without errors, mm: one
+    /// on the side to which the axis leans lies lower, to first order by the lean times its distance.
+    pub fn height_mm(&self, place_mm: DVec3) -> f64 {
+        let lower_mm = self.wobble_rad * DVec2::from_angle(self.wobble_angle_rad).dot(place_mm.truncate());
+        place_mm.z + self.axial_offset_mm - lower_mm
+    }
+
     /// The spindle frame in the gear frame, where the middle of the face stands at `middle_z_mm`.
     pub fn gear_from_spindle(&self, middle_z_mm: f64) -> Rigid3 {
         let rotation = leaning(self.wobble_rad, self.wobble_angle_rad);

@@ -201,6 +201,11 @@ fn a_leaning_gear_crosses_its_spindle_where_it_should() {
         let axis = spindle_from_gear.point(DVec3::new(0.0, 0.0, z_mm));
         assert!(axis.truncate().distance(mounting.axis_mm(z_mm + 70.0)) < 1e-9);
         assert!((axis.z - z_mm - 0.05).abs() < 1e-6);
+        // A place off the axis lies higher or lower, to the square of the lean.
+        for place_mm in [DVec2::new(38.0, 0.0), DVec2::new(-12.0, 30.0)] {
+            let at = spindle_from_gear.point(place_mm.extend(z_mm));
+            assert!((at.z + 70.0 - mounting.height_mm(place_mm.extend(z_mm + 70.0))).abs() < 1e-6);
+        }
     }
     let tool = ToolMounting { runout_mm: 0.02, runout_angle_rad: 0.5, wobble_rad: 1e-4, wobble_angle_rad: -0.7 };
     let high = tool.spindle_from_tool().point(DVec3::Z);

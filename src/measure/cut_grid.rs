@@ -56,6 +56,8 @@ pub struct CutGrid<'a> {
     pub layers: &'a [Layer],
     /// Ends of the evaluated part: arcs, and places along the tooth, mm.
     pub evaluated_mm: [[f64; 2]; 2],
+    /// Rolls of the ends along the profile, mm.
+    pub evaluated_rolls_mm: [f64; 2],
 }
 
 impl CutGrid<'_> {
@@ -96,10 +98,10 @@ impl CutGrid<'_> {
             places_mm: self.rows_mm.to_vec(),
             heights_mm: (0..self.rows_mm.len()).map(|row| finished_mm(middle_column, row)).collect(),
         };
-        // Between the places of the outer dexels themselves, so that rounding takes none of them away.
-        let deviation = |trace: &Trace, inner: &Range<usize>| {
+        // No end lies inside of the outer dexels, so that rounding takes none of them away.
+        let deviation = |trace: &Trace, inner: &Range<usize>, [from_mm, to_mm]: [f64; 2]| {
             let places_mm = &trace.places_mm[inner.clone()];
-            trace.deviation([*places_mm.first()?, *places_mm.last()?])
+            trace.deviation([from_mm.min(*places_mm.first()?), to_mm.max(*places_mm.last()?)])
         };
         InspectedFlank {
             tooth: self.tooth,
@@ -111,9 +113,9 @@ impl CutGrid<'_> {
                 profile_v_mm: self.rows_mm[middle_row],
                 lead_arc_mm: self.arcs_mm[middle_column],
             },
-            profile: deviation(&profile_trace, &columns),
+            profile: deviation(&profile_trace, &columns, self.evaluated_rolls_mm),
             profile_trace,
-            lead: deviation(&lead_trace, &rows),
+            lead: deviation(&lead_trace, &rows, self.evaluated_mm[1]),
             lead_trace,
             untouched: self.places().filter(|&[column, row]| finished_mm(column, row).is_nan()).count() as u64,
             own,

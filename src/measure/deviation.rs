@@ -30,9 +30,9 @@ pub struct TraceDeviation {
     pub slope_mm: f64,
     /// f_f_alpha or f_f_beta, mm: range about the mean line.
     pub form_mm: f64,
-    /// First and last evaluated place, mm.
+    /// Ends of the evaluated range, mm.
     pub between_mm: [f64; 2],
-    /// Heights of the mean line (least squares) at these places, mm.
+    /// Heights of the mean line (least squares) there, mm.
     pub mean_line_mm: [f64; 2],
 }
 
@@ -65,7 +65,8 @@ impl Trace {
     }
 
     /// Deviations between two places; `None` with fewer than three dexels or untouched ones among them.
-    pub fn deviation(&self, [from_mm, to_mm]: [f64; 2]) -> Option<TraceDeviation> {
+    pub fn deviation(&self, between_mm: [f64; 2]) -> Option<TraceDeviation> {
+        let [from_mm, to_mm] = between_mm;
         let points: Vec<(f64, f64)> = self
             .places_mm
             .iter()
@@ -73,12 +74,12 @@ impl Trace {
             .filter(|&(&place, _)| place >= from_mm - 1e-9 && place <= to_mm + 1e-9)
             .map(|(&place, &height)| height.is_finite().then_some((place, height)))
             .collect::<Option<_>>()?;
-        of_points(&points)
+        of_points(&points, between_mm)
     }
 }
 
-/// Deviations of heights over places of an evaluated length, both in mm; `None` with fewer than three of them.
-fn of_points(points: &[(f64, f64)]) -> Option<TraceDeviation> {
+/// Deviations of heights over places of an evaluated range, all in mm; `None` with fewer than three of them.
+fn of_points(points: &[(f64, f64)], between_mm: [f64; 2]) -> Option<TraceDeviation> {
     if points.len() < 3 {
         return None;
     }
@@ -97,7 +98,6 @@ fn of_points(points: &[(f64, f64)]) -> Option<TraceDeviation> {
             points.iter().map(value).fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(v), h.max(v)));
         high - low
     };
-    let between_mm = [points[0].0, points[points.len() - 1].0];
     Some(TraceDeviation {
         total_mm: range(&|p| p.1),
         slope_mm: slope * (between_mm[1] - between_mm[0]),
@@ -234,6 +234,21 @@ mod tests {
         assert_eq!(holed.deviation([-1.0, 1.0]), None);
         assert!(holed.deviation([0.0, 1.0]).is_some(), "the hole is outside");
     }
+
+    /// Dexels that stop short of the ends of the range, by much or by little, leave the slope what it is.
+    #[test]
+    fn a_slope_is_the_rise_over_the_whole_range_at_any_distance_of_dexels() {
+        for spacing_mm in [0.3, 0.4, 0.7] {
+            let places_mm: Vec<f64> = (-2..=2).map(|i| f64::from(i) * spacing_mm).collect();
+            let heights_mm = places_mm.iter().map(|x| 0.002 * x).collect();
+            let found = Trace { places_mm, heights_mm }.deviation([-1.8, 1.8]).expect("it is complete");
+            assert!((found.slope_mm - 0.0072).abs() < 1e-15, "{spacing_mm} mm: {}", found.slope_mm);
+            assert!((found.total_mm - 0.008 * spacing_mm).abs() < 1e-15);
+            assert_eq!(found.between_mm, [-1.8, 1.8]);
+            assert!(found.mean_line_mm.iter().zip([-0.0036, 0.0036]).all(|(at, line)| (at - line).abs() < 1e-15));
+        }
+    }
+
     /// Flanks in their places but for the third, on a curve that is 0.06 um short of its teeth's nominal pitches.
     #[test]
     fn pitch_deviations_close_over_the_turn() {

@@ -108,6 +108,7 @@ pub fn measure(job: &BevelJob, tooth: u32, side: Side, rays: &FreeRays, layers: 
         rows_mm,
         layers,
         evaluated_mm: job.evaluated_mm(side),
+        evaluated_rolls_mm: job.evaluated_mm(side)[0],
     };
     let last = layers.len() - 1;
     let mut left_by_blade = vec![0; job.head.blades() as usize];

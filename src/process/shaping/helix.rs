@@ -47,7 +47,7 @@ pub struct Helix {
     /// Hand of the guide.
     pub hand: Hand,
     /// Turn of the cutter per mm of height, rad, counter-clockwise.
-    cutter_rad_per_mm: f64,
+    pub cutter_rad_per_mm: f64,
     /// How far the target's teeth lie along the pitch curve per mm of height: tan(beta), positive right-hand.
     arc_per_mm: f64,
     /// Turn of the target's sections per mm of height, rad; none where the pitch curve is no circle.
@@ -122,9 +122,12 @@ impl Helix {
 
     /// Normal of a flank in space from its normal in the section.
     pub fn flank_normal(&self, side: Side, in_section: DVec2) -> DVec3 {
-        // The section of a flank moves along its normal by this much per mm of height.
-        let climb = side.sign() * self.arc_per_mm * self.cos_pressure_angle;
-        self.cos_base_helix() * in_section.extend(-climb)
+        self.cos_base_helix() * in_section.extend(-self.climb(side))
+    }
+
+    /// How far the section of a flank moves along its normal per mm of height.
+    pub fn climb(&self, side: Side) -> f64 {
+        side.sign() * self.arc_per_mm * self.cos_pressure_angle
     }
 
     /// Slope of the flanks' helix against the target that this guide leaves: normal deviation over the face, positive

@@ -20,12 +20,13 @@ use crate::process::shaping::motion::returns::motion::RamTimes;
 use crate::process::shaping::motion::returns::survey::Survey;
 use crate::process::shaping::motion::vibration::Vibration;
 use crate::process::shaping::round_mesh::RoundMesh;
-use crate::process::shaping::scene::model::{self, GcodeDialect, Machine, Operation, Shaping};
+use crate::process::shaping::scene::model::{CutterSpec, GcodeDialect, Machine, Operation, Shaping};
 use crate::process::shaping::swing::swing_rad;
 use crate::process::shaping::target::TargetFlank;
 use crate::process::shaping::target::fillet::Fillet;
 use crate::process::shaping::target::generation::Generation;
 use crate::process::shaping::target::tooth_target::ToothTarget;
+use crate::process::shaping::tool::involute_tooth::PROFILE_SHIFT;
 use crate::scene::Scene;
 use crate::scene::model::Gear;
 use crate::scene::tool_wear::WearSpec;
@@ -51,7 +52,7 @@ const MOST_TIMES_THE_STROKES: usize = 10;
 /// One operation with its strokes.
 #[derive(Debug, Clone)]
 pub struct PreparedOperation {
-    /// What the scene says, its offset with that of profile shift and thickness allowance.
+    /// What the scene says, its offset with that of profile shifts and thickness allowance.
     pub spec: Operation,
     /// How far the cutter stays back from the depth that makes the teeth as drawn, mm.
     pub short_of_depth_mm: f64,
@@ -142,7 +143,7 @@ pub struct ShapingJob {
     /// How the cutter wears, where the scene says.
     pub wear: Option<WearSpec>,
     /// The cutter as the scene describes it.
-    pub cutter_spec: model::CutterSpec,
+    pub cutter_spec: CutterSpec,
     /// Its transverse section as a spur gear: the scene's own gear where that is one.
     pub transverse: Gear,
     /// What the guide does along the face; none for spur gears.
@@ -208,9 +209,10 @@ impl ShapingJob {
             Some(of) => of.curve.clone(),
             None => Arc::new(PitchCurve::new(&gear.pitch_curve, gear.module_mm, gear.teeth)?),
         };
+        let transverse_tool = shaping.tool.transverse(scene.gear.helix_angle_rad);
         let cutter = match like.filter(|of| of.cutter_spec == shaping.tool) {
             Some(of) => of.cutter.clone(),
-            None => ShaperCutter::new(&shaping.tool.transverse(scene.gear.helix_angle_rad), gear)?,
+            None => ShaperCutter::new(&transverse_tool, gear)?,
         };
         let mut alike = like.filter(|of| of.cutter.generates_as(&cutter));
         let helix = Helix::of(&scene.gear, &machine, &curve, &cutter)?;
@@ -221,7 +223,7 @@ impl ShapingJob {
         let passes: f64 = shaping.operations.len() as f64;
         let mut operations: Vec<PreparedOperation> = Vec::new();
         let (mut first_pass, mut start_s) = (0, 0.0);
-        let allowance_mm = thickness_offset_mm(gear, curve.pitches(), cutter.teeth)?;
+        let allowance_mm = thickness_offset_mm(gear, curve.pitches(), &transverse_tool)?;
         for spec in &shaping.operations {
             let (mut spec, short_of_depth_mm) = (spec.clone(), spec.offset_mm);
             spec.offset_mm += allowance_mm;
@@ -258,7 +260,7 @@ impl ShapingJob {
             }
             let commanded = Commanded { schedule: &schedule, program: program.as_ref() };
             let errors = scattered(&machine.errors, spec.stock_scatter, &schedule);
-            let actual = ActualStrokes::new(&errors, commanded, start_s, 0.5 * gear.face_width_mm);
+            let actual = ActualStrokes::new(&errors, commanded, start_s, 0.5 * gear.face_width_mm, helix.as_ref());
             start_s += schedule.time_s(count as f64);
             let crank = machine.crank(gear.face_width_mm);
             let law = if spec.feed_during_stroke {
@@ -271,7 +273,7 @@ impl ShapingJob {
             let posed = if has_poses { count } else { 0 };
             let strokes = StrokeSet::along_guide(first_pass, &cutter, law, posed, |lambda, z_mm| {
                 let at_rest = if law.rests() { crank.stroke_share(crank.tau(z_mm)) } else { 0.0 };
-                actual.placed(&actual.pose(commanded, lambda, at_rest), z_mm)
+                actual.placed(&schedule, lambda, &actual.pose(commanded, lambda, at_rest), z_mm)
             });
             first_pass = strokes.end_pass();
             let (generation, envelope, survey) = match same {
@@ -538,27 +540,35 @@ impl ShapingJob {
     }
 }
 
-/// How much further from the pitch curve the cutter's centre lies for the gear's profile shift and the allowance of
-/// its tooth thickness, mm.
+/// How much further from the pitch curve the cutter's centre lies for the profile shifts of gear and cutter and the
+/// allowance of the gear's tooth thickness, mm.
 ///
-/// On a round gear teeth are then s = 2 x m tan(alpha) + A thicker on the reference circle, exactly ([`RoundMesh`]).
+/// A cutter whose teeth are 2 x0 m tan(alpha) thicker thins the gear's by as much at any depth, and a shop sets it to the
+/// depth that makes the teeth of the drawing: new or reground, it cuts one gear. So teeth are made thicker by s = 2 (x +
+/// x0) m tan(alpha) + A than at the distance at which the pitch curves touch; of a round gear 2 x m tan(alpha) + A are
+/// left of it on the reference circle, exactly ([`RoundMesh`]).
 /// Road not taken: s / (2 tan(alpha)), the law of a rack, which makes teeth of module 3 with x = 0.5 on 24 teeth some
 /// 0.08 mm too thick, and takes 0.54 mm for 0.5 from a ring. On other gears the
 /// displacement is that of the round gear with as many teeth, and the thickness varies with the curvature by that
 /// order.
-fn thickness_offset_mm(gear: &Gear, pitches: u32, cutter_teeth: u32) -> Result<f64, Refusal> {
-    let thicker_mm = gear.extra_thickness_mm();
+fn thickness_offset_mm(gear: &Gear, pitches: u32, tool: &CutterSpec) -> Result<f64, Refusal> {
+    let alpha = gear.pressure_angle_rad;
+    let thicker_mm = gear.extra_thickness_mm() + 2.0 * tool.profile_shift_coefficient * gear.module_mm * alpha.tan();
     if thicker_mm == 0.0 {
         return Ok(0.0);
     }
-    let alpha = gear.pressure_angle_rad;
-    let mesh = RoundMesh::new(gear.kind, gear.module_mm, alpha, [pitches, cutter_teeth]);
+    let mesh = RoundMesh::new(gear.kind, gear.module_mm, alpha, [pitches, tool.teeth]);
     let Some(working_rad) = mesh.thicker_rad(alpha, thicker_mm) else {
         let [shift, allowance] = ["gear.profile_shift_coefficient", "gear.tooth_thickness_allowance_mm"];
+        let (key, all) = match (tool.profile_shift_coefficient == 0.0, gear.tooth_thickness_allowance_mm == 0.0) {
+            (false, _) => (PROFILE_SHIFT, format!("{shift}, {PROFILE_SHIFT} and {allowance}")),
+            (true, true) => (shift, format!("{shift} and {allowance}")),
+            (true, false) => (allowance, format!("{shift} and {allowance}")),
+        };
         return Err(Refusal::new(
-            if gear.tooth_thickness_allowance_mm == 0.0 { shift } else { allowance },
+            key,
             format!("no depth of the cutter changes the tooth thickness by {thicker_mm:.3} mm"),
-            format!("take less than {:.3} mm, by {shift} and {allowance} together", mesh.room_mm(alpha)),
+            format!("take less than {:.3} mm, by {all} together", mesh.room_mm(alpha)),
         ));
     };
     Ok(mesh.offset_mm(working_rad))

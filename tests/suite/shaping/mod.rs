@@ -21,6 +21,7 @@ mod gcode;
 mod gcode_kinematics;
 mod ground_cutter;
 mod helical;
+mod helical_mounting;
 mod injected_errors;
 mod internal_oracle;
 mod internal_refusals;

@@ -28,7 +28,7 @@ fn sizes(job: &ShapingJob) -> RoundGear {
 }
 
 /// The tooth that the shifted cutter generates is thicker by 2 x m tan(alpha) and the allowance on the reference
-/// circle, outside and in a ring; a shift of the cutter itself thins it by as much.
+/// circle, outside and in a ring; a shift of the cutter itself, new or reground, changes nothing of that.
 #[test]
 fn a_profile_shift_makes_the_tooth_that_its_definition_says() {
     for (scene, kind, shifts) in [
@@ -36,12 +36,12 @@ fn a_profile_shift_makes_the_tooth_that_its_definition_says() {
         ("internal_circle.toml", GearKind::Internal, [-0.2, 0.0, 0.1, 0.3]),
     ] {
         let plain = shifts.into_iter().map(|shift| (shift, 0.0, 0.0));
-        for (shift, cutter_shift, allowance_mm) in plain.chain([(0.3, 0.1, 0.0), (0.0, 0.0, -0.5), (0.1, 0.0, -0.08)]) {
+        let others = [(0.3, 0.1, 0.0), (0.0, 0.3, 0.0), (0.1, -0.3, -0.08), (0.0, 0.0, -0.5), (0.1, 0.0, -0.08)];
+        for (shift, cutter_shift, allowance_mm) in plain.chain(others) {
             let job = job(scene, shift, cutter_shift, allowance_mm);
             let (gear, round) = (&job.scene.gear, sizes(&job));
             assert_eq!(round.kind, kind);
-            let thickness_mm =
-                gear.module_mm * (0.5 * PI + 2.0 * (shift - cutter_shift) * ALPHA_RAD.tan()) + allowance_mm;
+            let thickness_mm = gear.module_mm * (0.5 * PI + 2.0 * shift * ALPHA_RAD.tan()) + allowance_mm;
             let thinned_mm = Shaping::of(&job.scene).expect("shaping").tool.thinning_mm;
             let error_mm = round.thickness_mm - thickness_mm - thinned_mm;
             assert!(error_mm.abs() < 1e-9, "{scene}, x {shift}, x0 {cutter_shift}, {allowance_mm} mm: {error_mm} mm");
@@ -50,6 +50,43 @@ fn a_profile_shift_makes_the_tooth_that_its_definition_says() {
             let tip_mm = d + 2.0 * sign * gear.module_mm * (gear.addendum_coefficient + shift);
             assert!((round.tip_diameter_mm - tip_mm).abs() < 1e-12);
         }
+    }
+}
+
+/// The distance of the axes by hand: inv(alpha_w) = inv(alpha) + 2 (x + x0) tan(alpha) / (z + z0), 66.860 mm for 24 teeth
+/// of module 3 that a new cutter of 20 teeth, x0 = 0.3, cuts without a shift of their own. Roots follow it.
+#[test]
+fn a_new_cutter_stands_as_far_off_as_its_teeth_are_thicker() {
+    let (z, z0, m) = (24.0, 20.0, 3.0);
+    for (shift, cutter_shift) in [(0.0, 0.3), (0.0, -0.3), (0.2, 0.15)] {
+        let text = "[gear]\nmodule_mm = 3.0\nteeth = 24\n[tool.shaper_cutter]\nteeth = 20\n";
+        let settings = [
+            format!("gear.profile_shift_coefficient={shift}"),
+            format!("tool.shaper_cutter.profile_shift_coefficient={cutter_shift}"),
+        ];
+        let scene = process::parse(text, "scene.toml", Path::new(""), &settings).expect("a scene").scene;
+        let job = ShapingJob::new(scene).expect("a gear");
+        let inv = |angle: f64| angle.tan() - angle;
+        let wanted = inv(ALPHA_RAD) + 2.0 * (shift + cutter_shift) * ALPHA_RAD.tan() / (z + z0);
+        let [mut low, mut high] = [0.0, 1.0];
+        for _ in 0..60 {
+            let middle = 0.5 * (low + high);
+            if inv(middle) < wanted { low = middle } else { high = middle }
+        }
+        let axes_mm = 0.5 * m * (z + z0) * ALPHA_RAD.cos() / low.cos();
+        assert!(cutter_shift != 0.3 || (axes_mm - 66.8595).abs() < 1e-4, "{axes_mm}");
+        let finishing = job.finishing();
+        assert!((66.0 + finishing.spec.offset_mm - axes_mm).abs() < 1e-9);
+        assert_eq!(finishing.short_of_depth_mm, 0.0);
+        let root_mm = 2.0 * (axes_mm - job.cutter.tip_radius_mm);
+        assert!((sizes(&job).root_diameter_mm - root_mm).abs() < 1e-9, "{} mm", sizes(&job).root_diameter_mm);
+        // Roughing keeps its stock: the closed form of two involutes between both depths.
+        let stock_mm = |offset_mm: f64| {
+            let working = (0.5 * m * (z + z0) * ALPHA_RAD.cos() / (66.0 + offset_mm)).acos();
+            (inv(working) - wanted) * 0.5 * m * (z + z0) * ALPHA_RAD.cos()
+        };
+        let rough = &job.operations[0];
+        assert!(stock_mm(finishing.spec.offset_mm).abs() < 1e-9 && stock_mm(rough.spec.offset_mm) > 0.05);
     }
 }
 

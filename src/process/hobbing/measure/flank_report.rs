@@ -58,6 +58,7 @@ pub fn measure(tooth: u32, side: Side, flank: &HobbedFlank) -> HobbedReport {
         rows_mm,
         layers: &flank.layers,
         evaluated_mm: flank.evaluated_mm,
+        evaluated_rolls_mm: flank.evaluated_mm[0].map(|arc_mm| flank.target.roll_mm(arc_mm)),
     };
     grid.inspected(HobbedSurface {
         form_height_mm: flank.target.form_height_mm,

@@ -21,7 +21,7 @@ pub(super) fn print(axes: &OperationAxes, sheet: &mut Sheet) {
         let sign = if shifted_mm > 0.0 { "+" } else { "" };
         sheet.line(
             "depth as drawn",
-            format!("at offset {sign}{} mm, by profile shift and allowance", plain(shifted_mm)),
+            format!("at offset {sign}{} mm, by profile shifts and allowance", plain(shifted_mm)),
         );
     }
     let plunging = match schedule.plunge_count() {

@@ -11,11 +11,12 @@ use crate::process::shaping::helix::Helix;
 use crate::process::shaping::sections::GearPart;
 use crate::steps::planar::{CutField, PlanarGear, PlanarOperation};
 use gearcut_core::cut::{Backend, CutStats};
-use gearcut_core::dexel::{Field, Layer};
-use gearcut_core::error::Result;
+use gearcut_core::dexel::{Field, Layer, NO_PASS};
+use gearcut_core::error::{Refusal, Result};
 use gearcut_core::frame::Rigid2;
 use gearcut_core::passes::StrokeSet;
 use gearcut_core::passes::planar::strokes::StrokeLaw;
+use gearcut_core::terms::Side;
 use glam::DVec2;
 
 /// Rays of a band of rows, and the strokes of every operation over it.
@@ -62,6 +63,30 @@ impl ShapingJob {
         })
     }
 
+    /// How much more strokes leave on a flank of a leaning gear than in the poses that they have, in the section, mm, row
+    /// by row of each column. A pose is that of the height at which the ram passes the stroke's pitch point; the contact
+    /// beside it, on the normal through it, is passed at another one.
+    fn beside_pitch_points_mm(
+        &self,
+        helix: &Helix,
+        (tooth, side): (u32, Side),
+        field: &Field,
+    ) -> Result<Vec<f64>, Refusal> {
+        let (actual, rows) = (&self.finishing().actual, field.rows());
+        let mut more_mm = vec![0.0; field.columns.len() * rows];
+        for (row, &z_mm) in field.rows_z_mm.iter().enumerate() {
+            let flank = self.flank_in_section(tooth, side, z_mm)?;
+            for (column, of) in field.columns.iter().enumerate() {
+                let place = flank.at_arc(of.arc_mm);
+                let pitch_point_mm = self.curve.frame(place.phi_rad).point_mm;
+                let [there_mm, posed_mm] =
+                    [place.point_mm, pitch_point_mm].map(|point_mm| actual.ram_height_mm(point_mm.extend(z_mm)));
+                more_mm[column * rows + row] = helix.climb(side) * (there_mm - posed_mm);
+            }
+        }
+        Ok(more_mm)
+    }
+
     /// Planar steps over the strokes of a band.
     pub fn planar_of<'a>(&'a self, strokes: &'a [StrokeSet]) -> PlanarGear<'a> {
         let operations = self.operations.iter().zip(strokes);
@@ -91,7 +116,13 @@ impl ShapingJob {
             bands.push((field.rows(), cut.layers));
         }
         let mut layers = beside_each_other(&bands, field.columns.len(), self.operations.len());
-        if let GearPart::Flank(..) = part {
+        if let GearPart::Flank(tooth, side) = part {
+            if self.finishing().actual.leans() {
+                let beside_mm = self.beside_pitch_points_mm(helix, (tooth, side), &field)?;
+                for layer in &mut layers {
+                    add_to_cut(layer, &field, &beside_mm);
+                }
+            }
             let along_normal = helix.cos_base_helix();
             for height_mm in layers.iter_mut().flat_map(|layer| &mut layer.heights_mm) {
                 *height_mm = (f64::from(*height_mm) * along_normal) as f32;
@@ -102,6 +133,17 @@ impl ShapingJob {
             }
         }
         Ok(CutField { field, layers, figures: None, stats })
+    }
+}
+
+/// Adds to the heights of dexels that passes have reached and that are no deeper than their rays record.
+fn add_to_cut(layer: &mut Layer, field: &Field, more_mm: &[f64]) {
+    let of_dexels = layer.heights_mm.iter_mut().zip(&layer.passes).zip(more_mm);
+    for (dexel, ((height_mm, &pass), more_mm)) in of_dexels.enumerate() {
+        let low_mm = field.columns[dexel / field.rows()].low_mm;
+        if pass != NO_PASS && f64::from(*height_mm) > low_mm {
+            *height_mm = (f64::from(*height_mm) + more_mm) as f32;
+        }
     }
 }
 

@@ -51,7 +51,7 @@ impl ShapingJob {
             } else {
                 retraction.retracted(schedule.linkage(), &pose, schedule.phi_rad(lambda))
             };
-            operation.actual.placed(&pose, z_mm)
+            operation.actual.placed(schedule, lambda, &pose, z_mm)
         };
         (back_off_mm > 0.0).then(|| match (&self.helix, z_mm) {
             (Some(helix), Some(z_mm)) => {

@@ -8,6 +8,10 @@
 //! same amount. The lean itself turns the section by less than its square, 5e-7 mm on a face of 100 mm that leans by
 //! 10 um, and is left out; so is what an axial offset does to the moment at which the ram passes.
 //!
+//! A place of the gear is met when the ram is at its height on the machine, which is not its own where the gear sits
+//! too high or leans. Guides go by that height: a helical one turns the cutter by tan(beta) times the difference along
+//! the pitch curve. What a lean of the gear does to heights on a straight guide is a product of two errors, left out.
+//!
 //! While the feed rests during a stroke the commanded axes stand still, but noise of a bandwidth goes on: at a place
 //! along the tooth it is that of the moment at which the ram passes there.
 
@@ -15,12 +19,13 @@ use crate::machine::{AxisMotion, Motion};
 use crate::machine_errors::{
     ActualMotion, AxisNoise, Course, Guide, MachineErrors, MachineMoment, NoiseLaw, WorkMounting,
 };
+use crate::process::shaping::helix::Helix;
 use crate::process::shaping::linkage::{CutterPose, StrokeSchedule};
 use crate::process::shaping::motion::gcode::AxisProgram;
 use crate::process::shaping::scene::model::StockScatter;
 use gearcut_core::frame::Rigid2;
 use gearcut_core::gear::GearKind;
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 
 /// Strokes before the first and after the last one at which poses are asked for: the way back of the last, and room.
 const BEYOND_STROKES: f64 = 2.0;
@@ -47,6 +52,8 @@ pub struct ActualStrokes {
     gear: GearKind,
     half_face_mm: f64,
     start_s: f64,
+    /// Turn of the cutter by a helical guide per mm of the ram, rad; none of a straight guide.
+    cutter_rad_per_mm: Option<f64>,
 }
 
 impl Commanded<'_> {
@@ -115,7 +122,13 @@ pub fn scattered(
 
 impl ActualStrokes {
     /// Errors over the strokes of an operation that begins `start_s` after the first one.
-    pub fn new(errors: &MachineErrors<3>, commanded: Commanded<'_>, start_s: f64, half_face_mm: f64) -> Self {
+    pub fn new(
+        errors: &MachineErrors<3>,
+        commanded: Commanded<'_>,
+        start_s: f64,
+        half_face_mm: f64,
+        helix: Option<&Helix>,
+    ) -> Self {
         let seconds_per_stroke = commanded.schedule.time_s(1.0);
         let at = |time_s: f64| commanded.motion(time_s / seconds_per_stroke);
         Self {
@@ -126,6 +139,7 @@ impl ActualStrokes {
             gear: commanded.schedule.linkage().gear(),
             half_face_mm,
             start_s,
+            cutter_rad_per_mm: helix.map(|of| of.cutter_rad_per_mm),
         }
     }
 
@@ -137,6 +151,16 @@ impl ActualStrokes {
     /// Whether sections at different places along the tooth are cut differently while the axes rest.
     pub fn differs_along_tooth(&self) -> bool {
         !self.guide.is_none() || self.mounting.wobble_rad != 0.0 || self.noise_at_rest
+    }
+
+    /// Height of the ram over the middle of the face when it passes a place of the gear, mm.
+    pub fn ram_height_mm(&self, place_mm: DVec3) -> f64 {
+        self.mounting.height_mm(place_mm)
+    }
+
+    /// Whether the gear leans.
+    pub fn leans(&self) -> bool {
+        self.mounting.wobble_rad != 0.0
     }
 
     /// Cutter in the spindle's frame at a stroke coordinate; `at_rest` double strokes later where the feed rests from
@@ -157,11 +181,19 @@ impl ActualStrokes {
         CutterPose::new(self.gear, positions)
     }
 
-    /// A cutter that stands in the spindle's frame, in the gear's frame at a place along the tooth: led there by the
-    /// guide, seen from the gear's own axis.
-    pub fn placed(&self, pose: &CutterPose, z_mm: f64) -> Rigid2 {
+    /// A cutter that stands in the spindle's frame at a stroke coordinate, in the gear's frame at a place along the
+    /// tooth: led there by the guide, seen from the gear's own axis. Its helical guide's turn at that place is left to
+    /// the helix; here it is turned by what the ram is higher there, at the stroke's pitch point.
+    pub fn placed(&self, schedule: &StrokeSchedule, stroke: f64, pose: &CutterPose, z_mm: f64) -> Rigid2 {
         let shift_mm = self.guide.shift_mm(z_mm + self.mounting.axial_offset_mm, self.half_face_mm);
         let outwards = pose.center_mm.normalize_or(DVec2::X);
-        Rigid2::new(pose.angle_rad, pose.center_mm + outwards.rotate(shift_mm) - self.mounting.axis_mm(z_mm))
+        let angle_rad = match self.cutter_rad_per_mm {
+            Some(turn) if self.leans() || self.mounting.axial_offset_mm != 0.0 => {
+                let pitch_point_mm = schedule.linkage().curve().frame(schedule.phi_rad(stroke)).point_mm;
+                pose.angle_rad + turn * (self.ram_height_mm(pitch_point_mm.extend(z_mm)) - z_mm)
+            }
+            _ => pose.angle_rad,
+        };
+        Rigid2::new(angle_rad, pose.center_mm + outwards.rotate(shift_mm) - self.mounting.axis_mm(z_mm))
     }
 }

@@ -57,8 +57,7 @@ pub(super) fn derive(values: &mut Values) {
 /// How deep the cutter reaches into the blank at offset 0, mm.
 pub(super) fn reach_mm(values: &Values) -> Option<f64> {
     let (gear, cutter) = (values.view("gear"), values.view("tool.shaper_cutter"));
-    let shift = cutter.number("profile_shift_coefficient")?.max(0.0);
-    let reach = gear.number("addendum_coefficient")? + cutter.number("addendum_coefficient")? + shift;
+    let reach = gear.number("addendum_coefficient")? + cutter.number("addendum_coefficient")?;
     Some(reach * gear.number("module_mm")?)
 }
 

@@ -71,8 +71,10 @@ impl Finished {
         let kind = if gear.text("kind")? == "internal" { GearKind::Internal } else { GearKind::External };
         let teeth = [teeth_per_turn(values)?, values.view("tool.shaper_cutter").whole("teeth")?];
         let mesh = RoundMesh::new(kind, module_mm / helix_rad.cos(), transverse_rad, teeth);
-        let thicker_mm = 2.0 * gear.number("profile_shift_coefficient")? * module_mm * transverse_rad.tan()
-            + gear.number("tooth_thickness_allowance_mm")?;
+        let shift = |section: &str| values.view(section).number("profile_shift_coefficient");
+        let shifts = shift("gear")? + shift("tool.shaper_cutter")?;
+        let thicker_mm =
+            2.0 * shifts * module_mm * transverse_rad.tan() + gear.number("tooth_thickness_allowance_mm")?;
         // Rounding moves nothing where the pitch curves touch.
         let drawn_rad =
             if thicker_mm == 0.0 { Some(transverse_rad) } else { mesh.thicker_rad(transverse_rad, thicker_mm) };

@@ -25,7 +25,7 @@ const LEAST_ROOT_SHARE: f64 = 0.2;
 /// involute. A choice: a hundred times what the start of the involute is rounded by.
 const LEAST_INVOLUTE_SHARE: f64 = 1e-4;
 /// Key of the profile shift.
-pub(super) const PROFILE_SHIFT: &str = "tool.shaper_cutter.profile_shift_coefficient";
+pub(in crate::process::shaping) const PROFILE_SHIFT: &str = "tool.shaper_cutter.profile_shift_coefficient";
 /// The involute is followed down to the roll where its tangent leaves it by this much at the base circle: half the edge
 /// tables' tolerance.
 const BASE_CIRCLE_TOLERANCE_MM: f64 = 2.5e-8;

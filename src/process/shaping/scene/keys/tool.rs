@@ -70,7 +70,8 @@ pub(super) static SECTIONS: &[KeySection] = &[
                 default: Default::Number(0.0),
                 example: "0.0",
                 teach: "Profile shift x0 of the cutter; a new cutter has a positive one that falls with every \
-                    regrinding.",
+                    regrinding. Every operation is set to the depth at which the gear's teeth come out with the gear's \
+                    own x, as shops set it by span or balls.",
             },
             Key {
                 name: "thinning_mm",
