@@ -260,7 +260,8 @@ impl ShapingJob {
             }
             let commanded = Commanded { schedule: &schedule, program: program.as_ref() };
             let errors = scattered(&machine.errors, spec.stock_scatter, &schedule);
-            let actual = ActualStrokes::new(&errors, commanded, start_s, 0.5 * gear.face_width_mm, helix.as_ref());
+            let guide_turn = helix.as_ref().map(|of| of.cutter_rad_per_mm);
+            let actual = ActualStrokes::new(&errors, commanded, start_s, 0.5 * gear.face_width_mm, guide_turn);
             start_s += schedule.time_s(count as f64);
             let crank = machine.crank(gear.face_width_mm);
             let law = if spec.feed_during_stroke {
@@ -543,10 +544,10 @@ impl ShapingJob {
 /// How much further from the pitch curve the cutter's centre lies for the profile shifts of gear and cutter and the
 /// allowance of the gear's tooth thickness, mm.
 ///
-/// A cutter whose teeth are 2 x0 m tan(alpha) thicker thins the gear's by as much at any depth, and a shop sets it to the
-/// depth that makes the teeth of the drawing: new or reground, it cuts one gear. So teeth are made thicker by s = 2 (x +
-/// x0) m tan(alpha) + A than at the distance at which the pitch curves touch; of a round gear 2 x m tan(alpha) + A are
-/// left of it on the reference circle, exactly ([`RoundMesh`]).
+/// A cutter whose teeth are 2 x0 m tan(alpha) thicker thins the gear's by as much at any depth, and a shop sets it to
+/// the depth that makes the teeth of the drawing: new or reground, it cuts one gear. So teeth are made thicker by
+/// s = 2 (x + x0) m tan(alpha) + A than at the distance at which the pitch curves touch; of a round gear
+/// 2 x m tan(alpha) + A are left of it on the reference circle, exactly ([`RoundMesh`]).
 /// Road not taken: s / (2 tan(alpha)), the law of a rack, which makes teeth of module 3 with x = 0.5 on 24 teeth some
 /// 0.08 mm too thick, and takes 0.54 mm for 0.5 from a ring. On other gears the
 /// displacement is that of the round gear with as many teeth, and the thickness varies with the curvature by that

@@ -1,8 +1,8 @@
 //! Helical gears that sit too high or lean on the work spindle: the helix of the guide follows the ram, not the gear.
 //!
-//! To first order a gear that is moved by d and turned by w against the machine has its surface cut by h = -n . (d + w x
-//! p) off, n and p in space: an offset turns the teeth by it times tan(beta), and a lean runs out at the circumference,
-//! so that the helix makes waves of pitch of it. Both are nothing on spur gears.
+//! To first order a gear that is moved by d and turned by w against the machine has its surface cut off by
+//! h = -n . (d + w x p), n and p in space: an offset turns the teeth by it times tan(beta), and a lean runs out at the
+//! circumference, so that the helix makes waves of pitch of it. Both are nothing on spur gears.
 
 use crate::fixtures::closed_form;
 use crate::fixtures::shaped_gear::shaped_gear;

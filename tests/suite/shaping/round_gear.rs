@@ -53,8 +53,8 @@ fn a_profile_shift_makes_the_tooth_that_its_definition_says() {
     }
 }
 
-/// The distance of the axes by hand: inv(alpha_w) = inv(alpha) + 2 (x + x0) tan(alpha) / (z + z0), 66.860 mm for 24 teeth
-/// of module 3 that a new cutter of 20 teeth, x0 = 0.3, cuts without a shift of their own. Roots follow it.
+/// The distance of the axes by hand: inv(alpha_w) = inv(alpha) + 2 (x + x0) tan(alpha) / (z + z0), 66.860 mm for 24
+/// teeth of module 3 that a new cutter of 20 teeth, x0 = 0.3, cuts without a shift of their own. Roots follow it.
 #[test]
 fn a_new_cutter_stands_as_far_off_as_its_teeth_are_thicker() {
     let (z, z0, m) = (24.0, 20.0, 3.0);

@@ -63,9 +63,9 @@ impl ShapingJob {
         })
     }
 
-    /// How much more strokes leave on a flank of a leaning gear than in the poses that they have, in the section, mm, row
-    /// by row of each column. A pose is that of the height at which the ram passes the stroke's pitch point; the contact
-    /// beside it, on the normal through it, is passed at another one.
+    /// How much more strokes leave on a flank of a leaning gear than in the poses that they have, in the section, mm,
+    /// row by row of each column. A pose is that of the height at which the ram passes the stroke's pitch point; the
+    /// contact beside it, on the normal through it, is passed at another one.
     fn beside_pitch_points_mm(
         &self,
         helix: &Helix,

@@ -19,7 +19,6 @@ use crate::machine::{AxisMotion, Motion};
 use crate::machine_errors::{
     ActualMotion, AxisNoise, Course, Guide, MachineErrors, MachineMoment, NoiseLaw, WorkMounting,
 };
-use crate::process::shaping::helix::Helix;
 use crate::process::shaping::linkage::{CutterPose, StrokeSchedule};
 use crate::process::shaping::motion::gcode::AxisProgram;
 use crate::process::shaping::scene::model::StockScatter;
@@ -127,7 +126,7 @@ impl ActualStrokes {
         commanded: Commanded<'_>,
         start_s: f64,
         half_face_mm: f64,
-        helix: Option<&Helix>,
+        cutter_rad_per_mm: Option<f64>,
     ) -> Self {
         let seconds_per_stroke = commanded.schedule.time_s(1.0);
         let at = |time_s: f64| commanded.motion(time_s / seconds_per_stroke);
@@ -139,7 +138,7 @@ impl ActualStrokes {
             gear: commanded.schedule.linkage().gear(),
             half_face_mm,
             start_s,
-            cutter_rad_per_mm: helix.map(|of| of.cutter_rad_per_mm),
+            cutter_rad_per_mm,
         }
     }
 
