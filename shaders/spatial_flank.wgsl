@@ -17,8 +17,6 @@
 
 // Rake faces turn along the tool's axis (helical gashes).
 override TWISTED: bool = false;
-// Some of the records are arcs: software adapters pay for both ways of entering whichever is taken.
-override ARCS: bool = true;
 // Newton steps at most: four suffice from the tile's middle; a ray that grazes a round halves what is missing with
 // every step.
 const MAX_STEPS: u32 = 24u;
@@ -146,7 +144,7 @@ fn spatial_flank(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocat
             var residual: Lanes;
             var g_x = Lanes(1.0);
             var g_y: Lanes;
-            if ARCS && record.is_arc == 1u {
+            if record.is_arc == 1u {
                 let m_x = record.curve.x;
                 let m_y = record.curve.y;
                 let k = record.curve.w;

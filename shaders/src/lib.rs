@@ -147,12 +147,7 @@ pub const BLANK_LISTS: Stage = Stage {
     variants: &[&[("BACK", 0.0)], &[("BACK", 1.0)]],
 };
 
-/// Place in the variants of [`spatial_flank`].
-pub fn spatial_variant(twisted: bool, arcs: bool) -> usize {
-    2 * usize::from(twisted) + usize::from(arcs)
-}
-
-/// The spatial kernel: rake faces that are planes, and helical ones; edges without arcs, and all edges.
+/// The spatial kernel: rake faces that are planes, and helical ones.
 pub const fn spatial_flank(rows: Rows) -> Stage {
     Stage {
         name: "spatial_flank",
@@ -169,12 +164,7 @@ pub const fn spatial_flank(rows: Rows) -> Stage {
             ),
         },
         bindings: &["tiles", "visits", "records", "rays", "heights_mm", "passes", "unconverged"],
-        variants: &[
-            &[("TWISTED", 0.0), ("ARCS", 0.0)],
-            &[("TWISTED", 0.0), ("ARCS", 1.0)],
-            &[("TWISTED", 1.0), ("ARCS", 0.0)],
-            &[("TWISTED", 1.0), ("ARCS", 1.0)],
-        ],
+        variants: &[&[("TWISTED", 0.0)], &[("TWISTED", 1.0)]],
     }
 }
 

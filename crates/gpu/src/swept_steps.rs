@@ -11,7 +11,6 @@ use super::sweep_records::{SpatialPass, SpatialTile};
 use gearcut_core::dexel::SpatialField;
 use gearcut_core::passes::SweepPlan;
 use gearcut_core::passes::spatial::sweep_tile::SweepTile;
-use gearcut_shaders::spatial_variant;
 use std::ops::Range;
 
 /// (Dexel, pass) pairs of a launch at most: as for planar fields; a pair costs a few times as much.
@@ -48,12 +47,12 @@ impl SweptStep {
                 cells.resize(step.records.len() - first_record, record.cells);
             }
             let own = &step.records[first_record..];
+            let twisted = own.iter().any(|record| record.twist_rad_per_mm != 0.0);
             for part in parts(tile, whole, of_rows, threads) {
                 let list: Vec<u32> =
                     (0..own.len() as u32).filter(|&record| cells[record as usize] & part.cells != 0).collect();
                 step.dexel_passes += (part.dexels * list.len()) as u64;
                 for (round, some) in list.chunks(ROUND_RECORDS).enumerate() {
-                    let any = |is: fn(&SpatialPass) -> bool| some.iter().any(|&record| is(&own[record as usize]));
                     step.visits.push(TileVisit {
                         tile: SpatialTile {
                             middle: middle.extend(field.low_mm as f32).to_array(),
@@ -65,10 +64,7 @@ impl SweptStep {
                             ..bytemuck::Zeroable::zeroed()
                         },
                         round,
-                        variant: spatial_variant(
-                            any(|record| record.twist_rad_per_mm != 0.0),
-                            any(|record| record.is_arc == 1),
-                        ),
+                        variant: usize::from(twisted),
                         workgroups: part.groups.div_ceil(threads),
                         pairs: u64::from(part.groups) * (of_rows * some.len()) as u64,
                     });

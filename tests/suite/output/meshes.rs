@@ -66,7 +66,7 @@ fn every_shape_gives_a_closed_body() {
     }
 }
 
-/// Teeth stand aside of their target, and the gear is the true one, displaced within the blank's outline: where its
+/// Teeth are displaced from their target, and the gear is the true one, displaced within the blank's outline: where its
 /// teeth are pushed out by d they lose d^2 tan(alpha_a), and as much where they are drawn in, cos(alpha_a) being r_b /
 /// r_a. Corners between rays may leave 0.004 mm^2 a tooth beside it.
 #[test]

@@ -259,9 +259,9 @@ fn ends_of_the_drawing_that_no_flank_reaches_are_noted() {
     let noted = "48 flanks do not reach an end of [measure]";
     let [reached, beyond] = [[-1.5, 3.0], [-3.0, 4.0]].map(check);
     assert!(!reached.err.contains(noted) && beyond.err.contains(noted), "{}{}", reached.err, beyond.err);
-    for (told, [start_mm, end_mm]) in [(reached, ["69.", "78."]), (beyond, ["68.", "78."])] {
-        let size = |name: &str| told.out.lines().find(|line| line.contains(name)).expect("a size").to_owned();
+    for (printed, [start_mm, end_mm]) in [(reached, ["69.", "78."]), (beyond, ["68.", "78."])] {
+        let size = |name: &str| printed.out.lines().find(|line| line.contains(name)).expect("a size").to_owned();
         println!("{}\n{}", size("d_Nf"), size("d_Na"));
-        assert!(size("d_Nf").contains(start_mm) && size("d_Na").contains(end_mm), "{}", told.out);
+        assert!(size("d_Nf").contains(start_mm) && size("d_Na").contains(end_mm), "{}", printed.out);
     }
 }

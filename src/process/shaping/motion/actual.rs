@@ -180,7 +180,7 @@ impl ActualStrokes {
         CutterPose::new(self.gear, positions)
     }
 
-    /// A cutter that stands in the spindle's frame at a stroke coordinate, in the gear's frame at a place along the
+    /// A cutter's pose in the spindle's frame at a stroke coordinate, in the gear's frame at a place along the
     /// tooth: led there by the guide, seen from the gear's own axis. Its helical guide's turn at that place is left to
     /// the helix; here it is turned by what the ram is higher there, at the stroke's pitch point.
     pub fn placed(&self, schedule: &StrokeSchedule, stroke: f64, pose: &CutterPose, z_mm: f64) -> Rigid2 {
