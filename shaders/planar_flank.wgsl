@@ -13,8 +13,8 @@
 // Rows in fours; columns follow each other, each filled up to whole fours.
 @group(0) @binding(4) var<storage, read_write> heights_mm: array<vec4<f32>>;
 @group(0) @binding(5) var<storage, read_write> passes: array<vec4<u32>>;
-// One for each field.
-@group(0) @binding(6) var<storage, read_write> unconverged: array<atomic<u32>>;
+// Two for each field, of which the first counts iterations that stopped short.
+@group(0) @binding(6) var<storage, read_write> counts: array<atomic<u32>>;
 
 // Threads of a workgroup: one wave on every GPU, and the host's number.
 const WORKGROUP_THREADS: u32 = 64u;
@@ -134,6 +134,6 @@ fn planar_flank(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocati
     let unknown = first.unknown + second.unknown;
     let short = unknown.x + unknown.y + unknown.z + unknown.w;
     if short > 0u {
-        atomicAdd(&unconverged[tile.field], short);
+        atomicAdd(&counts[2u * tile.field], short);
     }
 }

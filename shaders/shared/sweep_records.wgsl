@@ -1,7 +1,7 @@
 // What the host hands over for rays in space, member by member the same as crates/gpu/src/sweep_records.rs; a test
 // compares both.
 
-// Dexels of a tile that visit the same passes, in groups of rows.
+// Dexels of a part of a tile, column by column in groups of rows.
 struct SpatialTile {
     // Direction of the tile's middle ray, and the lowest height that rays record.
     middle: vec4<f32>,
@@ -13,7 +13,9 @@ struct SpatialTile {
     first_record: u32,
     // Its field among those of the submission.
     field: u32,
-    unused: vec2<u32>,
+    // Groups of a column.
+    rows: u32,
+    unused: u32,
 }
 
 // One sweep of one segment over one tile. Axes: r from the tool's axis, q in the direction of rotation, y along the

@@ -9,6 +9,8 @@
 
 /// Threads of a workgroup: at least one wave on every GPU, and small enough for any.
 pub const WORKGROUP_THREADS: u32 = 64;
+/// Threads of the largest workgroup of any stage.
+pub const LARGEST_WORKGROUP: u32 = 128;
 /// Storage buffers that a stage binds at most: what WebGPU promises on every device.
 pub const STORAGE_BUFFERS: u32 = 8;
 
@@ -39,11 +41,11 @@ impl Rows {
         }
     }
 
-    /// Threads of a workgroup of the spatial kernel: those of two cells of a tile on a GPU; of one where a workgroup that
-    /// is not full takes as long as a full one.
+    /// Threads of a workgroup of the spatial kernel: those of a patch's cell on a GPU; of a tile's cell where a workgroup
+    /// that is not full takes as long as a full one.
     pub const fn spatial_threads(self) -> u32 {
         match self {
-            Self::Few => WORKGROUP_THREADS,
+            Self::Few => LARGEST_WORKGROUP,
             Self::Many => 8,
         }
     }
@@ -89,7 +91,7 @@ pub const fn planar_flank(rows: Rows) -> Stage {
             include_str!("../shared/entry.wgsl"),
             include_str!("../planar_flank.wgsl"),
         ),
-        bindings: &["tiles", "columns", "records", "row_phases", "heights_mm", "passes", "unconverged"],
+        bindings: &["tiles", "columns", "records", "row_phases", "heights_mm", "passes", "counts"],
         variants: match rows {
             Rows::Few => planar_variants!(1.0),
             Rows::Many => planar_variants!(2.0),
@@ -147,7 +149,8 @@ pub const BLANK_LISTS: Stage = Stage {
     variants: &[&[("BACK", 0.0)], &[("BACK", 1.0)]],
 };
 
-/// The spatial kernel: rake faces that are planes, and helical ones.
+/// The spatial kernel: rake faces that are planes, and helical ones; on GPUs with records that the host has listed, and
+/// with those of patches, whose cells it searches. [`spatial_variant`] finds the one that serves.
 pub const fn spatial_flank(rows: Rows) -> Stage {
     Stage {
         name: "spatial_flank",
@@ -155,17 +158,34 @@ pub const fn spatial_flank(rows: Rows) -> Stage {
             Rows::Few => concat!(
                 include_str!("../shared/sweep_records.wgsl"),
                 include_str!("../shared/lanes_1.wgsl"),
+                include_str!("../shared/sweep_entry.wgsl"),
+                include_str!("../shared/visits_searched.wgsl"),
                 include_str!("../spatial_flank.wgsl"),
             ),
             Rows::Many => concat!(
                 include_str!("../shared/sweep_records.wgsl"),
                 include_str!("../shared/lanes_4.wgsl"),
+                include_str!("../shared/sweep_entry.wgsl"),
+                include_str!("../shared/visits_listed.wgsl"),
                 include_str!("../spatial_flank.wgsl"),
             ),
         },
-        bindings: &["tiles", "visits", "records", "rays", "heights_mm", "passes", "unconverged"],
-        variants: &[&[("TWISTED", 0.0)], &[("TWISTED", 1.0)]],
+        bindings: &["tiles", "visits", "records", "rays", "heights_mm", "passes", "counts"],
+        variants: match rows {
+            Rows::Few => &[
+                &[("SEARCHED", 0.0), ("TWISTED", 0.0)],
+                &[("SEARCHED", 0.0), ("TWISTED", 1.0)],
+                &[("SEARCHED", 1.0), ("TWISTED", 0.0)],
+                &[("SEARCHED", 1.0), ("TWISTED", 1.0)],
+            ],
+            Rows::Many => &[&[("TWISTED", 0.0)], &[("TWISTED", 1.0)]],
+        },
     }
+}
+
+/// Place in the variants of [`spatial_flank`]; software adapters search nothing.
+pub fn spatial_variant(searched: bool, twisted: bool) -> usize {
+    2 * usize::from(searched) + usize::from(twisted)
 }
 
 /// All stages.

@@ -5,7 +5,7 @@
 
 use super::problem::GpuProblem;
 use super::waiting::wait;
-use gearcut_shaders::{STORAGE_BUFFERS, WORKGROUP_THREADS};
+use gearcut_shaders::{LARGEST_WORKGROUP, STORAGE_BUFFERS};
 use serde::Serialize;
 use std::fmt;
 
@@ -125,8 +125,8 @@ fn facts(adapter: &wgpu::Adapter) -> AdapterFacts {
     let (info, limits) = (adapter.get_info(), adapter.limits());
     let lacks = if limits.max_storage_buffers_per_shader_stage < STORAGE_BUFFERS {
         Some(format!("{STORAGE_BUFFERS} storage buffers in a stage"))
-    } else if limits.max_compute_invocations_per_workgroup < WORKGROUP_THREADS {
-        Some(format!("workgroups of {WORKGROUP_THREADS} threads"))
+    } else if limits.max_compute_invocations_per_workgroup < LARGEST_WORKGROUP {
+        Some(format!("workgroups of {LARGEST_WORKGROUP} threads"))
     } else {
         None
     };

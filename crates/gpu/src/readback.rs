@@ -119,6 +119,8 @@ pub struct InFlight {
 pub struct Returned {
     /// Iterations that stopped short below the height that was there.
     pub unconverged: u32,
+    /// (Dexel, record) pairs that the device has found worth a visit, if it was to search them.
+    pub visited: u32,
     /// Dexels after every step, or those of one column after the last.
     pub layers: Vec<Layer>,
     /// Figures of the columns after every step, if they are wanted.

@@ -39,13 +39,14 @@ pub fn cut_on_device(
     gpu.device.alive()?;
     let mut result = layer.clone();
     let mut stats = CutStats { dexels: field.len() as u64, ..CutStats::default() };
-    let mut unconverged = 0;
+    let (mut unconverged, mut searched) = (0, 0);
     let mut waiting: Vec<(Range<usize>, InFlight)> = Vec::new();
     let mut collect = |(tiles, in_flight): (Range<usize>, InFlight)| -> Result<(), GpuProblem> {
         let left = wait(gpu.collect(in_flight))?;
-        let Returned { layers, unconverged: short, .. } = &left[0];
+        let Returned { layers, unconverged: short, visited, .. } = &left[0];
         spread(field, &plan.tiles[tiles], gpu.rows.lanes(), &layers[0], &mut result);
         unconverged += u64::from(*short);
+        searched += u64::from(*visited);
         Ok(())
     };
     for tiles in batches(&plan.tiles, gpu.allowance(), gpu.rows.lanes())? {
@@ -59,7 +60,7 @@ pub fn cut_on_device(
         waiting.push((tiles, in_flight));
     }
     waiting.into_iter().try_for_each(collect)?;
-    Ok((result, CutStats { unconverged, ..stats }))
+    Ok((result, CutStats { unconverged, dexel_passes: stats.dexel_passes + searched, ..stats }))
 }
 
 impl WholeField for SweptField<'_> {
@@ -102,7 +103,7 @@ impl WholeField for SweptField<'_> {
         let field = &self.field;
         let stats = CutStats {
             dexels: (field.len() * inputs.steps.len()) as u64,
-            dexel_passes: inputs.dexel_passes,
+            dexel_passes: inputs.dexel_passes + u64::from(left.visited),
             unconverged: u64::from(left.unconverged),
         };
         // Every set is a step; an operation ends with its last one.
@@ -128,11 +129,11 @@ impl WholeField for SweptField<'_> {
     }
 }
 
-/// Plan that serves a device: the search for the cells in which a record can be lowest takes longer on the host than
-/// what it spares a GPU, and less than what it spares a software adapter.
+/// Plan that serves a device: a GPU searches the cells of patches itself; a software adapter would take longer than the
+/// host.
 fn plan(gpu: &Gpu, field: &SpatialField, set: &TurningPasses) -> SweepPlan {
     match gpu.rows {
-        Rows::Few => SweepPlan::in_tiles(field, set),
+        Rows::Few => SweepPlan::in_patches(field, set),
         Rows::Many => SweepPlan::in_cells(field, set),
     }
 }
@@ -204,6 +205,6 @@ pub(crate) struct SweptInputs {
     dexels: TileDexels,
     /// One for each set of passes.
     steps: Vec<SweptStep>,
-    /// (Dexel, pass) pairs.
+    /// (Dexel, pass) pairs, but for those that the device counts.
     dexel_passes: u64,
 }

@@ -5,7 +5,7 @@
 
 use bytemuck::{Pod, Zeroable};
 
-/// Dexels of a tile that visit the same passes, in groups of rows.
+/// Dexels of a part of a tile, column by column in groups of rows.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
 pub struct SpatialTile {
@@ -23,8 +23,10 @@ pub struct SpatialTile {
     pub first_record: u32,
     /// Its field among those of the submission.
     pub field: u32,
+    /// Groups of a column.
+    pub rows: u32,
     /// Structures end at multiples of sixteen bytes.
-    pub unused: [u32; 2],
+    pub unused: u32,
 }
 
 /// One sweep of one segment over one tile.

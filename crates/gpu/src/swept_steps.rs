@@ -11,6 +11,7 @@ use super::sweep_records::{SpatialPass, SpatialTile};
 use gearcut_core::dexel::SpatialField;
 use gearcut_core::passes::SweepPlan;
 use gearcut_core::passes::spatial::sweep_tile::SweepTile;
+use gearcut_shaders::{Rows, spatial_variant};
 use std::ops::Range;
 
 /// (Dexel, pass) pairs of a launch at most: as for planar fields; a pair costs a few times as much.
@@ -20,10 +21,10 @@ const LAUNCH_PAIRS: u64 = 1 << 27;
 #[derive(Default)]
 pub struct SweptStep {
     records: Vec<SpatialPass>,
-    /// Records that the parts of tiles visit, from the first one of the tile.
+    /// Records that the parts of tiles visit, from the first one of the tile, where the device does not search them.
     lists: Vec<u32>,
     visits: Vec<TileVisit<SpatialTile>>,
-    /// (Dexel, record) pairs.
+    /// (Dexel, record) pairs; the device counts those that it searches.
     pub dexel_passes: u64,
 }
 
@@ -33,7 +34,7 @@ impl SweptStep {
         let of_rows = gpu.rows.lanes();
         let threads = gpu.rows.spatial_threads();
         let pieces: Vec<_> = plan.segments.iter().map(pieces).collect();
-        let whole = plan.records.iter().all(|record| record.cells == u16::MAX);
+        let searched = plan.has_open_cells && gpu.rows == Rows::Few;
         let mut step = Self::default();
         let mut first_group = 0;
         for tile in &plan.tiles[tiles] {
@@ -48,11 +49,11 @@ impl SweptStep {
             }
             let own = &step.records[first_record..];
             let twisted = own.iter().any(|record| record.twist_rad_per_mm != 0.0);
-            for part in parts(tile, whole, of_rows, threads) {
+            for part in parts(tile, if searched { 0 } else { threads }, of_rows) {
                 let list: Vec<u32> =
                     (0..own.len() as u32).filter(|&record| cells[record as usize] & part.cells != 0).collect();
-                step.dexel_passes += (part.dexels * list.len()) as u64;
                 for (round, some) in list.chunks(ROUND_RECORDS).enumerate() {
+                    let skipped = if searched { round * ROUND_RECORDS } else { 0 };
                     step.visits.push(TileVisit {
                         tile: SpatialTile {
                             middle: middle.extend(field.low_mm as f32).to_array(),
@@ -60,15 +61,19 @@ impl SweptStep {
                             group_count: part.groups,
                             first_visit: step.lists.len() as u32,
                             visit_count: some.len() as u32,
-                            first_record: first_record as u32,
+                            first_record: (first_record + skipped) as u32,
+                            rows: part.rows,
                             ..bytemuck::Zeroable::zeroed()
                         },
                         round,
-                        variant: usize::from(twisted),
+                        variant: spatial_variant(searched, twisted),
                         workgroups: part.groups.div_ceil(threads),
                         pairs: u64::from(part.groups) * (of_rows * some.len()) as u64,
                     });
-                    step.lists.extend(some);
+                    if !searched {
+                        step.dexel_passes += (part.dexels * some.len()) as u64;
+                        step.lists.extend(some);
+                    }
                 }
                 first_group += part.groups;
             }
@@ -118,20 +123,23 @@ fn step<'a>(gpu: &'a Gpu, fields: &[(u32, &'a [SweptStep])], index: usize) -> Re
 struct TilePart {
     groups: u32,
     dexels: usize,
+    /// Groups of a column.
+    rows: u32,
     /// Its cells, as bits.
     cells: u16,
 }
 
-/// A tile whole, or in parts of a workgroup.
-fn parts(tile: &SweepTile, whole: bool, of_rows: usize, threads: u32) -> Vec<TilePart> {
-    let part = |[columns, rows]: [Range<usize>; 2], cells| TilePart {
-        groups: (columns.len() * rows.len().div_ceil(of_rows)) as u32,
-        dexels: columns.len() * rows.len(),
-        cells,
+/// A tile cell by cell; neighbours go together up to so many threads.
+fn parts(tile: &SweepTile, threads: u32, of_rows: usize) -> Vec<TilePart> {
+    let part = |[columns, rows]: [Range<usize>; 2], cells| {
+        let of_column = rows.len().div_ceil(of_rows);
+        TilePart {
+            groups: (columns.len() * of_column) as u32,
+            dexels: columns.len() * rows.len(),
+            rows: of_column as u32,
+            cells,
+        }
     };
-    if whole {
-        return vec![part([tile.columns.clone(), tile.rows.clone()], u16::MAX)];
-    }
     let mut parts: Vec<TilePart> = Vec::new();
     for [columns, rows] in tile.cells() {
         let cell = part([columns.clone(), rows.clone()], 1 << tile.cell(columns.start, rows.start));

@@ -296,12 +296,12 @@ fn candidates_of_whole_cells_leave_what_all_passes_near_their_rows_leave() {
                 (cut.expect("cuts"), apart_mm.get())
             };
             let (near, off_near) = all_in_turn(&|set| swept.by.plans(&swept.field, set).collect());
-            let (in_tiles, off_in_tiles) = all_in_turn(&|set| vec![SweepPlan::in_tiles(&swept.field, set)]);
-            println!("{scene}: frames may be {off_near} and {off_in_tiles} mm off");
-            println!("{scene}: {} pairs of {}", in_tiles.stats.dexel_passes, near.stats.dexel_passes);
-            assert!(in_tiles.stats.dexel_passes < near.stats.dexel_passes);
-            for (in_tiles, near) in in_tiles.layers.iter().zip(&near.layers) {
-                same_but_for_frames(&format!("{scene}, slot {slot}"), in_tiles, near, off_near + off_in_tiles);
+            let (in_patches, off_in_patches) = all_in_turn(&|set| vec![SweepPlan::in_patches(&swept.field, set)]);
+            println!("{scene}: frames may be {off_near} and {off_in_patches} mm off");
+            println!("{scene}: {} pairs of {}", in_patches.stats.dexel_passes, near.stats.dexel_passes);
+            assert!(in_patches.stats.dexel_passes < near.stats.dexel_passes);
+            for (in_patches, near) in in_patches.layers.iter().zip(&near.layers) {
+                same_but_for_frames(&format!("{scene}, slot {slot}"), in_patches, near, off_near + off_in_patches);
                 assert!(*near != swept.field.blank_layer());
             }
         }

@@ -35,7 +35,7 @@ const BOUND_MM: f64 = 1e-7;
 const FAST: &str = "operation.finish.roll_speed_deg_per_s=20";
 
 /// Rays round the middle of a flank: so many columns and rows so far apart, mm.
-fn patch(job: &BevelJob, tooth: u32, side: Side, [columns, rows]: [usize; 2], step_mm: [f64; 2]) -> FreeRays {
+pub fn patch(job: &BevelJob, tooth: u32, side: Side, [columns, rows]: [usize; 2], step_mm: [f64; 2]) -> FreeRays {
     let middle_mm = 0.5 * job.target_of(side).length_mm();
     let places = |count: usize, step: f64, middle: f64| -> Vec<f64> {
         (0..count).map(|i| middle + step * (i as f64 - 0.5 * (count - 1) as f64)).collect()
@@ -251,11 +251,11 @@ fn candidates_and_all_passes_leave_the_same_flank() {
         for operation in 0..job.operations.len() {
             let set = job.slots.of(operation, job.space_of(tooth, side));
             let plans =
-                [SweepPlan::new, SweepPlan::brute_force, SweepPlan::in_tiles].map(|plan| plan(&rays.field, set));
+                [SweepPlan::new, SweepPlan::brute_force, SweepPlan::in_patches].map(|plan| plan(&rays.field, set));
             assert!(plans[1].dexel_passes() > 4 * plans[0].dexel_passes());
             assert!(plans[1].dexel_passes() > 2 * plans[2].dexel_passes());
             let apart_mm = frames_apart_mm([&plans[0], &plans[2]]);
-            let [layer, all, in_tiles] = plans.map(|plan| {
+            let [layer, all, in_patches] = plans.map(|plan| {
                 let mut layer = rays.field.blank_layer();
                 Cpu::default().cut_spatial(&rays.field, &plan, &mut layer).expect("cuts");
                 layer
@@ -264,7 +264,7 @@ fn candidates_and_all_passes_leave_the_same_flank() {
             // Blades that plunge leave one surface during the dwell.
             let is_rolled = !job.operations[operation].settings.plunges();
             let same = if is_rolled { same_but_for_frames } else { same_heights_but_for_frames };
-            same(&format!("tooth {tooth} {side:?}"), &in_tiles, &all, apart_mm);
+            same(&format!("tooth {tooth} {side:?}"), &in_patches, &all, apart_mm);
             assert!(layer != rays.field.blank_layer());
         }
     }

@@ -6,6 +6,7 @@ mod failures;
 mod golden;
 mod hobbed_blank;
 mod kernel;
+mod patches;
 mod scenes;
 mod shaders;
 mod shaped_blank;

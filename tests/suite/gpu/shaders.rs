@@ -47,7 +47,8 @@ fn every_shader_is_valid_in_every_variant() {
                 .validate(&variant)
                 .unwrap_or_else(|error| panic!("{} with {constants:?}: {error:?}", stage.name));
             let entry = variant.entry_points.iter().find(|e| e.name == stage.name).expect("the stage's entry point");
-            let threads = if *stage == spatial_flank(Rows::Many) { 8 } else { WORKGROUP_THREADS };
+            let spatial = [Rows::Few, Rows::Many].into_iter().find(|&rows| *stage == spatial_flank(rows));
+            let threads = spatial.map_or(WORKGROUP_THREADS, Rows::spatial_threads);
             assert_eq!(entry.workgroup_size, [threads, 1, 1], "{}", stage.name);
             variants += 1;
         }
@@ -195,6 +196,7 @@ fn records_have_the_same_members_on_both_sides() {
                 visit_count,
                 first_record,
                 field,
+                rows,
                 unused,
             }
         ),

@@ -1,8 +1,10 @@
 //! The spatial kernel on the GPU against the native one: hobbed patches, tile by tile, and proof that the comparison
 //! can fail.
 
+use super::patches::all_of_patches;
 use crate::fixtures::oracle_cases::*;
 use crate::fixtures::parity::*;
+
 use crate::hobbing::drawn_teeth::cycloid_job;
 use gearcut::cut::cpu::Cpu;
 use gearcut::cut::{Backend, CutLayers, SweptBy, SweptField};
@@ -58,11 +60,11 @@ fn hobbed_flanks_are_cut_alike() {
         println!("{parity}");
         assert_eq!(parity.verdict_within(ADDED_NM), Ok(()), "{name}");
         all.merge(parity);
-        // As GPUs have it: tile by tile.
-        let in_tiles = SweepPlan::in_tiles(&field, &passes);
-        let (parity, ..) = cut_both_in_space(&gpu, name, &field, &in_tiles);
-        println!("{parity} in tiles");
-        assert_eq!(parity.verdict_within(ADDED_NM), Ok(()), "{name} in tiles");
+        // As GPUs have it: patch by patch.
+        let in_patches = SweepPlan::in_patches(&field, &passes);
+        let (parity, ..) = cut_both_in_space(&gpu, name, &field, &in_patches);
+        println!("{parity} in patches");
+        assert_eq!(parity.verdict_within(ADDED_NM), Ok(()), "{name} in patches");
         let swept = SweptField { field: field.clone(), operations: vec![vec![&passes]], by: SweptBy::Candidates };
         let own = |gpu: &Gpu| swept.clone().cut(gpu).expect("cuts").layers;
         let in_cells = SweepPlan::in_cells(&field, &passes);
@@ -75,10 +77,13 @@ fn hobbed_flanks_are_cut_alike() {
             (plan.dexel_passes()..=plan.tile_passes()).contains(&stats.dexel_passes),
             "{name}: two cells at a time"
         );
-        let mut of_tiles = field.blank_layer();
-        few.cut_spatial(&field, &in_tiles, &mut of_tiles).expect("cuts");
-        assert!(own(&few) == [of_tiles.clone()], "{name}: a GPU's job is its plan");
-        for layer in [&alone, &of_tiles] {
+        let mut of_patches = field.blank_layer();
+        let searched = few.cut_spatial(&field, &in_patches, &mut of_patches).expect("cuts");
+        assert!(own(&few) == [of_patches.clone()], "{name}: a GPU's job is its plan");
+        let by_all = all_of_patches(&few, &field, &in_patches);
+        assert!(of_patches == by_all.0, "{name}: a search on the device leaves something else than all of a patch");
+        assert!(searched.dexel_passes < by_all.1, "{name}: the device leaves out nothing");
+        for layer in [&alone, &of_patches] {
             let mut parity = Parity::default();
             parity.add("one row a thread", field.rows(), &native, &shifted, layer);
             assert_eq!(parity.verdict_within(ADDED_NM), Ok(()), "{name}");

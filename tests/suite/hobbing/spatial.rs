@@ -124,7 +124,7 @@ pub(super) fn same_as_brute_force(name: &str, passes: &TurningPasses, field: &Sp
         differ.len()
     );
     assert!(differ.is_empty(), "{name}: dexel {} of {}", differ[0], field.len());
-    let whole_tiles = SweepPlan::in_tiles(field, passes);
+    let whole_tiles = SweepPlan::in_patches(field, passes);
     same_but_for_frames(name, &run(&whole_tiles, false), &brute, frames_apart_mm([&plan, &whole_tiles]));
     brute
 }

@@ -8,8 +8,10 @@ use crate::records::FigureColumn;
 use gearcut_core::dexel::Layer;
 use std::ops::Range;
 
-/// Bytes of a height, of a pass, and of a count.
+/// Bytes of a height and of a pass.
 pub const VALUE_BYTES: usize = 4;
+/// Bytes of the counts of a field: iterations that stopped short, pairs that the device has counted.
+pub const COUNT_BYTES: usize = 8;
 
 /// What a part is copied from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -20,8 +22,8 @@ pub enum OutputBuffer {
     Passes,
     /// Figures of all fields that want them.
     Figures,
-    /// Iterations that stopped short, of every field.
-    Unconverged,
+    /// Counts of every field.
+    Counts,
 }
 
 /// Bytes of a field in a buffer that fields share.
@@ -74,8 +76,8 @@ impl ReturnedParts {
                     parts.at_the_end.extend(dexels(field, first_dexel + along.start..first_dexel + along.end));
                 }
             }
-            let bytes = VALUE_BYTES * field..VALUE_BYTES * (field + 1);
-            parts.at_the_end.push(ReturnedPart { field, source: OutputBuffer::Unconverged, bytes });
+            let bytes = COUNT_BYTES * field..COUNT_BYTES * (field + 1);
+            parts.at_the_end.push(ReturnedPart { field, source: OutputBuffer::Counts, bytes });
             first_dexel += share.dexels;
         }
         let Self { of_steps, of_figures, at_the_end } = &mut parts;
@@ -112,7 +114,7 @@ impl ReturnedParts {
                     }
                 }
                 OutputBuffer::Figures => of_field.figures.push(bytemuck::pod_collect_to_vec(bytes)),
-                OutputBuffer::Unconverged => of_field.unconverged = bytemuck::pod_read_unaligned(bytes),
+                OutputBuffer::Counts => [of_field.unconverged, of_field.visited] = bytemuck::pod_read_unaligned(bytes),
             }
         }
         returned

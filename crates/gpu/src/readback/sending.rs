@@ -2,7 +2,7 @@
 //!
 //! In: fields with their steps. Out: commands that bring back the parts in their order.
 
-use super::parts::{OutputBuffer, ReturnedPart, ReturnedParts, VALUE_BYTES};
+use super::parts::{COUNT_BYTES, OutputBuffer, ReturnedPart, ReturnedParts, VALUE_BYTES};
 use super::{Before, Input, ReadbackStep, Shipment, Wanted};
 use crate::device::Device;
 use crate::records::FigureColumn;
@@ -32,9 +32,9 @@ pub struct Sending<'a> {
 }
 
 impl Sending<'_> {
-    /// Parts one after the other.
+    /// Parts one after the other; where there are none, room for a number, which a binding must have.
     fn buffer(&self, label: &str, parts: &[&[u8]], usage: Use) -> wgpu::Buffer {
-        let bytes = parts.iter().map(|part| part.len()).sum::<usize>();
+        let bytes = parts.iter().map(|part| part.len()).sum::<usize>().max(VALUE_BYTES);
         let buffer = self.device.empty(label, bytes as u64, usage | Use::STORAGE | Use::COPY_DST);
         self.fill(&buffer, parts);
         buffer
@@ -132,8 +132,8 @@ impl Sending<'_> {
         let fields = &shipment.fields;
         let bytes = VALUE_BYTES * fields.iter().map(|share| share.dexels).sum::<usize>();
         let rays = (!shipment.rays.is_empty()).then(|| self.buffer("rays", &shipment.rays, Use::empty()));
-        let zeros = vec![0; VALUE_BYTES * fields.len()];
-        let unconverged = self.buffer("unconverged", &[&zeros], Use::COPY_SRC);
+        let zeros = vec![0; COUNT_BYTES * fields.len()];
+        let counts = self.buffer("counts", &[&zeros], Use::COPY_SRC);
         let mut layers = vec![self.dexels(bytes)];
         self.before(&shipment.before, &layers[0]);
         for (index, (step, parts)) in shipment.steps.iter().zip(&parts.of_steps).enumerate() {
@@ -146,7 +146,7 @@ impl Sending<'_> {
                 layers.push(next);
             }
             let [heights, passes] = &layers[layers.len() - 1];
-            self.run(step, rays.as_ref(), &[heights, passes, &unconverged], true);
+            self.run(step, rays.as_ref(), &[heights, passes, &counts], true);
             self.bring(parts, |source| if source == OutputBuffer::Heights { heights } else { passes });
         }
         let last = &layers[layers.len() - 1];
@@ -163,7 +163,7 @@ impl Sending<'_> {
         self.bring(&parts.at_the_end, |source| match source {
             OutputBuffer::Heights => &last[0],
             OutputBuffer::Passes => &last[1],
-            OutputBuffer::Figures | OutputBuffer::Unconverged => &unconverged,
+            OutputBuffer::Figures | OutputBuffer::Counts => &counts,
         });
     }
 }

@@ -21,7 +21,7 @@ use super::sweep_near::{Ball, near_passes};
 use super::sweep_regions::{RAYS, Region, SIDE};
 use super::sweep_samples::{Sampled, SweepCandidate, SweepFrame};
 use super::sweep_starts::find_starts;
-use super::sweep_tile::{CELLS, SweepTile, TILE_COLUMNS, TILE_ROWS, cells_between};
+use super::sweep_tile::{CELL, CELLS, PATCH_CELL, SweepTile, TILE_COLUMNS, TILE_ROWS, cells_between};
 use super::turning_passes::{BladePass, TurningPasses};
 use crate::dexel::{Ray, SpatialField};
 use crate::tool::edge::Segment;
@@ -55,6 +55,8 @@ pub struct SweepPlan {
     pub records: Vec<SweepRecord>,
     /// Segments that the records name: those of all edges of the tool, one edge after another.
     pub segments: Arc<[Segment]>,
+    /// In which cells of its tile a record can be lowest is left to a device; records name all of them.
+    pub has_open_cells: bool,
 }
 
 impl SweepPlan {
@@ -63,11 +65,11 @@ impl SweepPlan {
         SweepPlanner::new(field, set, Considered::Candidates).plan()
     }
 
-    /// Plan with those candidates of whole tiles that their nine rays leave, for devices: where in the tile each can be
-    /// lowest is not looked for, and Newton's method starts from one height. Searching cells takes longer than what it
-    /// spares a device, which visits all dexels of a tile.
-    pub fn in_tiles(field: &SpatialField, set: &TurningPasses) -> Self {
-        SweepPlanner::new(field, set, Considered::CandidatesInTiles).plan()
+    /// Plan with those candidates of whole patches that their nine rays leave, for devices that search the cells of a
+    /// patch themselves: a patch is four tiles, and a frame made for it serves all of them. Newton's method starts from
+    /// one height.
+    pub fn in_patches(field: &SpatialField, set: &TurningPasses) -> Self {
+        SweepPlanner::new(field, set, Considered::CandidatesInPatches).plan()
     }
 
     /// Plan with candidates only, cell by cell, in tiles for frames in f32: for devices whose pairs cost as much as the
@@ -145,9 +147,9 @@ struct SweepPlanner<'a> {
 enum Considered {
     /// Those that may leave the lowest surface.
     Candidates,
-    /// The same, tile by tile and not cell by cell.
-    CandidatesInTiles,
-    /// Candidates cell by cell, in the tiles of `CandidatesInTiles`.
+    /// The same, patch by patch and not cell by cell.
+    CandidatesInPatches,
+    /// Candidates cell by cell, in tiles for frames in f32.
     CandidatesInCells,
     /// All whose blades come near the field.
     Near,
@@ -163,17 +165,19 @@ impl<'a> SweepPlanner<'a> {
     }
 
     fn plan(&self) -> SweepPlan {
-        let mut plan = SweepPlan { segments: self.segments().clone(), ..SweepPlan::default() };
+        let has_open_cells = self.passes == Considered::CandidatesInPatches;
+        let mut plan = SweepPlan { segments: self.segments().clone(), has_open_cells, ..SweepPlan::default() };
         if self.field.is_empty() {
             return plan;
         }
         let whole = match self.passes {
             Considered::NearUnculled => Region::in_tiles(self.field, [TILE_COLUMNS, TILE_ROWS]),
-            Considered::CandidatesInTiles | Considered::CandidatesInCells => Region::in_small_tiles(self.field),
+            Considered::CandidatesInPatches => Region::in_patches(self.field),
+            Considered::CandidatesInCells => Region::in_small_tiles(self.field),
             _ => Region::whole(self.field),
         };
         let near = match self.passes {
-            Considered::Candidates | Considered::CandidatesInTiles | Considered::CandidatesInCells => {
+            Considered::Candidates | Considered::CandidatesInPatches | Considered::CandidatesInCells => {
                 let mut tiles = vec![None; whole.tiles()];
                 for ceiling_mm in self.ceilings_mm {
                     self.search(&whole, ceiling_mm, &mut tiles);
@@ -266,8 +270,8 @@ impl<'a> SweepPlanner<'a> {
             // What is higher was not looked for, and may be the surface here.
             return;
         }
-        if self.passes == Considered::CandidatesInTiles && region.is_tile() {
-            tiles[0] = Some(self.whole_tile(region, frame, alive));
+        if self.passes == Considered::CandidatesInPatches && region.is_tile() {
+            tiles[0] = Some(self.patch(region, frame, alive));
             return;
         }
         // Only what is left is seen from a new frame: a sweep in another frame costs as much as its samples.
@@ -361,16 +365,16 @@ impl<'a> SweepPlanner<'a> {
         RegionBounds { field: self.field, segments: self.segments(), region, frame, ceiling_mm }
     }
 
-    /// A tile in a frame about its middle. Newton's method starts from the mean height of the rays that surely enter a
+    /// A patch in a frame about its middle. Newton's method starts from the mean height of the rays that surely enter a
     /// candidate, or from the lowest one.
-    fn whole_tile(&self, region: &Region, frame: &SweepFrame, mut alive: Vec<(Sampled, u8)>) -> FoundTile {
+    fn patch(&self, region: &Region, frame: &SweepFrame, mut alive: Vec<(Sampled, u8)>) -> FoundTile {
         let (origin_mm, reach_mm) = self.surroundings(&region.dexels());
         let mut frame = self.frame(origin_mm, reach_mm, frame, &mut alive);
         for (record, (sampled, _)) in frame.records.iter_mut().zip(&alive) {
             record.start.height_mm[0] = sampled.mean_entry_mm().unwrap_or(2.0 * self.field.low_mm);
         }
         let (columns, rows) = (region.columns.dexels(), region.rows.dexels());
-        (SweepTile { columns, rows, origin_mm, records: 0..frame.records.len() }, frame.records)
+        (SweepTile { columns, rows, cell: PATCH_CELL, origin_mm, records: 0..frame.records.len() }, frame.records)
     }
 
     /// Bounds the parts of a tile: a record costs more in the kernel than here, and it is told in which cells it can be
@@ -421,7 +425,7 @@ impl<'a> SweepPlanner<'a> {
                 records[*index as usize].cells = *cells;
             }
         }
-        let tile = SweepTile { columns, rows, origin_mm, records: 0..records.len() };
+        let tile = SweepTile { columns, rows, cell: CELL, origin_mm, records: 0..records.len() };
         find_starts(self.field, &tile, self.segments(), &mut records);
         (tile, records)
     }

@@ -10,7 +10,7 @@
     reason = "the instruction set of the dispatching function holds only for what is inlined into it"
 )]
 
-use super::sweep_tile::{TILE_COLUMNS, TILE_ROWS};
+use super::sweep_tile::{CELLS, PATCH_CELL, TILE_COLUMNS, TILE_ROWS};
 use crate::dexel::SpatialField;
 use std::ops::Range;
 
@@ -29,6 +29,8 @@ const LONGEST_TILE_MM: f64 = 1.7;
 /// culled better and have fewer dexels for a device's threads: of a bevel blank with rays 0.5 mm apart, tiles of 1.7 mm
 /// would have a dozen.
 const LONGEST_FRAME_MM: f64 = 10.0;
+/// The same of a patch, mm.
+const LONGEST_PATCH_MM: f64 = 4.0;
 
 /// Lines of dexels in one direction.
 #[derive(Debug, Clone, Copy)]
@@ -125,8 +127,17 @@ impl<'a> Region<'a> {
 
     /// The same in tiles for frames in f32, which may not reach far in either direction.
     pub fn in_small_tiles(field: &'a SpatialField) -> Self {
-        let tile = |most, second| short_tile(most, LONGEST_FRAME_MM, field, second);
-        Self::in_tiles(field, [tile(TILE_COLUMNS, [1, 0]), tile(TILE_ROWS, [0, 1])])
+        Self::in_frames(field, [TILE_COLUMNS, TILE_ROWS], LONGEST_FRAME_MM)
+    }
+
+    /// The same in patches, whose cells a device searches.
+    pub fn in_patches(field: &'a SpatialField) -> Self {
+        Self::in_frames(field, PATCH_CELL.map(|lines| CELLS * lines), LONGEST_PATCH_MM)
+    }
+
+    fn in_frames(field: &'a SpatialField, [columns, rows]: [usize; 2], longest_mm: f64) -> Self {
+        let tile = |most, second| short_tile(most, longest_mm, field, second);
+        Self::in_tiles(field, [tile(columns, [1, 0]), tile(rows, [0, 1])])
     }
 
     /// All of a field, in tiles of so many columns and rows.

@@ -7,8 +7,13 @@ use std::ops::Range;
 pub const TILE_COLUMNS: usize = 16;
 /// Rows of a tile at most, a power of two: whole chunks of every backend.
 pub const TILE_ROWS: usize = 32;
-/// Cells of a tile along each side: a record is told in which it can be lowest.
+/// Cells of a tile along each side: a record says in which it can be lowest.
 pub const CELLS: usize = 4;
+/// Columns and rows of a cell.
+pub const CELL: [usize; 2] = [TILE_COLUMNS / CELLS, TILE_ROWS / CELLS];
+/// Columns and rows of a cell of a patch, whose cells a device searches: two or four waves of it. Cells of 16 by 32
+/// visit twice as many records, and those of 4 by 8 take as long to search as to cut.
+pub const PATCH_CELL: [usize; 2] = [8, 16];
 
 /// Some dexels and the sweeps that they visit.
 #[derive(Debug, Clone, PartialEq)]
@@ -17,6 +22,8 @@ pub struct SweepTile {
     pub columns: Range<usize>,
     /// Rows of the field.
     pub rows: Range<usize>,
+    /// Columns and rows of its cells; the last ones may have fewer.
+    pub cell: [usize; 2],
     /// Origin of the tile's frame, gear frame, mm; axes are parallel to the gear's.
     pub origin_mm: DVec3,
     /// Records in [`super::sweep_plan::SweepPlan::records`], in order of pass id.
@@ -26,7 +33,7 @@ pub struct SweepTile {
 impl SweepTile {
     /// Cell of a dexel: bit of [`super::sweep::SweepRecord::cells`].
     pub fn cell(&self, column: usize, row: usize) -> usize {
-        cell_of([self.columns.start, self.rows.start], [column, row])
+        cell_of([self.columns.start, self.rows.start], self.cell, [column, row])
     }
 
     /// Columns and rows of its cells, in the order of their bits.
@@ -35,8 +42,8 @@ impl SweepTile {
             let end = lines.end;
             lines.clone().step_by(of).map(move |first| first..end.min(first + of))
         };
-        let rows = parts(&self.rows, TILE_ROWS / CELLS);
-        parts(&self.columns, TILE_COLUMNS / CELLS)
+        let rows = parts(&self.rows, self.cell[1]);
+        parts(&self.columns, self.cell[0])
             .flat_map(move |columns| rows.clone().map(move |rows| [columns.clone(), rows]))
     }
 
@@ -46,14 +53,13 @@ impl SweepTile {
     }
 }
 
-fn cell_of(from: [usize; 2], [column, row]: [usize; 2]) -> usize {
-    let (columns, rows) = (TILE_COLUMNS / CELLS, TILE_ROWS / CELLS);
+fn cell_of(from: [usize; 2], [columns, rows]: [usize; 2], [column, row]: [usize; 2]) -> usize {
     CELLS * ((column - from[0]) / columns) + (row - from[1]) / rows
 }
 
 /// Cells, as bits, of some columns and rows of a tile that begins at this column and row.
 pub(super) fn cells_between(from: [usize; 2], [columns, rows]: [Range<usize>; 2]) -> u16 {
     columns
-        .flat_map(|column| rows.clone().map(move |row| cell_of(from, [column, row])))
+        .flat_map(|column| rows.clone().map(move |row| cell_of(from, CELL, [column, row])))
         .fold(0, |cells, cell| cells | 1 << cell)
 }

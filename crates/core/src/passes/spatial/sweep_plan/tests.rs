@@ -78,7 +78,7 @@ fn a_guessed_ceiling_changes_nothing_wherever_it_lies() {
     let highest_mm = all.heights_mm.iter().copied().fold(f32::NEG_INFINITY, f32::max);
     let [lowest_mm, highest_mm] = [lowest_mm, highest_mm].map(f64::from);
     assert!(lowest_mm > field.low_mm && highest_mm > lowest_mm + 0.5, "{lowest_mm} to {highest_mm}");
-    for passes in [Considered::Candidates, Considered::CandidatesInTiles] {
+    for passes in [Considered::Candidates, Considered::CandidatesInPatches] {
         let plan =
             |field: &SpatialField, ceilings_mm: [f64; 2]| SweepPlanner { field, set: &set, passes, ceilings_mm }.plan();
         let without = plan(&field, [f64::INFINITY; 2]);
@@ -91,7 +91,7 @@ fn a_guessed_ceiling_changes_nothing_wherever_it_lies() {
             assert!(guessed.tiles.iter().zip(&without.tiles).all(|(a, b)| same_tiles(a, b)));
             assert!(guessed.tiles.len() == without.tiles.len());
             let left = cut(&field, &guessed);
-            assert!(passes == Considered::CandidatesInTiles || left == all, "{ceiling_mm} mm");
+            assert!(passes == Considered::CandidatesInPatches || left == all, "{ceiling_mm} mm");
             assert!(left == cut(&field, &without), "{ceiling_mm} mm");
         }
         println!("tiles found below each ceiling: {found:?} of {}", without.tiles.len());
