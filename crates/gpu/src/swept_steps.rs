@@ -50,30 +50,36 @@ impl SweptStep {
             let own = &step.records[first_record..];
             let twisted = own.iter().any(|record| record.twist_rad_per_mm != 0.0);
             for part in parts(tile, if searched { 0 } else { threads }, of_rows) {
-                let list: Vec<u32> =
-                    (0..own.len() as u32).filter(|&record| cells[record as usize] & part.cells != 0).collect();
-                for (round, some) in list.chunks(ROUND_RECORDS).enumerate() {
-                    let skipped = if searched { round * ROUND_RECORDS } else { 0 };
+                let is_visited = |record: &u32| cells[*record as usize] & part.cells != 0;
+                let first_visit = step.lists.len();
+                if !searched {
+                    step.lists.extend((0..own.len() as u32).filter(is_visited));
+                    step.dexel_passes += (part.dexels * (step.lists.len() - first_visit)) as u64;
+                }
+                let visits = if searched { own.len() } else { step.lists.len() - first_visit };
+                for (round, before) in (0..visits).step_by(ROUND_RECORDS).enumerate() {
+                    let visit_count = ROUND_RECORDS.min(visits - before);
+                    let [first_visit, first_record] = if searched {
+                        [first_visit, first_record + before]
+                    } else {
+                        [first_visit + before, first_record]
+                    };
                     step.visits.push(TileVisit {
                         tile: SpatialTile {
                             middle: middle.extend(field.low_mm as f32).to_array(),
                             first_group,
                             group_count: part.groups,
-                            first_visit: step.lists.len() as u32,
-                            visit_count: some.len() as u32,
-                            first_record: (first_record + skipped) as u32,
+                            first_visit: first_visit as u32,
+                            visit_count: visit_count as u32,
+                            first_record: first_record as u32,
                             rows: part.rows,
                             ..bytemuck::Zeroable::zeroed()
                         },
                         round,
                         variant: spatial_variant(searched, twisted),
                         workgroups: part.groups.div_ceil(threads),
-                        pairs: u64::from(part.groups) * (of_rows * some.len()) as u64,
+                        pairs: u64::from(part.groups) * (of_rows * visit_count) as u64,
                     });
-                    if !searched {
-                        step.dexel_passes += (part.dexels * some.len()) as u64;
-                        step.lists.extend(some);
-                    }
                 }
                 first_group += part.groups;
             }

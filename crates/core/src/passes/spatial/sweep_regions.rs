@@ -29,7 +29,8 @@ const LONGEST_TILE_MM: f64 = 1.7;
 /// culled better and have fewer dexels for a device's threads: of a bevel blank with rays 0.5 mm apart, tiles of 1.7 mm
 /// would have a dozen.
 const LONGEST_FRAME_MM: f64 = 10.0;
-/// The same of a patch, mm.
+/// Length of a patch that is more than a tile, mm: of 4.9 mm by 6.7 mm heights were 2.1 nm off, of 2.5 mm by 6.7 mm
+/// 0.95 nm.
 const LONGEST_PATCH_MM: f64 = 4.0;
 
 /// Lines of dexels in one direction.
@@ -127,17 +128,20 @@ impl<'a> Region<'a> {
 
     /// The same in tiles for frames in f32, which may not reach far in either direction.
     pub fn in_small_tiles(field: &'a SpatialField) -> Self {
-        Self::in_frames(field, [TILE_COLUMNS, TILE_ROWS], LONGEST_FRAME_MM)
+        Self::in_tiles(field, Self::small_tile(field))
     }
 
-    /// The same in patches, whose cells a device searches.
+    /// The same in patches, whose cells a device searches: up to four such tiles.
     pub fn in_patches(field: &'a SpatialField) -> Self {
-        Self::in_frames(field, PATCH_CELL.map(|lines| CELLS * lines), LONGEST_PATCH_MM)
+        let [columns, rows] = PATCH_CELL.map(|lines| CELLS * lines);
+        let patch = |most, second| short_tile(most, LONGEST_PATCH_MM, field, second);
+        let [tile_columns, tile_rows] = Self::small_tile(field);
+        Self::in_tiles(field, [patch(columns, [1, 0]).max(tile_columns), patch(rows, [0, 1]).max(tile_rows)])
     }
 
-    fn in_frames(field: &'a SpatialField, [columns, rows]: [usize; 2], longest_mm: f64) -> Self {
-        let tile = |most, second| short_tile(most, longest_mm, field, second);
-        Self::in_tiles(field, [tile(columns, [1, 0]), tile(rows, [0, 1])])
+    fn small_tile(field: &SpatialField) -> [usize; 2] {
+        let tile = |most, second| short_tile(most, LONGEST_FRAME_MM, field, second);
+        [tile(TILE_COLUMNS, [1, 0]), tile(TILE_ROWS, [0, 1])]
     }
 
     /// All of a field, in tiles of so many columns and rows.
