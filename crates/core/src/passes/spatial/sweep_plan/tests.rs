@@ -72,7 +72,7 @@ fn a_motion_with_steps_loses_no_pass() {
 #[test]
 fn a_guessed_ceiling_changes_nothing_wherever_it_lies() {
     let set = hob_passes(|_| DVec3::ZERO);
-    let field = plane(96, 0.02, 0.01);
+    let field = plane(192, 0.02, 0.005);
     let all = cut(&field, &SweepPlan::brute_force(&field, &set));
     let lowest_mm = all.heights_mm.iter().copied().fold(f32::INFINITY, f32::min);
     let highest_mm = all.heights_mm.iter().copied().fold(f32::NEG_INFINITY, f32::max);
@@ -82,7 +82,7 @@ fn a_guessed_ceiling_changes_nothing_wherever_it_lies() {
         let plan =
             |field: &SpatialField, ceilings_mm: [f64; 2]| SweepPlanner { field, set: &set, passes, ceilings_mm }.plan();
         let without = plan(&field, [f64::INFINITY; 2]);
-        let across_mm = 0.25 * lowest_mm + 0.75 * highest_mm;
+        let across_mm = 0.15 * lowest_mm + 0.85 * highest_mm;
         let mut found = Vec::new();
         for ceiling_mm in [lowest_mm - 0.1, across_mm, highest_mm + 1.0, f64::INFINITY] {
             found.push(plan(&field, [ceiling_mm; 2]).tiles.len());
