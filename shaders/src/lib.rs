@@ -11,6 +11,9 @@
 pub const WORKGROUP_THREADS: u32 = 64;
 /// Threads of the largest workgroup of any stage.
 pub const LARGEST_WORKGROUP: u32 = 128;
+/// Records of a tile in one launch at most: each takes up to 34 iterations of a thread's loops, of which llvmpipe ends
+/// all after 65,535 without a word. Candidates are a few dozen; a tile with more goes through in rounds.
+pub const ROUND_RECORDS: u32 = 1024;
 /// Storage buffers that a stage binds at most: what WebGPU promises on every device.
 pub const STORAGE_BUFFERS: u32 = 8;
 

@@ -9,9 +9,6 @@ use bytemuck::Pod;
 
 /// Workgroups in one dimension: what every WebGPU device has.
 pub const WORKGROUPS: usize = 65_535;
-/// Records of a tile in one launch at most: each takes up to 34 iterations of a thread's loops, of which llvmpipe ends
-/// all after 65,535 without a word. Candidates are a few dozen; a tile with more goes through in rounds.
-pub const ROUND_RECORDS: usize = 1024;
 
 /// A tile with the records that one launch visits.
 #[derive(Debug, Clone, Copy)]

@@ -5,12 +5,12 @@
 
 use crate::batches::{self, Batch};
 use crate::context::Gpu;
-use crate::launches::{ROUND_RECORDS, TileVisit, launches};
+use crate::launches::{TileVisit, launches};
 use crate::readback::{Input, ReadbackStep};
 use crate::{compose, records};
 use gearcut_core::dexel::Field;
 use gearcut_core::passes::CutPlan;
-use gearcut_shaders::{QUAD_ROWS, WORKGROUP_THREADS, planar_variant};
+use gearcut_shaders::{QUAD_ROWS, ROUND_RECORDS, WORKGROUP_THREADS, planar_variant};
 
 /// (Dexel, pass) pairs of a launch at most: a twentieth of a second on a GPU of 1e10 pairs a second. Display drivers
 /// reset devices that do not answer for two seconds, so even one that is twenty times slower stays below that.
@@ -53,7 +53,7 @@ impl PlanarStep {
             let dexels = (piece.columns.len() * rows) as u64;
             // A shader that knows no arcs is quicker, and so is one whose poses rest.
             let arcs = own.iter().any(|record| record.is_arc == 1);
-            let at_once = ((LAUNCH_PAIRS / dexels) as usize).clamp(1, ROUND_RECORDS);
+            let at_once = ((LAUNCH_PAIRS / dexels) as usize).clamp(1, ROUND_RECORDS as usize);
             for (round, some) in own.chunks(at_once).enumerate() {
                 step.visits.push(TileVisit {
                     tile: records::FlankTile {

@@ -4,14 +4,14 @@
 //! Every tile says where its groups and records lie among those of all.
 
 use super::context::Gpu;
-use super::launches::{ROUND_RECORDS, TileVisit, launches};
+use super::launches::{TileVisit, launches};
 use super::readback::{Input, ReadbackStep};
 use super::sweep_compose::{compose, pieces};
 use super::sweep_records::{SpatialPass, SpatialTile};
 use gearcut_core::dexel::SpatialField;
 use gearcut_core::passes::SweepPlan;
 use gearcut_core::passes::spatial::sweep_tile::SweepTile;
-use gearcut_shaders::{Rows, spatial_variant};
+use gearcut_shaders::{ROUND_RECORDS, Rows, spatial_variant};
 use std::ops::Range;
 
 /// (Dexel, pass) pairs of a launch at most: as for planar fields; a pair costs a few times as much.
@@ -57,8 +57,8 @@ impl SweptStep {
                     step.dexel_passes += (part.dexels * (step.lists.len() - first_visit)) as u64;
                 }
                 let visits = if searched { own.len() } else { step.lists.len() - first_visit };
-                for (round, before) in (0..visits).step_by(ROUND_RECORDS).enumerate() {
-                    let visit_count = ROUND_RECORDS.min(visits - before);
+                for (round, before) in (0..visits).step_by(ROUND_RECORDS as usize).enumerate() {
+                    let visit_count = (ROUND_RECORDS as usize).min(visits - before);
                     let [first_visit, first_record] = if searched {
                         [first_visit, first_record + before]
                     } else {

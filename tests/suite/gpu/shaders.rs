@@ -1,6 +1,8 @@
 //! The shaders as naga sees them: every file in every variant is valid, and both sides of the border agree.
 
-use gearcut::gpu::shaders::{Rows, STAGES, STORAGE_BUFFERS, Stage, WORKGROUP_THREADS, spatial_flank};
+use gearcut::gpu::shaders::{
+    BLANK_RAYS, ROUND_RECORDS, Rows, STAGES, STORAGE_BUFFERS, Stage, WORKGROUP_THREADS, spatial_flank,
+};
 use gearcut::gpu::{blank_records, records, sweep_records};
 use naga::back::pipeline_constants::process_overrides;
 use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
@@ -241,11 +243,12 @@ fn records_have_the_same_members_on_both_sides() {
 #[test]
 fn constants_agree() {
     for (stage, name, ours) in [
-        ("blank_rays", "LEDGER_HEAD", blank_records::LEDGER_HEAD as u32),
-        ("blank_rays", "NO_ROOM", blank_records::NO_ROOM),
-        ("blank_rays", "NO_ACCOUNT", blank_records::NO_ACCOUNT),
+        (BLANK_RAYS, "LEDGER_HEAD", blank_records::LEDGER_HEAD as u32),
+        (BLANK_RAYS, "NO_ROOM", blank_records::NO_ROOM),
+        (BLANK_RAYS, "NO_ACCOUNT", blank_records::NO_ACCOUNT),
+        (spatial_flank(Rows::Few), "ROUND_RECORDS", ROUND_RECORDS),
     ] {
-        let (module, _) = checked(stage_of(stage));
+        let (module, _) = checked(&stage);
         let (_, constant) = module.constants.iter().find(|(_, c)| c.name.as_deref() == Some(name)).expect(name);
         let naga::Expression::Literal(Literal::U32(theirs)) = module.global_expressions[constant.init] else {
             panic!("{name} is no literal")

@@ -304,6 +304,14 @@ mod slow {
             layer
         };
         assert!(cut(Some(300_000), &plan) == whole, "rounds change the result");
+        // A GPU that searches them, round by round, leaves what it leaves by all of them.
+        let gpu = software_gpu(GpuOptions { rows: Some(Rows::Few), ..strict() });
+        let searched = SweepPlan { has_open_cells: true, ..plan.clone() };
+        let mut layer = few.blank_layer();
+        let visits = gpu.cut_spatial(&few, &searched, &mut layer).expect("cuts").dexel_passes;
+        let (all, of_all) = all_of_patches(&gpu, &few, &searched);
+        println!("{visits} visits of {of_all}");
+        assert!(layer == all && 4 * visits < of_all, "{visits} visits of {of_all}");
         // Alive: the first round alone leaves something else.
         let mut short = plan.clone();
         short.tiles.iter_mut().for_each(|tile| tile.records.end = tile.records.start + 1024.min(tile.records.len()));
