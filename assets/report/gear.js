@@ -203,7 +203,9 @@ gearcut.loaded.then((data) => {
   scene.add(finished);
 
   flankShape.computeBoundingSphere();
-  const gearRadius = flankShape.boundingSphere.radius;
+  bodyShape.computeBoundingSphere();
+  // A ring's rim lies beyond its flanks.
+  const gearRadius = Math.max(...[flankShape, bodyShape].map((shape) => shape.boundingSphere.radius));
   const { mate } = description;
   // Bevel gears stand away from the middle of their axis, which is the apex.
   const origin = new THREE.Vector3(0, 0, flankShape.boundingSphere.center.z);
@@ -276,7 +278,8 @@ gearcut.loaded.then((data) => {
   const step = Math.PI / 24;
   const actions = {
     home: () => look(home, origin, fitting()),
-    front: () => look(new THREE.Vector3(0, -0.001, 1).normalize(), origin, fitting()),
+    // Seen from the front, the nearer end face is larger than the sphere around the gear.
+    front: () => look(new THREE.Vector3(0, -0.001, 1).normalize(), origin, 1.12 * fitting()),
     flank: lookAtFlank,
     closer: () => turn(0, 0, 0.8),
     further: () => turn(0, 0, 1.25),

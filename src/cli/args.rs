@@ -36,9 +36,9 @@ pub use texture::{FilterArguments, LineArguments, LineFormChoice, ProfileChoice,
     about = "Cuts gears, non-circular ones above all, on this computer before anyone cuts them in steel, and measures \
         their flanks.",
     after_help = "First steps:\n  \
-        gearcut check scenes/shaping/elliptical_finishing_stock.toml   what the scene means, in a second\n  \
-        gearcut cut scenes/shaping/elliptical_finishing_stock.toml     cut it and measure it\n  \
-        gearcut new shaping --out my_gear.toml                         a commented scene of your own\n\n\
+        gearcut new shaping --out my_gear.toml               a commented scene\n  \
+        gearcut check scenes/shaping/circular_m3_z24.toml    what it means\n  \
+        gearcut cut scenes/shaping/circular_m3_z24.toml      cut and measure it\n\n\
         Exit codes: 0 done; 1 refused or failed, with the reason; 2 wrong usage; 3 done and written, but the verdict \
         is bad (a fault; pair: a tip cuts into the mate); 130 stopped by Ctrl-C."
 )]
@@ -53,7 +53,8 @@ pub struct CommandLine {
 pub enum Command {
     /// Cut a scene and measure the gear.
     #[command(after_help = "Example:\n  \
-        gearcut cut scenes/shaping/elliptical_normal.toml --set operation.rough.offset_mm=1.5\n  \
+        gearcut cut scenes/shaping/elliptical_normal.toml \\\n      \
+        --set operation.rough.offset_mm=1.5\n  \
         gearcut cut scenes/shaping/elliptical_normal.toml --draft\n  \
         gearcut cut scenes/shaping/elliptical_normal.toml --only numbers,report\n\n\
         Writes a folder (out/<scene> unless --out or the scene says otherwise): results.json with every \
@@ -80,7 +81,8 @@ pub enum Command {
     /// Put results side by side.
     #[command(after_help = "Example:\n  \
         gearcut compare out/elliptical_traditional out/elliptical_normal\n  \
-        gearcut compare out/third_order_plain out/third_order_diagonal --out out/load_of_the_hob\n\n\
+        gearcut compare out/third_order_plain out/third_order_diagonal \\\n      \
+        --out out/load_of_the_hob\n\n\
         Takes 2 to 7 results; the others are compared with the first, those of another process in the numbers that \
         both have. Writes a folder \
         (compare_<A>_<B>... beside the last one unless --out is given): comparison.csv with every number \
@@ -96,7 +98,8 @@ pub enum Command {
     /// Evaluate the texture of a surface, measured or cut: ISO 25178-2 and ISO 21920-2 parameters.
     #[command(after_help = "Example:\n  \
         gearcut texture out/elliptical_normal/texture/finish/tooth_03_left.x3p\n  \
-        gearcut texture measured.sdf --form plane --s-filter-um 8 --l-filter-um 800 --crop-um 400\n  \
+        gearcut texture measured.sdf --form plane --s-filter-um 8 --l-filter-um 800 \\\n      \
+        --crop-um 400\n  \
         gearcut texture heights.npy --spacing-um 2 5 --line y=500 --json\n  \
         gearcut texture measured.sur --save measured.x3p\n\n\
         Reads X3P, SDF, SUR, GWY, text, NPY and gearcut's EXR maps, surfaces and profiles; heights become um \
@@ -121,7 +124,8 @@ pub enum Command {
     New(NewArguments),
     /// Write the scene of the gear that runs with a scene's gear.
     #[command(after_help = "Example:\n  \
-        gearcut mate scenes/shaping/internal_pair_driver.toml --teeth 102 --internal --out ring.toml\n  \
+        gearcut mate scenes/shaping/internal_pair_driver.toml --teeth 102 \\\n      \
+        --internal --out ring.toml\n  \
         gearcut mate scenes/shaping/elliptical_normal.toml --teeth 28 --out mate.toml\n\n\
         The mate's pitch curve follows from the driver's: equal arcs on both, r2 = a - r1 outside and a + r1 in a \
         ring; the distance of the axes a (mm) is solved so that the curve closes. Tool, machine and operations \
@@ -131,12 +135,17 @@ pub enum Command {
     /// Write a gear for other programs: its section as DXF, a STEP solid, wire erosion, points as CSV or QIF; its tool.
     #[command(after_help = "Example:\n  \
         gearcut export scenes/shaping/elliptical_normal.toml --dxf gear.dxf\n  \
-        gearcut export scenes/shaping/elliptical_normal.toml --dxf tooth.dxf --teeth 3..4 --as-cut\n  \
-        gearcut export scenes/hobbing/circular_spur.toml --tool-dxf hob.dxf --tolerance-um 0.5\n  \
+        gearcut export scenes/shaping/elliptical_normal.toml --dxf tooth.dxf \\\n      \
+        --teeth 3..4 --as-cut\n  \
+        gearcut export scenes/hobbing/circular_spur.toml --tool-dxf hob.dxf \\\n      \
+        --tolerance-um 0.5\n  \
         gearcut export scenes/shaping/elliptical_normal.toml --step gear.step\n  \
-        gearcut export scenes/shaping/circular_m3_z24.toml --wire gear.ngc --wire-diameter-um 200\n  \
-        gearcut export scenes/hobbing/circular_helical.toml --points nominal.csv --teeth 1..4 --grid 9x5\n  \
-        gearcut export scenes/hobbing/circular_helical.toml --qif cut.qif --teeth 1..4 --as-cut\n\n\
+        gearcut export scenes/shaping/circular_m3_z24.toml --wire gear.ngc \\\n      \
+        --wire-diameter-um 200\n  \
+        gearcut export scenes/hobbing/circular_helical.toml --points nominal.csv \\\n      \
+        --teeth 1..4 --grid 9x5\n  \
+        gearcut export scenes/hobbing/circular_helical.toml --qif cut.qif \\\n      \
+        --teeth 1..4 --as-cut\n\n\
         The section of a cylindrical gear, external or a ring, round or not: the profile with its fillets as one \
         closed polyline of arcs and lines, the pitch curve, the stock, bore or rim, each on a layer of its name. The \
         target is the tool's envelope under continuous motion; as cut has every mark. Corners stay corners. Lengths \
@@ -151,9 +160,12 @@ pub enum Command {
     /// Roll two gears on each other without load: ratio, transmission error, backlash, contact, interference.
     #[command(after_help = "Example:\n  \
         gearcut pair scenes/shaping/elliptical_normal.toml --mate 42\n  \
-        gearcut pair scenes/shaping/internal_pair_driver.toml scenes/shaping/internal_pair_ring.toml\n  \
-        gearcut pair scenes/shaping/circular_m3_z24.toml --mate 36 --flanks nominal --center-distance-error-um 20\n  \
-        gearcut pair out/elliptical_normal out/my_mate --eccentricity-b-um 15 --parallelism-in-plane-um 10\n\n\
+        gearcut pair scenes/shaping/internal_pair_driver.toml \\\n      \
+        scenes/shaping/internal_pair_ring.toml\n  \
+        gearcut pair scenes/shaping/circular_m3_z24.toml --mate 36 --flanks nominal \\\n      \
+        --center-distance-error-um 20\n  \
+        gearcut pair out/elliptical_normal out/my_mate --eccentricity-b-um 15 \\\n      \
+        --parallelism-in-plane-um 10\n\n\
         A drives, B is driven. Each is a scene or a folder of results; --mate solves B from A. The gears must belong \
         together: one module, pitch curves that close on each other (0.1 module is allowed between them). \
         Their flanks are cut in the sections that are rolled, with every stroke; --flanks nominal takes targets \
@@ -165,9 +177,11 @@ pub enum Command {
     Pair(PairArguments),
     /// Bring a bevel gear and its pinion into contact without load: motion error, contact path and ellipses.
     #[command(after_help = "Example:\n  \
-        gearcut contact scenes/bevel/five_linkage_corrected.toml scenes/bevel/five_linkage_pinion.toml \\\n      \
+        gearcut contact scenes/bevel/five_linkage_corrected.toml \\\n      \
+        scenes/bevel/five_linkage_pinion.toml \\\n      \
         scenes/bevel/five_linkage_pinion_concave.toml\n  \
-        gearcut contact scenes/bevel/crown_gear.toml scenes/bevel/crown_pinion.toml --e-um 50 --g-um -30\n\n\
+        gearcut contact scenes/bevel/crown_gear.toml scenes/bevel/crown_pinion.toml \\\n      \
+        --e-um 50 --g-um -30\n\n\
         The flanks that the heads' cones generate touch; marks of blades are left out. Gear and pinion have a \
         face-mill head, one module and opposite hands of spiral; the shaft angle is the sum of their pitch angles. A \
         pinion that is finished side by side has two scenes: the second one cuts its concave flanks.\n\n\
@@ -181,8 +195,10 @@ pub enum Command {
     /// Cut many gears of a scene with errors: how their numbers scatter, and which layer of errors makes how much.
     #[command(after_help = "Example:\n  \
         gearcut scatter scenes/shaping/noise.toml\n  \
-        gearcut scatter scenes/shaping/noise.toml --tooth 3 --side right --seeds 50 --out out/noise\n  \
-        gearcut scatter scenes/shaping/noise.toml --tolerance mounting.eccentricity_um=0..10\n\n\
+        gearcut scatter scenes/shaping/noise.toml --tooth 3 --side right --seeds 50 \\\n      \
+        --out out/noise\n  \
+        gearcut scatter scenes/shaping/noise.toml \\\n      \
+        --tolerance mounting.eccentricity_um=0..10\n\n\
         Layers of errors are axes, guide, mounting, tool, noise, stock, edge, ploughing, tearing and deflection, as \
         far as the scene has them. One flank is cut with none of them, with each alone, with all, and with all but \
         each; then as many gears as there are seeds (machine.errors.seed = 1, 2, ...), the cutter being the same. \
@@ -205,7 +221,8 @@ pub enum Command {
     Study(StudyArguments),
     /// Make a scene with many values of some keys, one row of quantities each: a study without a file.
     #[command(after_help = "Example:\n  \
-        gearcut sweep scenes/shaping/circular_m3_z24.toml --draft --grid tool.shaper_cutter.teeth=20,26,34 \\\n      \
+        gearcut sweep scenes/shaping/circular_m3_z24.toml \\\n      \
+        --draft --grid tool.shaper_cutter.teeth=20,26,34 \\\n      \
         --range 'operation.finish.strokes_per_revolution=600..4800/4 log' --keep scallop_height,F_alpha\n\n\
         Writes what `gearcut study` writes, to out/<scene>_study. Of several keys every combination is a case; those \
         of --grid come first, and the last one changes fastest.")]
@@ -213,7 +230,8 @@ pub enum Command {
     /// Rank the errors of the machine: which micrometre or arc second costs what on the gear.
     #[command(after_help = "Example:\n  \
         gearcut budget scenes/shaping/circular_m3_z24.toml\n  \
-        gearcut budget scenes/shaping/machine_errors.toml --parameters mounting,machine.errors.work\n  \
+        gearcut budget scenes/shaping/machine_errors.toml \\\n      \
+        --parameters mounting,machine.errors.work\n  \
         gearcut budget scenes/hobbing/circular_spur.toml --flanks 1-left,1-right\n\n\
         Shifts every error that the scene's process knows by a natural step to both sides, cuts the gear on few \
         places, and takes the differences: what the error alone makes of an otherwise ideal gear, in um. Half the \
@@ -238,8 +256,10 @@ pub enum Command {
     Deviations(DeviationsArguments),
     /// Find the machine errors that explain a measured gear, and the unexplained rest.
     #[command(after_help = "Example:\n  \
-        gearcut diagnose scenes/shaping/circular_m3_z24.toml --measured gear.csv --noise-um 0.5\n  \
-        gearcut diagnose my.toml --measured gear.csv --noise-um 0.5 --parameters mounting,machine.errors.guide\n\n\
+        gearcut diagnose scenes/shaping/circular_m3_z24.toml --measured gear.csv \\\n      \
+        --noise-um 0.5\n  \
+        gearcut diagnose my.toml --measured gear.csv --noise-um 0.5 \\\n      \
+        --parameters mounting,machine.errors.guide\n\n\
         The CSV has a row for each measured place: tooth (from 1, counter-clockwise), flank (left or right), u_mm \
         (arc along the profile from the form point), v_mm (along the tooth from the middle of the face), deviation_um \
         (normal to the target, positive where material is). The noise is the standard deviation of each value.\n\n\
@@ -251,9 +271,12 @@ pub enum Command {
     Diagnose(DiagnoseArguments),
     /// Fit errors of the machine to what was measured on a gear: numbers, surfaces, inspection charts.
     #[command(after_help = "Example:\n  \
-        gearcut calibrate my.toml --measured numbers.csv --fit mounting.eccentricity_um,machine.errors.guide\n  \
-        gearcut calibrate my.toml --measured out/my/inspection_charts.csv --noise-um 0.3 --fit mounting\n  \
-        gearcut calibrate my.toml --measured flank.x3p --surface-percent 5 --fit machine.errors.work.noise_arcsec\n\n\
+        gearcut calibrate my.toml --measured numbers.csv \\\n      \
+        --fit mounting.eccentricity_um,machine.errors.guide\n  \
+        gearcut calibrate my.toml --measured out/my/inspection_charts.csv \\\n      \
+        --noise-um 0.3 --fit mounting\n  \
+        gearcut calibrate my.toml --measured flank.x3p --surface-percent 5 \\\n      \
+        --fit machine.errors.work.noise_arcsec\n\n\
         A CSV of numbers has a row for each: quantity (its path in results.json, such as headline.F_r; \
         headline.KEY for the headline), value (in the unit that it has there), uncertainty (standard). Charts and \
         figures are read as `gearcut cut` writes them (inspection_charts.csv, tables/inspection.csv), places as \

@@ -1,7 +1,8 @@
-//! `gearcut mate`: the scene of the gear that runs with a scene's gear.
+//! `gearcut mate`: the scene of the gear that runs with a scene's gear, and what `gearcut check` warns about in it.
 
 use std::path::Path;
 
+use crate::output::text::Sheet;
 use crate::process;
 use crate::scene::Mate;
 use gearcut_core::gear::GearKind;
@@ -26,6 +27,13 @@ pub fn run(arguments: &MateArguments) -> Result<(), Failure> {
     let Some(path) = &arguments.out else { return Ok(print::to_stdout(&mate.text)?) };
     write_new(path, &mate.text)?;
     let shown = path.display();
-    let note = format!("`gearcut check {shown}` says what it means\n");
-    Ok(print::sheet(&format!("wrote {shown}: distance of the axes {:.6} mm\n{note}", mate.center_distance_mm))?)
+    let note = format!("`gearcut check {shown}` says what it means; `gearcut pair` rolls both, once they are cut\n");
+    print::sheet(&format!("wrote {shown}: distance of the axes {:.6} mm\n{note}", mate.center_distance_mm))?;
+    // Tip, tool and operations are the driver's: on the mate's curve they may not do.
+    let written = process::load(path, &[])?;
+    let checked = print::waiting("check", "mate", || {
+        process::prepare(&written.scene).and_then(|job| job.check(&mut Sheet::brief()))
+    });
+    print::warnings(&checked.map_err(|error| Failure::of_scene(&written, error))?);
+    Ok(())
 }

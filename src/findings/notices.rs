@@ -39,9 +39,8 @@ notices! {
     Stopped: Warning "cut.stopped", "howto.md", (),
         "stopped by Ctrl-C: figures cover the finished flanks only"; "Let the run end, or cut with --draft."
     /// Numbers are those of a coarse cut.
-    Draft: Note "cut.draft", "howto.md", (),
-        "a draft: dexels 8, rays and cells of maps 4 times as far apart; deviations, chips and texture are rough, and \
-         largest forces and powers of hob teeth come out too high";
+    Draft: Note "cut.draft", "howto.md", (also),
+        "a draft: dexels 8, rays and cells of maps 4 times as far apart; deviations, chips and texture are rough{also}";
         "Cut without --draft for numbers that count."
     /// Part of the flanks is still the blank, and no number covers it.
     Untouched: Warning "flank.uncut", "hobbing.md", (dexels, why),

@@ -54,8 +54,10 @@ pub struct JudgedFigure {
     pub sides: Vec<SideFigure>,
     /// Limit of its magnitude, um, and whence.
     pub limit: Option<(f64, LimitSource)>,
-    /// Finest class that allows the worst value: none beyond class 11. Outer none: no class is defined or nothing was
-    /// measured.
+    /// Whether it was measured on all flanks: else the worst one is not known.
+    pub is_complete: bool,
+    /// Finest class that allows the worst value: none beyond class 11. Outer none: no class is defined, or flanks were
+    /// not measured.
     pub class: Option<ClassReached>,
 }
 
@@ -74,9 +76,10 @@ impl JudgedFigure {
         self.sides.iter().reduce(|best, next| if next.value_um.abs() > best.value_um.abs() { next } else { best })
     }
 
-    /// Whether the limit is kept; none where there is no limit or nothing was measured.
+    /// Whether the limit is kept; none where there is no limit, and where a flank that was not measured may pass it.
     pub fn passes(&self) -> Option<bool> {
-        Some(self.worst()?.value_um.abs() <= self.limit?.0)
+        let is_kept = self.worst()?.value_um.abs() <= self.limit?.0;
+        (self.is_complete || !is_kept).then_some(is_kept)
     }
 }
 
@@ -129,8 +132,9 @@ impl GearVerdict {
                 .and_then(|class| Some((sizes?.tolerance_um(figure, class).ok()?, LimitSource::Class(class))));
             let drawn = drawn_um(&measure.limits, figure).map(|um| (um, LimitSource::Drawing));
             let limit = drawn.or(of_class).map(|(um, source)| (um * normal, source));
-            let mut judged = JudgedFigure { figure, sides: sides(flanks, gear, figure), limit, class: None };
-            judged.class = judged.worst().and_then(|worst| {
+            let (sides, is_complete) = (sides(flanks, gear, figure), is_complete(flanks, figure));
+            let mut judged = JudgedFigure { figure, sides, limit, is_complete, class: None };
+            judged.class = judged.worst().filter(|_| is_complete).and_then(|worst| {
                 let class = sizes?.class_of(figure, worst.value_um / normal).ok()?;
                 Some(class.map_or(ClassReached::Beyond, ClassReached::Class))
             });
@@ -177,6 +181,16 @@ fn drawn_um(limits: &DrawnLimits, figure: InspectionFigure) -> Option<f64> {
         InspectionFigure::HelixSlope => limits.helix_slope_um,
         InspectionFigure::Runout => limits.runout_um,
     }
+}
+
+/// Whether every flank has a figure of its trace; pitch and runout are measured on all teeth or not at all.
+fn is_complete<Own>(flanks: &[InspectedFlank<Own>], figure: InspectionFigure) -> bool {
+    use InspectionFigure as Of;
+    flanks.iter().all(|flank| match figure {
+        Of::ProfileTotal | Of::ProfileForm | Of::ProfileSlope => flank.profile.is_some(),
+        Of::HelixTotal | Of::HelixForm | Of::HelixSlope => flank.lead.is_some(),
+        Of::SinglePitch | Of::TotalPitch | Of::Runout => true,
+    })
 }
 
 /// A figure of both sides.
@@ -299,6 +313,18 @@ mod tests {
         let other = GearVerdict::new(&flanks, &gear, &measure, None);
         assert!(other.no_class.is_some() && other.class().is_none());
         assert_eq!((other.of(InspectionFigure::ProfileSlope).limit, other.passes()), (None, Some(true)));
+        // A flank that was cut away may be worse than those that are left.
+        let mut lost = [flank(1, Side::Left, 5.0), flank(2, Side::Left, 0.0)];
+        lost[1].profile = None;
+        let judge = |limit_um: f64| {
+            let limits = DrawnLimits { profile_slope_um: Some(limit_um), ..DrawnLimits::default() };
+            let measure = Measure { limits, ..Measure::default() };
+            let verdict = GearVerdict::new(&lost, &gear, &measure, Some(&round(0.0)));
+            let slope = verdict.of(InspectionFigure::ProfileSlope);
+            (slope.passes(), slope.class)
+        };
+        assert_eq!(judge(6.0), (None, None), "5 um of 6 on one of two flanks");
+        assert_eq!(judge(4.0), (Some(false), None));
         // Nothing measured, nothing passed.
         let nothing = GearInspection { pitch: [None, None], runout: None, thickness: Vec::new() };
         assert_eq!(GearVerdict::new(&flanks, &nothing, &measure, None).passes(), None);

@@ -224,8 +224,7 @@ fn figures(page: &mut VectorPage, (from, to): (f64, f64), top: f64, trace: &Trac
         let y = top + 8.0 * row as f64;
         page.words((from, y), FIGURE_EM, Ink::Grey, Anchor::Start, &figure.name);
         let ink = if figure.fails() { Ink::Red } else { Ink::Black };
-        let value = figure.value.map_or_else(|| "–".to_owned(), value_text);
-        page.words((to, y), FIGURE_EM, ink, Anchor::End, &value);
+        page.words((to, y), FIGURE_EM, ink, Anchor::End, &figure.text());
     }
 }
 

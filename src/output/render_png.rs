@@ -11,7 +11,7 @@ use crate::output::contact_sheet::scale_bar_mm;
 use crate::output::heat::{ColourBar, PixelBox, scale_problem};
 use crate::output::letters::fitting_em_px;
 use crate::output::raster::Raster;
-use crate::surface::render::Rendered;
+use crate::surface::render::{Rendered, bare_srgb};
 use gearcut_core::{Error, Result};
 use std::path::Path;
 
@@ -47,6 +47,8 @@ const MARGIN_PX: u32 = 24;
 const BAR_GAP_PX: u32 = 20;
 const BAR_WIDTH_PX: u32 = 20;
 const EM_PX: f64 = 15.0;
+/// Legend of places without a value under the colour bar and its mark of lower values.
+const BARE_BELOW_PX: f64 = 30.0;
 /// Narrowest picture that title and scale bar find room on.
 const LEAST_WIDTH_PX: u32 = 360;
 
@@ -110,6 +112,12 @@ fn draw(picture: &RenderPicture) -> std::result::Result<Raster, String> {
     canvas.text(picture.title, (left, 28.0), fitting_em_px(picture.title, 20.0, room_px)?, Align::Start)?;
     if let Some(bar) = &bar {
         bar.annotate(&mut canvas, f64::from(height))?;
+        if picture.rendered.bare {
+            let ((x, _), (_, bottom)) = bar.area.corners();
+            let y = bottom + BARE_BELOW_PX;
+            canvas.fill((x, y - 7.0), (x + 14.0, y + 7.0), bare_srgb());
+            canvas.text("no value", (x + 20.0, y), EM_PX, Align::Start)?;
+        }
     }
     let y = f64::from(TOP_PX + height) + 26.0;
     let bar_mm = scale_bar_mm(0.6 * picture.pixel_mm * f64::from(width));

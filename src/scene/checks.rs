@@ -92,7 +92,7 @@ fn of_round_gears(found: &mut Found) -> Option<()> {
             "write what the drawing allows in [measure.limits]; without this key gearcut check prints those of the \
              round gear of the same mean diameter",
         ),
-        ("ball_diameter_mm", "dimensions over balls", "remove it; tables/teeth.csv has the thickness of every tooth"),
+        ("ball_diameter_mm", "dimensions over balls", "remove it; results.json has the thickness of every tooth"),
     ] {
         let curve = if is_sector { "a sector" } else { curve };
         let message = || format!("`measure.{key}`: {what} are for round gears, and the pitch curve is {curve}");

@@ -42,6 +42,8 @@ pub struct SceneProcess {
     pub of_one_gear: &'static [&'static str],
     /// Shared sections that hold only where they are written: no default stands in for them.
     pub on_demand: &'static [&'static str],
+    /// What else a draft makes wrong, as the end of a sentence on it.
+    pub draft: &'static str,
     /// Whether its tool comes into a ring: `gear.kind = "internal"`.
     pub cuts_rings: bool,
     /// Keys and sections that have no sense here, and why: those of others that readers may well look for, and shared

@@ -33,7 +33,7 @@ pub fn write<O: AxesOfOperation>(
     let Tools { progress, folder, parts, .. } = *tools;
     let mut known = std::mem::take(&mut found.warnings);
     if scene.is_draft {
-        known.push(Draft {}.notice());
+        known.push(Draft { also: scene.process.process().draft }.notice());
     }
     let list = |attempts: &Attempts| ranked(known.iter().cloned().chain(attempts.told()));
     if parts.has(Part::Axes) {

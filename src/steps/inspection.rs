@@ -29,6 +29,7 @@ use crate::output::summary;
 use crate::output::text::Sheet;
 use crate::scene::model::{DrawnLimits, Measure};
 use gearcut_core::error::Result;
+use gearcut_core::gear::GearKind;
 
 /// Class of the limits that are offered to a gear without one: what shaping and hobbing are ordinarily asked for.
 const MEAN_CLASS: u32 = 7;
@@ -113,8 +114,11 @@ pub fn sizes(round: &RoundGear, measure: &Measure, cut_thickness_mm: Option<f64>
         Ok(over) => row.of(over.dimension_mm),
         Err(why) => row.none(why),
     };
+    // In a ring balls and span lie in spaces: other words, the same keys.
+    let in_ring =
+        |entry: Entry, title: &str| if round.kind == GearKind::Internal { entry.titled(title) } else { entry };
     let span = match round.span() {
-        Ok(span) => vec![SPAN_TEETH.of(span.teeth), SPAN.of(span.length_mm)],
+        Ok(span) => vec![in_ring(SPAN_TEETH.of(span.teeth), "span spaces"), SPAN.of(span.length_mm)],
         Err(why) => vec![SPAN.none(why)],
     };
     let section = SIZES
@@ -136,14 +140,14 @@ pub fn sizes(round: &RoundGear, measure: &Measure, cut_thickness_mm: Option<f64>
             BALL_DIAMETER.of(ball_mm),
         ])
         .entries(span)
-        .entries([over(round, &OVER_BALLS)]);
+        .entries([in_ring(over(round, &OVER_BALLS), "between balls")]);
     let Some(cut_mm) = cut_thickness_mm else { return section };
     let cut = round.with_thickness(cut_mm);
     let span = round.span().ok().map(|span| SPAN_AS_CUT.of(cut.span_over(span.teeth).length_mm));
     section
         .entries([THICKNESS_AS_CUT.of(cut_mm), GENERATING_SHIFT_AS_CUT.of(cut.generating_shift())])
         .entries(span)
-        .entries([over(&cut, &OVER_BALLS_AS_CUT)])
+        .entries([in_ring(over(&cut, &OVER_BALLS_AS_CUT), "between balls as cut")])
 }
 
 /// Takes away what the tool generates when it cuts as the target has it. Sizes of the drawing, of the blank and of the

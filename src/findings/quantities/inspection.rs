@@ -20,8 +20,8 @@ rows! {
     QUALITY: "quality", "Quality", "headline";
 
     CLASS_REACHED: "class_reached", "",
-        "finest flank tolerance class that all figures keep, and whether all limits are kept; the section inspection \
-         has both"
+        "finest flank tolerance class that all figures of the traces keep, and whether all limits are kept; damage \
+         beside the traces changes neither; the section inspection has both"
         => source(ISO_1328);
     LARGEST_OF_LIMIT: "largest_of_limit", "%",
         "largest share of its limit that a figure takes; the section inspection has all of them"

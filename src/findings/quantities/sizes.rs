@@ -63,6 +63,6 @@ rows! {
     SPAN_AS_CUT: "span_as_cut", "mm", "span of the mean thickness as cut; feed marks where it touches are not in it"
         => symbol("W_k"), source(ISO_21771);
     OVER_BALLS_AS_CUT: "over_balls_as_cut", "mm",
-        "dimension over balls of the mean thickness as cut, without feed marks"
+        "dimension over balls, in a ring between them, of the mean thickness as cut, without feed marks"
         => symbol("M_d"), source(ISO_21771);
 }

@@ -58,6 +58,16 @@ impl TraceFigure {
     pub fn fails(&self) -> bool {
         matches!((self.value, self.limit), (Some(value), Some(limit)) if value.abs() > limit)
     }
+
+    /// The value as text that fits beside its sign: no digits below [`LEAST_FIGURE`].
+    pub fn text(&self) -> String {
+        match self.value {
+            None => "–".to_owned(),
+            Some(value) if value == 0.0 || value.abs() >= LEAST_FIGURE || value.is_nan() => value_text(value),
+            Some(value) if value > 0.0 => format!("< {}", value_text(LEAST_FIGURE)),
+            Some(_) => format!("> {}", value_text(-LEAST_FIGURE)),
+        }
+    }
 }
 
 const COLUMN: f64 = 84.0;
@@ -69,6 +79,8 @@ const HEIGHT: f64 = 240.0;
 const ROW: f64 = 16.0;
 /// Smallest deviation of one division, µm: what inspection machines resolve.
 const LEAST_DIVISION: f64 = 1.0;
+/// Smallest figure whose digits are printed, µm.
+const LEAST_FIGURE: f64 = 1e-3;
 /// Divisions from the zero line to the edge of a column.
 const DIVISIONS: f64 = 4.0;
 
@@ -168,7 +180,7 @@ impl TraceSheet {
                 @let at = px(figure_row(row));
                 text class="figure-name" x=(px(zero - half)) y=(at) { (figure.name) }
                 text class=(if figure.fails() { "figure end fails" } else { "figure end" }) x=(px(zero + half)) y=(at) {
-                    (figure.value.map_or_else(|| "–".to_owned(), value_text))
+                    (figure.text())
                 }
             }
         }

@@ -6,6 +6,7 @@ pub mod whole;
 use super::axes_report::{BevelAxesReport, idle_share};
 use super::blank::{CellGrid, CutCells};
 use super::chips::{SlotLedger, SlotPass};
+use super::entry;
 use super::gear::BevelGear;
 use super::job::BevelJob;
 use super::measure;
@@ -93,7 +94,7 @@ pub fn foresee(job: &BevelJob, motion: &[BevelAxesReport], wanted: Stages) -> Re
     CellGrid::of_scene(job)?;
     let windows = windows(job, wanted)?;
     let own = job.next_tooth_warning()?.into_iter().chain(job.contradictions()).chain(job.undercut_warning()?);
-    let own = own.chain(axes::warnings(motion)).collect();
+    let own = own.chain(entry::warning(job)).chain(axes::warnings(motion)).collect();
     Foreseen::new(job, &windows, own, true)
 }
 

@@ -12,6 +12,7 @@ mod check;
 pub mod chips;
 pub mod course;
 pub mod drawing;
+mod entry;
 mod faults;
 pub mod findings;
 pub mod gcode;

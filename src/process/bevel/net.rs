@@ -98,8 +98,7 @@ pub fn svg(flank: &BevelReport, title: &str) -> Option<String> {
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {WIDTH_PX} {HEIGHT_PX}\" width=\"{WIDTH_PX}\" \
          height=\"{HEIGHT_PX}\" font-family=\"DejaVu Sans, Noto Sans, Helvetica, Arial, sans-serif\" \
          font-size=\"14\">\n<title>{title}</title>\n\
-         <rect width=\"{WIDTH_PX}\" height=\"{HEIGHT_PX}\" fill=\"#ffffff\"/>\n\
-         <text x=\"{MARGIN_PX}\" y=\"26\" font-weight=\"bold\">{title}</text>\n"
+         <rect width=\"{WIDTH_PX}\" height=\"{HEIGHT_PX}\" fill=\"#ffffff\"/>\n"
     );
     for (place, looks) in [
         (&plane as Place, "fill=\"none\" stroke=\"#9aa0a6\" stroke-dasharray=\"4 3\""),

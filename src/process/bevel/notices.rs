@@ -32,6 +32,12 @@ notices! {
         "operation {operation}: the cradle rolls from {from_deg} to {to_deg} deg, the flanks need {low_deg} to \
          {high_deg} deg: they are not generated as a whole";
         "Roll over the whole range that the flanks need."
+    /// A machine that goes to the first position at rapid breaks head and blank.
+    StartsInBlank: Warning "bevel.starts_in_blank", "bevel.md", (operation, deep_mm, way_out),
+        "operation {operation}: where the roll begins the head stands in the blank, and would have to be withdrawn by \
+         {deep_mm} mm to be clear of it; no feed to depth is part of the motion: programs go there as they go from \
+         slot to slot, and thickest chips leave out those of the first revolution: {way_out}";
+        "Begin the roll earlier, or cut the slots before."
     /// The machine cannot reach these positions.
     Travel: Warning "axis.travel", "bevel.md", (operation, axis, low, high, unit, from, to),
         "operation {operation}: {axis} goes from {low} to {high} {unit}, the machine from {from} to {to} {unit}: "

@@ -15,6 +15,7 @@ use super::gcode;
 use crate::findings::quantities::cutting::TIME;
 use crate::findings::{Notice, Table};
 use crate::machine::{Peak, peaks};
+use crate::measure::round_gear::is_round;
 use crate::number_text::significant;
 use crate::output::bar_chart::BarChart;
 use crate::output::line_chart::LineChart;
@@ -22,9 +23,9 @@ use crate::output::text::Sheet;
 use crate::process::hobbing::HobbingJob;
 use crate::process::hobbing::job::PreparedHobbing;
 use crate::process::hobbing::linkage::dynamics::{self, AXES};
-use crate::process::hobbing::notices::{AsPrinted, FeedMarks};
+use crate::process::hobbing::notices::{AsPrinted, FeedMarks, ShortOverrun, StartsInside};
 use crate::process::hobbing::quantities::POLAR_ANGLE;
-use crate::process::hobbing::scene::model::{HobbingKind, ShiftDirection, ShiftStrategy};
+use crate::process::hobbing::scene::model::{Approach, HobbingKind, ShiftDirection, ShiftStrategy};
 use crate::steps::axes::{self, AxesOfOperation, Named, NamedChart, PeakWords, STEADY};
 use crate::steps::program_under_test::ProgramUnderTest;
 use gearcut_core::error::Result;
@@ -35,6 +36,9 @@ use std::sync::OnceLock;
 const ROWS_PER_CYCLE: f64 = 360.0;
 /// Most rows of the axis table; longer operations get wider steps.
 const MOST_ROWS: f64 = 50_000.0;
+
+/// Travels that are short by less are rounding, mm.
+const LEAST_MM: f64 = 1e-6;
 
 /// How hobbing speaks of peaks.
 const PEAK_WORDS: PeakWords = PeakWords {
@@ -72,6 +76,13 @@ impl<'a> HobbingAxesReport<'a> {
     /// Of all operations of a job, in order.
     pub fn of_job(job: &'a HobbingJob) -> Vec<Self> {
         (0..job.operations.len()).map(|index| Self::new(job, index)).collect()
+    }
+
+    /// Whether the hob stands in the blank at depth where the slide begins.
+    fn starts_inside(&self) -> bool {
+        let PreparedHobbing { spec, plan, .. } = self.operation();
+        let is_axial = matches!(spec.approach, Approach::Axial);
+        is_axial && self.program.is_none() && plan.approach_mm < plan.clear_mm - LEAST_MM
     }
 
     /// The program under test against the scene's own motion, if one is cut.
@@ -128,6 +139,16 @@ impl AxesOfOperation for HobbingAxesReport<'_> {
         if linkage.law().is_as_printed() {
             warnings.push(AsPrinted { operation: name }.notice());
         }
+        let plan = &self.operation().plan;
+        if self.starts_inside() {
+            let [approach_mm, clear_mm] = [plan.approach_mm, plan.clear_mm].map(|mm| significant(mm, 4));
+            let starts = StartsInside { operation: name, approach_mm, clear_mm }.notice();
+            warnings.push(starts.fault_where(is_round(&self.job.curve)));
+        }
+        if self.program.is_none() && plan.overrun_mm < plan.leaves_mm - LEAST_MM {
+            let [overrun_mm, leaves_mm] = [plan.overrun_mm, plan.leaves_mm].map(|mm| significant(mm, 4));
+            warnings.push(ShortOverrun { operation: name, overrun_mm, leaves_mm }.notice());
+        }
         let (asked_mm, module_mm) = (self.job.scene.output.gcode_contour_error_mm, self.job.scene.gear.module_mm);
         warnings.extend(self.program.iter().flat_map(|program| program.warnings(name, asked_mm, module_mm)));
         warnings
@@ -160,6 +181,9 @@ impl AxesOfOperation for HobbingAxesReport<'_> {
 
     fn programs(&self, warnings: &[Notice]) -> Option<Result<Vec<(String, String)>, String>> {
         let programs = gcode::texts(self.job, self.operation(), warnings)?;
+        if self.starts_inside() {
+            return Some(Err("its first position lies inside the blank".to_owned()));
+        }
         let (post, name) = (self.job.scene.output.post, self.name());
         let numbers = gcode::program_numbers(self.index);
         let files = [name.to_owned(), format!("{name}_gearbox")];

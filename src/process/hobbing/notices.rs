@@ -62,6 +62,22 @@ notices! {
         "operation {operation}: the feed makes marks up to {height_um} um high, {allowed_um} um are allowed \
          (ridge_tolerance_um): "
         + "feed at most {feed_mm} mm per revolution"
+    /// The machine goes to the first position at rapid, and there the hob stands in the blank.
+    StartsInside: Warning or Fault where "the gear is round" "hob.starts_inside", "hobbing.md",
+        (operation, approach_mm, clear_mm),
+        "operation {operation}: the hob starts inside the blank: the slide begins {approach_mm} mm before the face, \
+         and the hob is clear of the blank from {clear_mm} mm on: "
+        + "leave operation.approach_mm out, or make it larger"
+    /// The ends of flanks keep material.
+    ShortOverrun: Warning "hob.short_overrun", "hobbing.md", (operation, overrun_mm, leaves_mm),
+        "operation {operation}: the slide ends {overrun_mm} mm beyond the face, and the last contacts leave the work \
+         at {leaves_mm} mm: flanks keep material at that face: "
+        + "leave operation.overrun_mm out, or make it larger"
+    /// Helix deviations come out too small.
+    MissedMarks: Warning "hob.missed_marks", "hobbing.md", (rows_um, feed_mm, height_um, enough_um),
+        "rows of flanks lie {rows_um} um apart and meet the marks of {feed_mm} mm of feed at few places: F_beta and \
+         f_f_beta may lack most of their {height_um} um: "
+        + "set fields.flank.lead_spacing_um to {enough_um} or less"
     /// Only the paper's own gear is meant to be cut with it.
     AsPrinted: Warning "hob.as_printed", "hobbing.md", (operation),
         "operation {operation}: the linkage is the one printed in the paper; work and carriage part on a curve that is \

@@ -11,19 +11,20 @@ use super::kept::ForeseenChip;
 use super::measure::blank_report::HobbedBlankReport;
 use super::measure::hob_load::OperationLoad;
 use super::notices::{
-    BeyondRecord, CurveClosure, HeadAngle, Hunting, Protuberance, ResultantFeed, ThickChip, ThickChipAtEnd, TipRelief,
-    Tops, Undercut,
+    BeyondRecord, CurveClosure, HeadAngle, Hunting, MissedMarks, Protuberance, ResultantFeed, ThickChip,
+    ThickChipAtEnd, TipRelief, Tops, Undercut,
 };
 use super::scene::model::HobbingKind;
 use super::{HobCutter, HobbingJob, foreseen_chips};
 use crate::findings::notice::ranked;
 use crate::findings::notices::Unreached;
 use crate::findings::{Notice, damage};
-use crate::job::RAY_DEPTH_MODULES;
+use crate::job::{RAY_DEPTH_MODULES, rows_z_mm};
 use crate::measure::damage::{Damage, gouge_mm};
 use crate::number_text::significant;
 use crate::steps::{axes, check_curve, flanks_of, untouched_dexels};
 use gearcut_core::error::Result;
+use gearcut_core::units::UM_PER_MM;
 use rayon::prelude::*;
 
 /// Teeth that are named in a sentence.
@@ -31,6 +32,13 @@ const MOST_NAMED: usize = 6;
 /// Uncut chips thicker than this are warned about, mm: a choice, about twice what hobbing is usually planned for. No
 /// published limit was found that holds for every hob.
 pub const USUAL_CHIP_MM: f64 = 0.5;
+
+/// Largest part of a feed without a row: a crest in its middle is sampled at (1 - a quarter)^2 of its height and more.
+const MOST_PHASE_GAP: f64 = 0.25;
+/// Spacing of rows that certainly have no larger gap, as a share of the feed: rows are fitted to the face.
+const ENOUGH_ROWS: f64 = 0.2;
+/// Lower feed marks are no part of any figure, um.
+const LEAST_MARK_UM: f64 = 0.01;
 
 /// What is known before anything is cut.
 ///
@@ -41,6 +49,7 @@ pub fn before(cutter: &HobCutter, motion: &[HobbingAxesReport]) -> Result<Vec<No
     let mut warnings = check_curve::warnings(&job.curve, &job.scene.gear);
     warnings.extend(hunting(job).into_iter().chain(of_operations(job)).chain(undercut(cutter)?));
     warnings.extend(topped(job));
+    warnings.extend(missed_marks(job));
     if job.hob_spec.protuberance.is_some() {
         warnings.push(Protuberance {}.notice());
     }
@@ -108,6 +117,29 @@ fn of_operations(job: &HobbingJob) -> Vec<Notice> {
         }
     }
     told
+}
+
+/// Rows of flanks that lie about whole feeds apart, so that they meet every feed mark near the same phase. A draft's
+/// rows are far apart by intention.
+fn missed_marks(job: &HobbingJob) -> Option<Notice> {
+    let (gear, feeds_mm) = (&job.scene.gear, job.finishing().plan.slide_feeds_mm);
+    let height_um = UM_PER_MM * job.feed_mark_mm(job.finishing())?;
+    let rows_mm = rows_z_mm(gear.face_width_mm, job.scene.fields.lead_spacing_mm);
+    let missed = feeds_mm.into_iter().find(|&feed_mm| largest_phase_gap(&rows_mm, feed_mm) > MOST_PHASE_GAP + 1e-9)?;
+    (!job.scene.is_draft && height_um > LEAST_MARK_UM).then(|| {
+        let rows_um = significant(UM_PER_MM * (rows_mm[1] - rows_mm[0]), 4);
+        let enough_um = significant(UM_PER_MM * ENOUGH_ROWS * missed, 3);
+        let [feed_mm, height_um] = [significant(missed, 4), significant(height_um, 3)];
+        MissedMarks { rows_um, feed_mm, height_um, enough_um }.notice()
+    })
+}
+
+/// Largest part of a period in which no row lies, as a share of it.
+fn largest_phase_gap(rows_mm: &[f64], period_mm: f64) -> f64 {
+    let mut phases: Vec<f64> = rows_mm.iter().map(|row| (row / period_mm).rem_euclid(1.0)).collect();
+    phases.sort_unstable_by(f64::total_cmp);
+    let around = phases[0] + 1.0 - phases[phases.len() - 1];
+    phases.windows(2).map(|pair| pair[1] - pair[0]).fold(around, f64::max)
 }
 
 /// A hob whose roots cut the gear's tips.

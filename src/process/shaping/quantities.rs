@@ -91,7 +91,8 @@ rows! {
          largest values leave it out"
         => or(&[NO_ENTRY]);
     ENTRY_FORCE: "entry_cutting_force", "N",
-        "cutting force of a first stroke at full depth without infeed; the largest values leave it out"
+        "cutting force of a first stroke at full depth without infeed, an upper bound: where chips of several sides \
+         meet they count twice, up to 1.8 times K_c A and the edge's part; the largest values leave it out"
         => titled("first stroke at full depth"), or(&[NO_ENTRY]);
     WORK_TORQUE: "largest_work_torque", "N m", "largest torque of the cut on the work spindle, without its sign"
         => or(&[IDLE]);
@@ -212,6 +213,12 @@ rows! {
     OPERATION: "operation", "An operation of shaping", "operations.<operation> and its unevenness";
 
     STROKES: "strokes", "strokes", "strokes of the operation, plunging ones included";
+    LARGEST_SPEED: "largest_cutting_speed", "m/min",
+        "largest speed of the ram on its crank, pi times stroke length times double strokes per time; the stroke is \
+         approach, face and overrun"
+        => symbol("v_c");
+    MEAN_SPEED: "mean_cutting_speed", "m/min",
+        "mean speed of the cutting stroke, 2 times stroke length times double strokes per time";
     CIRCULAR_FEED: "circular_feed", "mm per stroke", "mean arc of the pitch curve per double stroke" => symbol("f_c");
     SPREAD_MAX: "max", "%", "largest |AB - CD| of a tooth over what the section names"
         => shown(), or(&[LAST, NO_FLANK_REACHED]);

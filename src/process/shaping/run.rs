@@ -78,7 +78,7 @@ pub(super) fn run(job: &ShapingJob, tools: &Tools, frames: Option<u32>) -> Resul
     list.extend(warnings::after(job, &gear.report, &gear.chips, &gear.work, blank_report));
     list.extend(inspected.warnings());
     list.extend(texture::warnings(job, &textures));
-    let headline = quality(&inspected).into_iter().chain(findings::headline(job, &gear, &motion));
+    let headline = quality(&inspected, &list).into_iter().chain(findings::headline(job, &gear, &motion));
     let complete = !gear.work.interrupted;
     let mut found = Findings::new("shaping", &job.scene.name, complete, headline, list, sections);
     files::write(job, &gear, (&motion, &foreseen.windows), &found, tools, &mut attempts)?;

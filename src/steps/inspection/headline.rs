@@ -6,6 +6,7 @@
 
 use super::teeth::{HELIX, PROFILE, place};
 use super::{Inspected, class_words, verdict_words};
+use crate::findings::notice::Severity;
 use crate::findings::quantities::cutting::{
     AXIS_MARGIN, CANDIDATES, CYCLE_TIME, LARGEST_FORCE, NO_LIMITS, REMOVAL_RATE, REMOVED_VOLUME, STOPPED, THICKEST_CHIP,
 };
@@ -17,13 +18,16 @@ use crate::findings::quantities::inspection::{CLASS_REACHED, LARGEST_OF_LIMIT};
 use crate::findings::quantities::teeth::{
     LARGEST_THICKNESS, MOST_GONE, NO_THICKNESS, NOT_CROSSED, RUNOUT, SINGLE_PITCH, SMALLEST_THICKNESS, TOTAL_PITCH,
 };
-use crate::findings::{Entry, Place, QuantityRow};
+use crate::findings::{Entry, Notice, Place, QuantityRow};
 use crate::measure::deviation::PitchDeviations;
 use crate::measure::inspection::{FlankSurface, GearInspection, InspectedFlank};
 use crate::measure::stock::Extreme;
 use crate::measure::verdict::JudgedFigure;
 use crate::steps::Work;
 use gearcut_core::units::UM_PER_MM;
+
+/// Beginnings of ids of notices on damaged flanks and tips.
+const DAMAGE: [&str; 4] = ["flank.", "ring.", "tip.", "cut.deeper_than_finishing"];
 
 /// A value with its place, or the reason why there is none.
 pub type Placed = Result<(f64, Place), &'static str>;
@@ -76,10 +80,14 @@ pub fn headline<Own: FlankSurface>(
     entries
 }
 
-/// Class with its verdict, and the figure that comes nearest to its limit or is furthest beyond it.
-pub fn quality(inspected: &Inspected) -> Vec<Entry> {
+/// Class with its verdict, and the figure that comes nearest to its limit or is furthest beyond it; `known` is what the
+/// run has found.
+pub fn quality(inspected: &Inspected, known: &[Notice]) -> Vec<Entry> {
     let verdict = &inspected.verdict;
-    let words = format!("{}, {}", class_words(verdict.class()), verdict_words(verdict.passes()));
+    // Traces run in the middle of face and tooth: damage beside them is no deviation of theirs.
+    let is_damage = |of: &Notice| of.severity == Severity::Fault && DAMAGE.iter().any(|id| of.id.starts_with(id));
+    let beside = if known.iter().any(is_damage) { "; damage beside the traces is a fault of its own" } else { "" };
+    let words = format!("{}, {}{beside}", class_words(verdict.class()), verdict_words(verdict.passes()));
     let class = verdict.no_class.is_none().then(|| CLASS_REACHED.of(words));
     let used = |judged: &JudgedFigure| Some(judged.worst()?.value_um.abs() / judged.limit?.0);
     let nearest = verdict.figures.iter().filter_map(|judged| Some((used(judged)?, judged)));

@@ -205,7 +205,8 @@ fn sheet_figure(judged: &JudgedFigure) -> SheetFigure {
     let side = |index: usize| {
         judged
             .sides
-            .get(index)
+            .iter()
+            .find(|figure| figure.side.map_or(index == 0, |side| side == SIDES[index].0))
             .map_or_else(|| "–".to_owned(), |figure| significant(shown_um(figure.value_um / UM_PER_MM), 3))
     };
     SheetFigure {

@@ -175,7 +175,7 @@ impl<'a> Bodies<'a> {
 }
 
 /// Where a coloured body has no value: light clay, which no scale contains.
-const BARE: [f64; 3] = [0.45, 0.44, 0.42];
+pub(super) const BARE: [f64; 3] = [0.45, 0.44, 0.42];
 
 /// sRGB component (IEC 61966-2-1) to linear light, 0 to 1.
 fn linear(component: u8) -> f64 {

@@ -11,7 +11,7 @@
 //!
 //! Colours stand for values, so that light changes their brightness and hardly their hue.
 
-use super::bodies::Bodies;
+use super::bodies::{BARE, Bodies};
 use super::camera::Camera;
 use super::visible::{BandHits, Visible};
 use crate::interrupt::Interrupt;
@@ -83,6 +83,8 @@ pub struct Rendered {
     pub rgb: Vec<[u8; 3]>,
     /// Smallest and largest value that colours show; infinite and turned round where they show none.
     pub shown: (f32, f32),
+    /// Whether a place has no value, and so the grey of [`BARE`].
+    pub bare: bool,
 }
 
 /// What stands at every pixel's middle, rows from the top.
@@ -138,7 +140,8 @@ pub fn render(bodies: &Bodies, camera: &Camera, lights: &Lights, interrupt: &Int
         .collect();
     let values = pixels.iter().filter(|pixel| pixel.met > 0 && pixel.value.is_finite()).map(|pixel| pixel.value);
     let shown = values.fold((f32::INFINITY, f32::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
-    Ok(Rendered { size_px: camera.size_px, rgb, shown })
+    let bare = pixels.iter().any(|pixel| pixel.met > 0 && pixel.value.is_nan());
+    Ok(Rendered { size_px: camera.size_px, rgb, shown, bare })
 }
 
 /// What stands at every pixel's middle.
@@ -291,6 +294,11 @@ fn hash(x: u32, y: u32) -> u32 {
 fn shouldered(light: f64) -> f64 {
     let (over, room) = (light - KNEE, 1.0 - KNEE);
     if over > 0.0 { KNEE + room * (1.0 - (-over / room).exp()) } else { light }
+}
+
+/// The grey of places without a value, as drawings show colours.
+pub fn bare_srgb() -> [u8; 3] {
+    BARE.map(srgb)
 }
 
 /// Linear light to an sRGB component (IEC 61966-2-1).

@@ -21,4 +21,4 @@ pub mod visible;
 
 pub use bodies::{Appearance, Bodies, CLAY, STEEL, Shape};
 pub use camera::Camera;
-pub use light::{Lights, Rendered, Seen, render, seen};
+pub use light::{Lights, Rendered, Seen, bare_srgb, render, seen};

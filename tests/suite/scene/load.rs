@@ -334,7 +334,7 @@ fn everything_in_the_template_can_be_switched_on() {
                     let mut whole = text.clone();
                     if ["infeed_mm_per_revolution", "dwell_revolutions"].contains(&name(key)) {
                         // Of gears alone that are not generated.
-                        whole = whole.replacen("#roll_ratio = 1.13", "roll_ratio = 0.0", 1);
+                        whole = whole.replacen("#roll_ratio = 1.4647", "roll_ratio = 0.0", 1);
                     }
                     if name(key) == "spiral_angle_deg" {
                         // In place of both, and for a known head.

@@ -76,6 +76,7 @@ pub static SCENE: SceneProcess = SceneProcess {
     per_revolution: &[],
     of_one_gear: &[],
     on_demand: &["material"],
+    draft: ", and thickest chips and largest forces come out too high",
     cuts_rings: false,
     senseless: &[
         without("gear.kind", "the pitch angle says where the teeth are", "remove it"),

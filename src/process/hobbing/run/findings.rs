@@ -90,7 +90,7 @@ pub fn findings(cutter: &HobCutter, gear: &HobbedGear, measured: &Measured) -> R
     list.extend(warnings::after(cutter, gear, of_blank)?);
     list.extend(measured.inspected.warnings());
     list.extend(texture::warnings(cutter, measured.textures));
-    let headline = headline(job, gear, measured);
+    let headline = headline(job, gear, measured, &list);
     Ok(Findings::new("hobbing", &job.scene.name, !work.interrupted, headline, list, sections))
 }
 

@@ -31,7 +31,8 @@ static TOOL_ERRORS: &[ErrorSource] = &[
         "um",
         4.0,
         "pitch of hob gash",
-    ),
+    )
+    .turning_together(),
 ];
 
 /// Hobbing with five and six axes.
@@ -47,6 +48,7 @@ pub static SCENE: SceneProcess = SceneProcess {
     per_revolution: &[],
     of_one_gear: &[],
     on_demand: &["material", "measure", keys::WEAR],
+    draft: ", and largest forces and powers of hob teeth come out too high",
     cuts_rings: false,
     senseless: &[
         Senseless {

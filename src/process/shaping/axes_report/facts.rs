@@ -7,6 +7,7 @@ use crate::process::shaping::linkage::relief::ReliefFlank;
 use crate::progress::duration_text;
 use crate::steps::axes::AxesOfOperation;
 use gearcut_core::units::UM_PER_MM;
+use std::f64::consts::PI;
 
 /// A smaller beta than this, rad, is rounding: the curve is a circle.
 const ROUND_BETA_RAD: f64 = 1e-9;
@@ -40,6 +41,11 @@ pub(super) fn print(axes: &OperationAxes, sheet: &mut Sheet) {
     let feed = significant(schedule.circular_feed_mm_per_stroke(), 3);
     sheet.details(|sheet| {
         sheet.line("circular feed", format!("{feed} mm per double stroke, mean over the pitch curve"));
+    });
+    let largest = axes.job.ram_speed_mm_per_s(axes.index) * 60.0 / 1e3;
+    let [largest, mean] = [largest, 2.0 / PI * largest].map(|speed| significant(speed, 3));
+    sheet.details(|sheet| {
+        sheet.line("cutting speed", format!("{largest} m/min at most, {mean} m/min in the mean of a cutting stroke"));
     });
     sheet.line("time", duration_text(schedule.time_s(schedule.count() as f64)));
     let ([beta_rad, beta_phi_rad], relief) = (axes.largest_beta_rad(), axes.relief());

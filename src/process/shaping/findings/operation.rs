@@ -10,9 +10,12 @@ use crate::process::shaping::axes_report::OperationAxes;
 use crate::process::shaping::cut::chips::ChipLedger;
 use crate::process::shaping::gear::measure::unevenness::{ToothAllowance, Unevenness as Percent, summarise};
 use crate::process::shaping::gear::measure::{FlankReport, GearReport};
-use crate::process::shaping::quantities::{CIRCULAR_FEED, SPREAD_MAX, SPREAD_MEAN, SPREADS, STOCK_OF_TEETH, STROKES};
+use crate::process::shaping::quantities::{
+    CIRCULAR_FEED, LARGEST_SPEED, MEAN_SPEED, SPREAD_MAX, SPREAD_MEAN, SPREADS, STOCK_OF_TEETH, STROKES,
+};
 use crate::steps::axes;
 use gearcut_core::error::Refusal;
+use std::f64::consts::PI;
 use teeth::stock_range;
 
 /// Everything that was found on an operation.
@@ -72,6 +75,7 @@ pub fn operation(
         ));
     let (spec, schedule) = (&operation.spec, &operation.schedule);
     let strokes = operation.count();
+    let speed_m_per_min = job.ram_speed_mm_per_s(index) * 60.0 / 1e3;
     let teeth_with_stock = if last { 0 } else { job.scene.gear.teeth };
     let section = Section::new(&spec.name, format!("Operation {}", spec.name))
         .entries([
@@ -79,6 +83,8 @@ pub fn operation(
             OFFSET.of(spec.offset_mm).unless(other.as_deref()),
             SHORT_OF_DEPTH.of(operation.short_of_depth_mm).unless(other.as_deref()),
             STROKES.of(strokes),
+            LARGEST_SPEED.of(speed_m_per_min).unless(other.as_deref()),
+            MEAN_SPEED.of(2.0 / PI * speed_m_per_min).unless(other.as_deref()),
             CIRCULAR_FEED.of(schedule.circular_feed_mm_per_stroke()).unless(other.as_deref()),
             CYCLE_TIME.of(schedule.time_s(strokes as f64)),
         ])

@@ -5,6 +5,7 @@
 //! `tables/returns_<operation>.csv`; its warning.
 
 use crate::findings::{Entry, Notice, Place, Section, Table};
+use crate::number_text::significant;
 use crate::process::shaping::linkage::retraction::RetractionLaw;
 use crate::process::shaping::motion::returns::facts::{Offer, ReturnFacts, TiltCost};
 use crate::process::shaping::motion::returns::plan::CLEAR_MM;
@@ -19,6 +20,9 @@ use crate::process::shaping::scene::model::Retraction;
 use crate::process::shaping::{PreparedOperation, ShapingJob};
 use gearcut_core::error::Refusal;
 use gearcut_core::units::UM_PER_MM;
+
+/// Depths below this are rounding, um.
+const LEAST_DEPTH_UM: f64 = 1e-3;
 
 /// The section of an operation; none where the cutter is not drawn back. Where a program cuts other strokes, `other`
 /// says why nothing of it holds.
@@ -136,11 +140,11 @@ pub fn warning(operation: &str, section: &Section) -> Option<Notice> {
     let clearance_um = clearance.value().filter(|&um| um < UM_PER_MM * CLEAR_MM)?;
     let place = clearance.place().map(Place::words)?;
     let way_out = entry.advice.as_ref()?.text.as_str();
-    Some(if clearance_um >= 0.0 {
-        ReturnTight { operation, place, clearance_um: format!("{clearance_um:.2}"), way_out }.notice()
+    Some(if clearance_um > -LEAST_DEPTH_UM {
+        ReturnTight { operation, place, clearance_um: significant(clearance_um.max(0.0), 3), way_out }.notice()
     } else {
-        let overlap_mm2 = format!("{:.4}", section.value(&OVERLAP)?);
-        let depth_um = format!("{:.1}", -clearance_um);
+        let overlap_mm2 = significant(section.value(&OVERLAP)?, 2);
+        let depth_um = significant(-clearance_um, 3);
         ReturnEnters { operation, depth_um, place, overlap_mm2, way_out }.notice()
     })
 }

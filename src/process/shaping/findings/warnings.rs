@@ -161,7 +161,8 @@ fn too_deep(job: &ShapingJob) -> Vec<Notice> {
 /// Operations whose first stroke asks more of the ram than it gives.
 fn entry_forces(job: &ShapingJob) -> Vec<Notice> {
     let what = "the first stroke comes at full depth and takes";
-    let way_out = "give the operation an infeed, or leave it less stock";
+    let way_out = "give the operation an infeed, or leave it less stock (the force is an upper bound: chips of several \
+                   sides count twice where they meet)";
     let told = |(operation, stroke): (usize, Option<StrokeChips>)| {
         beyond_ram(job, operation, what, stroke?.cutting_n, way_out)
     };

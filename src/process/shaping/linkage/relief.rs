@@ -24,11 +24,14 @@
 
 use super::ShapingLinkage;
 use crate::findings::Notice;
+use crate::number_text::significant;
 use crate::process::shaping::notices::{ReliefRubs, ReliefTight};
 use gearcut_core::math::extremum::maximum;
 
 /// Below this share of a circular gear's clearance a warning is due.
 pub const TIGHT_RATIO: f64 = 0.5;
+/// Smaller ratios are rounding: a cutter that keeps to a flank neither clears it nor enters.
+const LEAST_RATIO: f64 = 1e-9;
 
 /// Side of a gear tooth.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -95,13 +98,15 @@ pub fn smallest_relief(linkage: &ShapingLinkage, offset_mm: f64, pressure_angle_
     let [from, to] = linkage.curve().toothed_rad();
     let (phi_rad, loss) = maximum(loss, from, to, linkage.curve().samples_per_turn());
     let flank = if ratio(phi_rad).left < ratio(phi_rad).right { ReliefFlank::Left } else { ReliefFlank::Right };
-    SmallestRelief { ratio: -loss, phi_rad, flank, pressure_angle_rad }
+    // The angle of a flank that the cutter slides along is 0 but for rounding, with either sign.
+    let ratio = if loss.abs() < LEAST_RATIO { 0.0 } else { -loss };
+    SmallestRelief { ratio, phi_rad, flank, pressure_angle_rad }
 }
 
 impl SmallestRelief {
     /// Clears, tight, or rubs.
     pub fn verdict(&self) -> ReliefVerdict {
-        if self.ratio <= 0.0 {
+        if self.ratio < 0.0 {
             ReliefVerdict::Rubs
         } else if self.ratio < TIGHT_RATIO {
             ReliefVerdict::Tight
@@ -127,11 +132,11 @@ impl SmallestRelief {
             ReliefVerdict::Clears => None,
             ReliefVerdict::Tight => {
                 let percent = format!("{:.0}", 100.0 * self.ratio);
-                let clearance_um = format!("{clearance_um:.1}");
+                let clearance_um = significant(clearance_um, 3);
                 Some(ReliefTight { operation, back_off_mm, place, clearance_um, percent }.notice())
             }
             ReliefVerdict::Rubs => {
-                let depth_um = format!("{:.1}", -clearance_um);
+                let depth_um = significant(-clearance_um, 3);
                 Some(ReliefRubs { operation, place, depth_um, back_off_mm }.notice())
             }
         }

@@ -24,7 +24,8 @@ static TOOL_ERRORS: &[ErrorSource] = &[
         "um",
         4.0,
         "pitch of cutter tooth",
-    ),
+    )
+    .turning_together(),
 ];
 
 /// A compliance of the machine.
@@ -83,6 +84,7 @@ pub static SCENE: SceneProcess = SceneProcess {
     per_revolution: &["strokes_per_revolution"],
     of_one_gear: &["window_deg"],
     on_demand: &[keys::CMM],
+    draft: "",
     cuts_rings: true,
     senseless: &[],
     axes: &keys::AXES,

@@ -19,17 +19,17 @@ pub(super) static SECTIONS: &[KeySection] = &[KeySection::new(
     "gear.bevel",
     Role::Plain,
     &[
-        angle("pitch_angle_deg", "62.0", "Pitch angle, between axis and pitch cone."),
-        angle("face_angle_deg", "63.5", "Face angle: of the cone of the tips."),
-        angle("root_angle_deg", "59.0", "Root angle: of the cone of the roots."),
-        height("addendum_mm", "1.4", "Addendum at the outer cone distance."),
-        height("dedendum_mm", "4.3", "Dedendum at the outer cone distance."),
+        angle("pitch_angle_deg", "43.025", "Pitch angle, between axis and pitch cone."),
+        angle("face_angle_deg", "45.025", "Face angle: of the cone of the tips."),
+        angle("root_angle_deg", "41.025", "Root angle: of the cone of the roots."),
+        height("addendum_mm", "2.5", "Addendum at the outer cone distance."),
+        height("dedendum_mm", "3.225", "Dedendum at the outer cone distance."),
         Key {
             name: "mate_teeth",
             kind: Kind::Whole { min: 4, max: 2000 },
             unit: "",
             default: Default::LeftOut("the pitch angle is not checked"),
-            example: "22",
+            example: "45",
             teach: "Number of teeth of the mate; with the shaft angle it says which pitch angle belongs to the pair.",
         },
         Key::number(

@@ -34,7 +34,7 @@ pub(super) static SECTIONS: &[KeySection] = &[
                 kind: Kind::Number(Range::above(0.0, 1000.0)),
                 unit: "mm",
                 default: Default::OneOfGroup,
-                example: "47.0",
+                example: "70.878",
                 teach: "Radial setting S_r: distance of the head's axis from the cradle's.",
             },
             Key {
@@ -42,7 +42,7 @@ pub(super) static SECTIONS: &[KeySection] = &[
                 kind: Kind::Number(Range::closed(-180.0, 180.0)),
                 unit: "deg",
                 default: Default::OneOfGroup,
-                example: "58.0",
+                example: "61.722",
                 teach: "Cradle angle q in the middle of the roll, or at rest; its sign chooses the hand of the spiral, \
                     positive is right-hand.",
             },
@@ -71,7 +71,7 @@ pub(super) static SECTIONS: &[KeySection] = &[
                 "deg",
                 Range::above(0.0, 89.9),
                 "the blank's root angle",
-                "59.0",
+                "41.025",
                 "Machine root angle gamma_m.",
             ),
             Key::number(
@@ -96,7 +96,7 @@ pub(super) static SECTIONS: &[KeySection] = &[
                 "",
                 Range::closed(0.0, 100.0),
                 "that of a crown gear in the plane of the root cone",
-                "1.13",
+                "1.4647",
                 "Ratio of roll R_a: work angle per cradle angle. With 0 the gear is not generated (Formate): cradle \
                  and work rest, the head plunges into each slot, and its cones are the flanks.",
             ),

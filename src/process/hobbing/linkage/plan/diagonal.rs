@@ -91,6 +91,20 @@ impl FeedPlan {
             match strategy {
                 ShiftStrategy::OneWay => {
                     let needed_mm = travel_mm / (slide_mm_per_s.abs() * cycle_s) * shift_mm_per_revolution;
+                    // Where the scene says where the shift begins, part of the stroke lies behind.
+                    if let Some(start_mm) = operation.shift_start_mm.filter(|_| needed_mm <= stroke_mm) {
+                        let ahead_mm = 0.5 * stroke_mm - toward * start_mm;
+                        let problem = format!(
+                            "the cut takes {needed_mm:.1} mm of shift, and from {start_mm} mm on the hob has \
+                             {ahead_mm:.1} mm with full contact"
+                        );
+                        let way_out = format!(
+                            "leave it out, or write {} {:.1}",
+                            if toward > 0.0 { "at most" } else { "at least" },
+                            toward * (0.5 * stroke_mm - needed_mm)
+                        );
+                        return Err(Refusal::new("operation.shift_start_mm", problem, way_out));
+                    }
                     return Err(Refusal::new(
                         "operation.linkage.hobbing_diagonal.strategy",
                         format!(

@@ -1,7 +1,11 @@
 //! Feed plans of shipped scenes: what they cover, and what is refused.
 
+use super::clear_before_mm;
+use crate::findings::notice::Severity;
 use crate::process;
 use crate::process::hobbing::HobbingJob;
+use crate::process::hobbing::axes_report::HobbingAxesReport;
+use crate::steps::axes::warnings;
 use std::path::Path;
 
 fn job(file: &str, settings: &[&str]) -> gearcut_core::Result<HobbingJob> {
@@ -118,4 +122,56 @@ fn two_cuts_keep_the_phase_and_conventional_turns_the_feed() {
         start > 6.0
             && (rough.linkage.axes::<1>(rough.linkage.end_s()).radial_mm.value() - rough.offset_mm).abs() < 1e-9
     );
+}
+
+/// A hob of 87.5 mm that is 6.75 mm deep in blanks of 40 teeth, module 3: without tilt the chord of its own tip circle,
+/// sqrt(h (d_a0 - h)); with it what points all over both cylinders gave.
+#[test]
+fn the_hob_is_clear_of_the_blank_where_both_cylinders_part() {
+    let clear_mm = |helix_deg: f64, head_deg: f64| {
+        let outline_mm = 60.0 / helix_deg.to_radians().cos() + 3.0;
+        clear_before_mm(43.75, outline_mm, 6.75, [50.0, outline_mm], head_deg.to_radians())
+    };
+    assert!((clear_mm(0.0, 0.0) - (6.75 * 80.75_f64).sqrt()).abs() < 1e-6);
+    for (helix_deg, head_deg, sampled_mm) in [
+        (0.0, -2.149, 23.39),
+        (10.0, 7.851, 23.94),
+        (20.0, 17.851, 26.49),
+        (30.0, 27.851, 31.35),
+        (45.0, 42.851, 45.36),
+    ] {
+        let found_mm = clear_mm(helix_deg, head_deg);
+        assert!((found_mm - sampled_mm).abs() < 0.006, "{helix_deg} deg: {found_mm} mm for {sampled_mm}");
+    }
+}
+
+/// What a scene gives is held against what the hob needs; what it leaves out is enough.
+#[test]
+fn a_travel_that_is_too_short_is_told_and_gets_no_program() {
+    let ids = |settings: &[&str]| {
+        let job = job("circular_helical", settings).unwrap();
+        let axes = HobbingAxesReport::of_job(&job);
+        let told: Vec<_> =
+            warnings(&axes).into_iter().map(|notice| (notice.id.into_owned(), notice.severity)).collect();
+        let of = |id: &str| told.iter().find(|(own, _)| own == id).map(|told| told.1);
+        ["hob.starts_inside", "program.none", "hob.short_overrun"].map(of)
+    };
+    let (fault, warning) = (Some(Severity::Fault), Some(Severity::Warning));
+    assert_eq!(ids(&[]), [None; 3]);
+    assert_eq!(ids(&["approach=axial", "approach_mm=5"]), [fault, warning, None]);
+    assert_eq!(ids(&["overrun_mm=0.5"]), [None, None, warning]);
+}
+
+/// A shift that begins in the middle of the hob has half of it ahead.
+#[test]
+fn a_start_that_leaves_too_little_of_the_hob_is_named() {
+    let one_way = ["linkage.hobbing_diagonal.strategy=one_way", "linkage.hobbing_diagonal.shift_mm_per_revolution=1.2"];
+    let whole = diagonal(&one_way).unwrap();
+    let plan = &whole.finishing().plan;
+    let [low, high] = plan.shift_range_mm;
+    let needed_mm = 1.2 * whole.finishing().linkage.end_s() / whole.finishing().linkage.cycle_s();
+    assert!(needed_mm < high - low && needed_mm > 0.5 * (high - low), "{needed_mm} of {low} to {high} mm");
+    let (key, problem) = refused(diagonal(&[one_way[0], one_way[1], "shift_start_mm=0"]));
+    assert_eq!(key, "operation.shift_start_mm");
+    assert!(problem.contains(&format!("{high:.1} mm with full contact")), "{problem}");
 }

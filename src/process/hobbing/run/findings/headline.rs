@@ -4,7 +4,7 @@
 use super::Measured;
 use crate::findings::quantities::cutting::{IDLE, LARGEST_FORCE, NO_MATERIAL, STOPPED, THICKEST_CHIP};
 use crate::findings::quantities::flanks::UNDERCUT_FLANKS;
-use crate::findings::{Entry, Place};
+use crate::findings::{Entry, Notice, Place};
 use crate::process::hobbing::measure::hob_load::OperationLoad;
 use crate::process::hobbing::measure::hoffmeister;
 use crate::process::hobbing::quantities::{
@@ -17,7 +17,7 @@ use crate::steps::whole_blank::mean;
 use gearcut_core::units::UM_PER_MM;
 
 /// What to look at first.
-pub(super) fn headline(job: &HobbingJob, gear: &HobbedGear, measured: &Measured) -> Vec<Entry> {
+pub(super) fn headline(job: &HobbingJob, gear: &HobbedGear, measured: &Measured, known: &[Notice]) -> Vec<Entry> {
     let labels = job.hob.labels();
     let at = |operation: usize, tooth: usize| {
         Place::default()
@@ -73,5 +73,5 @@ pub(super) fn headline(job: &HobbingJob, gear: &HobbedGear, measured: &Measured)
     // What is asked of the hob comes before the flanks.
     let first = [&THICKEST_CHIP, &HOFFMEISTER, &LARGEST_FORCE, &PEAK_TO_MEAN, &SHIFT_ROOM, &SHIFT_RANGE];
     entries.sort_by_key(|entry| first.iter().position(|row| row.key == entry.key).unwrap_or(first.len()));
-    quality(measured.inspected).into_iter().chain(entries).collect()
+    quality(measured.inspected, known).into_iter().chain(entries).collect()
 }
