@@ -33,7 +33,6 @@ mod model;
 mod noise;
 mod page;
 mod refit;
-mod relative;
 mod selection;
 mod shapes;
 mod standing_out;

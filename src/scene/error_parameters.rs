@@ -32,8 +32,6 @@ pub struct ErrorParameter {
     pub step: f64,
     /// When it is shifted.
     pub tried: Tried,
-    /// Whether all parameters of its source, by as much, are a turn of the tool.
-    pub turns_together: bool,
     /// Section of its keys.
     section: String,
     /// Whether the scene has its key.
@@ -145,7 +143,6 @@ fn parameters(
             unit: source.unit,
             step,
             tried: source.tried,
-            turns_together: source.turns_together,
             section: section.to_owned(),
             change,
         });

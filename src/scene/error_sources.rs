@@ -30,8 +30,6 @@ pub struct ErrorSource {
     pub tried: Tried,
     /// Key of the same section without which it means nothing: scenes that do not write it have no such parameter.
     pub needs: Option<&'static str>,
-    /// Whether all entries of its list, by as much, are a turn of the tool, which a round gear follows as a whole.
-    pub turns_together: bool,
 }
 
 /// When an error is shifted.
@@ -87,19 +85,13 @@ pub enum KeyForm {
 impl ErrorSource {
     /// An error that is tried among all.
     pub const fn new(section: &'static str, form: KeyForm, unit: &'static str, step: f64, what: &'static str) -> Self {
-        Self { section, form, unit, step, what, tried: Tried::Always, needs: None, turns_together: false }
+        Self { section, form, unit, step, what, tried: Tried::Always, needs: None }
     }
 
     /// The same, tried at other times.
     #[must_use]
     pub const fn tried(self, tried: Tried) -> Self {
         Self { tried, ..self }
-    }
-
-    /// The same for entries that are a turn of the tool together.
-    #[must_use]
-    pub const fn turning_together(self) -> Self {
-        Self { turns_together: true, ..self }
     }
 
     /// The same for scenes that write another key of its section.

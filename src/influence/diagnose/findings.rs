@@ -207,19 +207,13 @@ fn residuals(points: &[MeasuredPoint], model: &ErrorModel, found: &Diagnosis) ->
 /// Size in words, with its interval where that holds.
 pub(super) fn sized(found: &Diagnosis, fitted: Option<FittedSize>, unit: &str) -> String {
     let words = |FittedSize { size, interval: [low, high], .. }| {
-        let digits = decimals(0.5 * (high - low));
         if found.intervals_hold() {
-            format!("{size:.digits$} ({low:.digits$} to {high:.digits$}) {unit}")
+            format!("{size:.2} ({low:.2} to {high:.2}) {unit}")
         } else {
-            format!("{size:.digits$} {unit}, no interval holds")
+            format!("{size:.2} {unit}, no interval holds")
         }
     };
     fitted.map_or_else(|| "no size of its own".to_owned(), words)
-}
-
-/// Decimals that an interval of this half width is worth: hundredths, and of narrower ones two digits.
-fn decimals(half: f64) -> usize {
-    if half > 0.0 && half < 0.01 { (1.0 - half.log10().floor()).min(9.0) as usize } else { 2 }
 }
 
 /// For the terminal: what stands out, the headline, and what is named.

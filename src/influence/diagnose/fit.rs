@@ -3,8 +3,6 @@
 //! In: a model, measured deviations and their noise. Out: [`Diagnosis`].
 
 use super::averaging::{Averaging, FitColumn};
-use super::model::ModelledSource;
-use super::relative;
 use super::selection::{Selection, chi_square_quantile};
 use super::{Diagnosis, ErrorModel, FittedSize, NamedSource, Noise, Without};
 use crate::influence::interval::interval;
@@ -40,10 +38,7 @@ impl<'a> LinearFit<'a> {
         without.places.iter().for_each(|&place| taken[place] = false);
         let whitened = |values: &[f64]| noise.over(values, |place| taken[place]);
         let less = |other_um: &[f64]| measured_um.iter().zip(other_um).map(|(a, b)| a - b).collect::<Vec<f64>>();
-        let of_source = model.sources.iter().map(|source| {
-            let columns = source.um_per_unit.iter().map(|of| whitened(of)).collect();
-            if source.is_relative() { relative::differences(columns) } else { columns }
-        });
+        let of_source = model.sources.iter().map(|source| source.um_per_unit.iter().map(|of| whitened(of)).collect());
         let columns = of_source.collect();
         let always: Vec<Vec<f64>> = model.always().map(whitened).collect();
         let off_um = less(&model.without_errors_um());
@@ -114,20 +109,11 @@ impl<'a> LinearFit<'a> {
             let mut fitted = Vec::new();
             for (index, column) in columns[source].iter().enumerate() {
                 let own = basis_so_far.take(column).then(|| sized(place, FitColumn::Of(source, index)));
-                place += usize::from(own.is_some());
-                fitted.push(own);
-            }
-            let ModelledSource { um_per_unit, .. } = &model.sources[source];
-            let relative = model.sources[source].is_relative();
-            let common = if relative { relative::common(&columns[source], &fitted) } else { 0.0 };
-            for (index, um_per_unit) in um_per_unit.iter().enumerate() {
-                let is_fitted = fitted[index].is_some() || relative && norm(&columns[source][index]) > 0.0;
-                if is_fitted {
-                    take_off(um_per_unit, fitted[index].map_or(0.0, |own| own.size) - common);
+                if let Some(FittedSize { size, .. }) = own {
+                    take_off(&model.sources[source].um_per_unit[index], size);
+                    place += 1;
                 }
-            }
-            if relative {
-                fitted = relative::about_the_median(&columns[source], fitted);
+                fitted.push(own);
             }
             let others: Vec<usize> = chosen.iter().copied().filter(|&other| other != source).collect();
             let left_by_others = fit.left(&others);

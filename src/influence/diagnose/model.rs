@@ -13,7 +13,6 @@ use crate::progress::Progress;
 use crate::scene::error_parameters::{ErrorParameter, Shifted};
 use crate::scene::{LoadedScene, Scene};
 use gearcut_core::error::{Error, Refusal, Result};
-use gearcut_core::gear::PitchCurveShape;
 
 /// A scene's errors as columns over measured places.
 #[derive(Debug, Clone)]
@@ -55,9 +54,6 @@ pub struct ModelledSource {
     pub key: String,
     /// Its parameters.
     pub parameters: Vec<ErrorParameter>,
-    /// Whether only differences between its parameters are known: all of them, by as much, turn the gear, which lies
-    /// on the measuring machine as it may.
-    relative: bool,
     /// Sizes about which they are linear, beyond those of the scene.
     pub sizes: Vec<f64>,
     /// What a unit of each adds at the measured places, um.
@@ -68,11 +64,6 @@ pub struct ModelledSource {
 }
 
 impl ModelledSource {
-    /// Whether only differences between its parameters are known. One tooth alone is tried against all others.
-    pub fn is_relative(&self) -> bool {
-        self.relative && self.parameters.len() > 1
-    }
-
     /// What it is: the title of its parameters without their parts.
     pub fn title(&self) -> String {
         let first = &self.parameters[0].title;
@@ -99,8 +90,6 @@ impl ErrorModel {
             refused: Vec::new(),
             complete: true,
         };
-        let gear = &cuts.loaded.scene.gear;
-        let is_round = matches!(gear.pitch_curve, PitchCurveShape::Circle);
         let step = progress.step("influence", parameters.len() as u64, "parameters");
         for parameter in parameters {
             if interrupt.is_raised() {
@@ -109,7 +98,7 @@ impl ErrorModel {
                 break;
             }
             match Influence::by(cuts.loaded, &model.before_um, &parameter, &|scene| cuts.deviations_um(scene)) {
-                Ok(influence) => model.add(influence, is_round),
+                Ok(influence) => model.add(influence),
                 Err(Error::Scene(errors)) => model.refused.push((parameter, errors.to_string())),
                 Err(Error::Refused(refusal)) => model.refused.push((parameter, refusal.problem)),
                 Err(other) => return Err(other),
@@ -128,13 +117,12 @@ impl ErrorModel {
         self.sources.retain(|source| source.key != untried.source);
     }
 
-    fn add(&mut self, influence: Influence, is_round: bool) {
+    fn add(&mut self, influence: Influence) {
         let known = self.sources.iter().position(|source| source.key == influence.parameter.source);
         let place = known.unwrap_or_else(|| {
             let (key, bends_um) = (influence.parameter.source.clone(), vec![0.0; influence.bends_um.len()]);
             let (parameters, sizes, um_per_unit) = (Vec::new(), Vec::new(), Vec::new());
-            let relative = influence.parameter.turns_together && is_round;
-            self.sources.push(ModelledSource { key, parameters, relative, sizes, um_per_unit, bends_um });
+            self.sources.push(ModelledSource { key, parameters, sizes, um_per_unit, bends_um });
             self.sources.len() - 1
         });
         let source = &mut self.sources[place];

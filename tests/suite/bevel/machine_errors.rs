@@ -147,8 +147,7 @@ fn errors_of_settings_are_their_closed_forms() {
     case("sliding_base_mm", 0.02, 5.0, &|_| -20_f64.to_radians().sin());
     // The gear's z axis runs from its back to the apex.
     case("center_to_back_mm", 0.02, 1.0, &|place| place.normal.z);
-    let middle_rad = finishing.settings.cradle_angle_rad;
-    case("roll_ratio", 0.0004, 1.0, &|place| place.turned(place.cradle_rad - middle_rad));
+    case("roll_ratio", 0.0002, 1.0, &|place| place.turned(finishing.as_set.work_angle(place.cradle_rad)[0] / 1.0232));
     // An upright head that leans towards the line of the radial setting turns about its own y axis.
     case("tilt_deg", 0.01, 1.0, &|place| place.leaned(DVec3::Y).to_radians());
 }

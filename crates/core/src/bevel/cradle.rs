@@ -86,9 +86,6 @@ pub struct Roll {
     pub second_order_per_rad: f64,
     /// D, 1/rad^2.
     pub third_order_per_rad2: f64,
-    /// How far the work is turned on its spindle beyond A = R_a q0 in the middle of the roll, rad: a turn of the whole
-    /// gear.
-    pub turn_rad: f64,
 }
 
 impl CradleSettings {
@@ -124,17 +121,17 @@ impl CradleSettings {
 
     /// Work angle A and its rate dA/dq at a cradle angle; A is R_a q where the roll is not modified.
     pub fn work_angle(&self, cradle_rad: f64) -> [f64; 2] {
-        let Roll { ratio, second_order_per_rad: c, third_order_per_rad2: d, turn_rad } = self.roll;
+        let Roll { ratio, second_order_per_rad: c, third_order_per_rad2: d } = self.roll;
         let by = cradle_rad - self.cradle_angle_rad;
         [
-            ratio * (self.cradle_angle_rad + by * (1.0 - by * (c + by * d))) + turn_rad,
+            ratio * (self.cradle_angle_rad + by * (1.0 - by * (c + by * d))),
             ratio * (1.0 - by * (2.0 * c + 3.0 * d * by)),
         ]
     }
 
     /// The same with d^2 A / dq^2.
     pub fn work_angle_jet(&self, cradle_rad: f64) -> Jet<3> {
-        let Roll { ratio, second_order_per_rad: c, third_order_per_rad2: d, .. } = self.roll;
+        let Roll { ratio, second_order_per_rad: c, third_order_per_rad2: d } = self.roll;
         let bend = -ratio * (2.0 * c + 6.0 * d * (cradle_rad - self.cradle_angle_rad));
         let [work_rad, rate] = self.work_angle(cradle_rad);
         Jet::from_derivatives([work_rad, rate, bend])
@@ -212,7 +209,7 @@ mod tests {
             center_to_back_mm: 2.5,
             root_angle_rad: 1.1,
             tilt: Tilt { tilt_rad: 0.2, swivel_rad: -0.7 },
-            roll: Roll { ratio: 1.08, second_order_per_rad: 0.03, third_order_per_rad2: -0.2, ..Roll::default() },
+            roll: Roll { ratio: 1.08, second_order_per_rad: 0.03, third_order_per_rad2: -0.2 },
         };
         let (q, h, at) = (1.02, 1e-5, DVec3::new(40.0, -81.0, -3.0));
         let formate = CradleSettings { roll: Roll::default(), tilt: Tilt::default(), ..settings };

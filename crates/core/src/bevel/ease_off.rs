@@ -137,11 +137,7 @@ impl Setting {
             Self::SlidingBase => off.sliding_base_mm += error,
             Self::CenterToBack => off.center_to_back_mm += error,
             Self::RootAngle => off.root_angle_rad += error,
-            // The work keeps its place in the middle of the roll: turned with the ratio, all teeth would be off alike.
-            Self::RollRatio => {
-                off.roll.ratio += error;
-                off.roll.turn_rad -= error * settings.cradle_angle_rad;
-            }
+            Self::RollRatio => off.roll.ratio += error,
             Self::Tilt => off.tilt.tilt_rad += error,
             Self::Swivel => off.tilt.swivel_rad += error,
         }

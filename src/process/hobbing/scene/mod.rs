@@ -31,8 +31,7 @@ static TOOL_ERRORS: &[ErrorSource] = &[
         "um",
         4.0,
         "pitch of hob gash",
-    )
-    .turning_together(),
+    ),
 ];
 
 /// Hobbing with five and six axes.

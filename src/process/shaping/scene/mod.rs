@@ -24,8 +24,7 @@ static TOOL_ERRORS: &[ErrorSource] = &[
         "um",
         4.0,
         "pitch of cutter tooth",
-    )
-    .turning_together(),
+    ),
 ];
 
 /// A compliance of the machine.
