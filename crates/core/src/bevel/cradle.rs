@@ -200,7 +200,6 @@ impl CradleSettings {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::bevel::ease_off::Setting;
 
     #[test]
     fn velocities_are_the_rates_of_poses() {
@@ -230,7 +229,8 @@ mod tests {
         assert!((settings.work_angle(q + h)[0] - before - h * rate).abs() < 1e-10);
         assert!((settings.work_angle(0.9)[0] - 1.08 * 0.9).abs() < 1e-15);
         // A ratio that is off turns the work as before in the middle of the roll, and from there on with the distance.
-        let off = Setting::RollRatio.off_by(0.002, &settings);
+        let roll = Roll { ratio: 1.082, ratio_error: 0.002, ..settings.roll };
+        let off = CradleSettings { roll, ..settings };
         let by: f64 = q - 0.9;
         let more = 0.002 * by * (1.0 - by * (0.03 - 0.2 * by));
         assert!((off.work_angle(0.9)[0] - 1.08 * 0.9).abs() < 1e-15);

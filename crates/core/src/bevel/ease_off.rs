@@ -137,10 +137,7 @@ impl Setting {
             Self::SlidingBase => off.sliding_base_mm += error,
             Self::CenterToBack => off.center_to_back_mm += error,
             Self::RootAngle => off.root_angle_rad += error,
-            Self::RollRatio => {
-                off.roll.ratio += error;
-                off.roll.ratio_error += error;
-            }
+            Self::RollRatio => off.roll.ratio += error,
             Self::Tilt => off.tilt.tilt_rad += error,
             Self::Swivel => off.tilt.swivel_rad += error,
         }
