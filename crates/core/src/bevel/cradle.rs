@@ -122,7 +122,7 @@ impl CradleSettings {
         DVec3::new(cos * out_mm + sin * axial_mm.y, 0.0, sin * out_mm - cos * axial_mm.y)
     }
 
-    /// Work angle A and its rate dA/dq at a cradle angle; A is R_a q where the roll is not modified and the ratio right.
+    /// Work angle A and its rate dA/dq at a cradle angle; A is R_a q where the roll is even and its ratio right.
     pub fn work_angle(&self, cradle_rad: f64) -> [f64; 2] {
         let Roll { ratio, second_order_per_rad: c, third_order_per_rad2: d, ratio_error } = self.roll;
         let by = cradle_rad - self.cradle_angle_rad;
