@@ -31,6 +31,17 @@ pub fn significant(value: f64, digits: u32) -> String {
     if text.trim_start_matches(['-', '0', '.']).is_empty() { "0".to_owned() } else { text }
 }
 
+/// A number to so many decimals that `width` has two significant digits; three digits where that is no width.
+pub fn to_width(value: f64, width: f64) -> String {
+    if !(width > 0.0 && width.is_finite()) {
+        return significant(value, 3);
+    }
+    let decimals = (1.0 - width.log10().floor()).clamp(0.0, 15.0) as usize;
+    let text = format!("{value:.decimals$}");
+    let is_nothing = text.trim_start_matches(['-', '0', '.']).is_empty();
+    if is_nothing { text.trim_start_matches('-').to_owned() } else { text }
+}
+
 /// The number that is meant by "0,25", "250um" or "2,5 mm"; none where the text is a number, or far from one.
 pub fn number_meant(typed: &str) -> Option<String> {
     let typed = typed.trim();
@@ -78,6 +89,14 @@ mod tests {
             [3.0, 0.5, 61.11, -1e-9, 100.0, 1.0 / 3.0].map(plain),
             ["3", "0.5", "61.11", "0", "100", "0.333333"]
         );
+    }
+
+    #[test]
+    fn the_width_of_an_interval_says_how_many_decimals_matter() {
+        let texts = [(0.003_998_5, 0.001_33), (6.1, 0.37), (-0.000_3, 0.02), (1234.4, 850.0), (2e-4, 9.96e-6)];
+        let expected = ["0.0040", "6.10", "0.000", "1234", "0.0002000"];
+        assert_eq!(texts.map(|(value, width)| to_width(value, width)), expected);
+        assert_eq!([0.0, f64::NAN].map(|width| to_width(0.012_34, width)), ["0.0123", "0.0123"]);
     }
 
     #[test]

@@ -37,6 +37,7 @@ pub static SHARED: &[&QuantityGroup] = &[
     &blank::DAMAGE,
     &program::PROGRAM,
     &program::MACHINE_ERRORS,
+    &program::TURN,
     &surfaces::OVERLAY,
     &surfaces::PARAMETERS,
     &surfaces::CURVES,

@@ -11,7 +11,7 @@ mod maps;
 mod page;
 mod reported;
 
-use super::derivative::Influence;
+use super::derivative::{Influence, refusal};
 use super::figures::Figures;
 use super::gear_grid::GearGrid;
 use super::known_cuts::{KnownCuts, digest};
@@ -128,9 +128,7 @@ pub fn budget(
                 complete = false;
                 break;
             }
-            Err(Error::Scene(errors)) => refused.push((parameter, first_line(&errors.to_string()))),
-            Err(Error::Refused(refusal)) => refused.push((parameter, refusal.problem)),
-            Err(other) => return Err(other),
+            Err(error) => refused.push((parameter, refusal(error)?)),
         }
         step.advance(1);
     }
@@ -178,8 +176,4 @@ fn whole_flanks(scene: &Scene, asked: &[(u32, Side)]) -> Result<Vec<(u32, Side)>
         .map(|i| 1 + i * teeth / count)
         .flat_map(|tooth| [(tooth, Side::Left), (tooth, Side::Right)])
         .collect())
-}
-
-fn first_line(text: &str) -> String {
-    text.lines().next().unwrap_or_default().trim_start_matches("error: ").to_owned()
 }

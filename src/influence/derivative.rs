@@ -6,7 +6,7 @@
 
 use crate::process;
 use crate::scene::error_parameters::{ErrorParameter, Shifted};
-use crate::scene::{LoadedScene, Scene};
+use crate::scene::{LoadedScene, Scene, SceneErrors};
 use gearcut_core::error::{Error, Result};
 
 /// Differences up to this share of the largest influence are no matter: marks of strokes and the second order of
@@ -129,4 +129,19 @@ pub fn read(shifted: &Shifted) -> Result<LoadedScene> {
 /// Largest size of the values that there are.
 pub fn largest(values: impl Iterator<Item = f64>) -> f64 {
     values.map(f64::abs).filter(|value| value.is_finite()).fold(0.0, f64::max)
+}
+
+/// Why a scene or its gear is refused, in the words of the first problem alone.
+///
+/// # Errors
+/// What is no refusal.
+pub fn refusal(error: Error) -> Result<String> {
+    match error {
+        Error::Scene(errors) => Ok(match errors.downcast_ref::<SceneErrors>() {
+            Some(SceneErrors { problems }) => problems.first().map_or_else(String::new, |first| first.message.clone()),
+            None => errors.to_string(),
+        }),
+        Error::Refused(refusal) => Ok(refusal.problem),
+        other => Err(other),
+    }
 }

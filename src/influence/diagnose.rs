@@ -29,6 +29,7 @@ mod averaging;
 mod cuts;
 mod findings;
 mod fit;
+mod free;
 mod model;
 mod noise;
 mod page;

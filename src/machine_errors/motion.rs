@@ -4,7 +4,7 @@
 //! backlash need the motion's past: they are worked out once, over cells of the whole [`Course`]. Everything else is
 //! worked out where it is asked for.
 
-use super::axis::AxisErrors;
+use super::axis::{AxisErrors, GearboxCycle};
 use super::backlash::Play;
 use super::servo::{Lag, Rates, SpeedCell};
 use crate::machine::AxisMotion;
@@ -113,16 +113,14 @@ impl<const N: usize> ActualMotion<N> {
     pub fn positions(&self, moment: &MachineMoment<N>, commanded: impl Fn(f64) -> [f64; N]) -> [f64; N] {
         let time_s = moment.time_s;
         let now = commanded(time_s);
-        let cell = self.starts_s.partition_point(|&start_s| start_s <= time_s).max(1) - 1;
+        let cell = self.cell(time_s);
         std::array::from_fn(|index| {
-            let ActualAxis { errors, lag, play } = &self.axes[index];
+            let errors = &self.axes[index].errors;
             let command = match errors.gearbox {
                 Some(gearbox) => gearbox.command(time_s, |time_s| commanded(time_s)[index]),
                 None => now[index],
             };
-            let behind = lag.as_ref().map_or(0.0, |lag| lag.in_cell(cell, time_s - self.starts_s[cell])[0]);
-            let drive = command - behind;
-            let axis = play.as_ref().map_or(drive, |play| play.axis(time_s, drive));
+            let axis = self.driven(index, cell, time_s, command);
             let noise = errors.noise.iter().map(|noise| {
                 let at_rest_s = if noise.law.goes_on_at_rest() { moment.at_rest_s } else { 0.0 };
                 let since_start_s = moment.since_start_s + at_rest_s;
@@ -133,6 +131,44 @@ impl<const N: usize> ActualMotion<N> {
             });
             errors.guided(axis + moment.indexed[index], moment.since_start_s) + noise.sum::<f64>()
         })
+    }
+
+    /// How far the work is turned against the tool at a time, rad, by what drives, gearbox and play hold both behind
+    /// their commands: the work's own, less what it turns in the time by which the axes of the tool come late.
+    pub fn turn_rad(
+        &self,
+        work: usize,
+        tool: &[usize],
+        time_s: f64,
+        commanded: impl Fn(f64) -> [AxisMotion; N],
+    ) -> f64 {
+        let (now, cell) = (commanded(time_s), self.cell(time_s));
+        let behind = |index: usize| {
+            let command = match self.axes[index].errors.gearbox {
+                // Steps of the commands are off to both sides.
+                Some(gearbox) => {
+                    GearboxCycle { increment: 0.0, ..gearbox }.command(time_s, |t| commanded(t)[index].position)
+                }
+                None => now[index].position,
+            };
+            now[index].position - self.driven(index, cell, time_s, command)
+        };
+        let square: f64 = tool.iter().map(|&index| now[index].velocity.powi(2)).sum();
+        let along: f64 = tool.iter().map(|&index| behind(index) * now[index].velocity).sum();
+        let late_s = if square > 0.0 { along / square } else { 0.0 };
+        late_s * now[work].velocity - behind(work)
+    }
+
+    fn cell(&self, time_s: f64) -> usize {
+        self.starts_s.partition_point(|&start_s| start_s <= time_s).max(1) - 1
+    }
+
+    /// Where an axis is by its drive and play alone, `command` in force.
+    fn driven(&self, index: usize, cell: usize, time_s: f64, command: f64) -> f64 {
+        let ActualAxis { lag, play, .. } = &self.axes[index];
+        let behind = lag.as_ref().map_or(0.0, |lag| lag.in_cell(cell, time_s - self.starts_s[cell])[0]);
+        let drive = command - behind;
+        play.as_ref().map_or(drive, |play| play.axis(time_s, drive))
     }
 }
 

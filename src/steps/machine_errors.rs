@@ -5,20 +5,49 @@
 //! has all of them at once, and `gearcut scatter` cuts the gear with each alone.
 
 use crate::findings::Section;
-use crate::findings::quantities::program::{LAYER, MACHINE_ERRORS};
+use crate::findings::quantities::program::{LAYER, MACHINE_ERRORS, TURN, TURN_ANGLE, TURN_ON_FLANKS};
 use crate::machine::{Axis, AxisKind};
 use crate::machine_errors::{AxisErrors, ErrorLayer, Guide, MachineErrors, NoiseLaw, ToolMounting, WorkMounting};
 use crate::number_text::{number, size, um};
-use gearcut_core::units::UM_PER_MM;
+use crate::scene::model::Gear;
+use gearcut_core::gear::PitchCurve;
+use gearcut_core::units::{TURN_RAD, UM_PER_MM};
 
 /// mm per mm as um in 100 mm.
 const UM_IN_100MM: f64 = 1e5;
+/// Turns that move flanks by less are rounding, mm.
+const LEAST_TURN_MM: f64 = 1e-9;
+
+/// A turn of the finished gear that the zero of the work spindle makes up for.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TurnTakenOff {
+    /// The turn, rad.
+    pub turn_rad: f64,
+    /// What a radian of it moves left flanks by along their normals, mm.
+    pub mm_per_rad: f64,
+}
+
+impl TurnTakenOff {
+    /// That of a cylindrical gear: its normals point along the pitch circle by the cosines of pressure and helix angle.
+    pub fn of_round(turn_rad: f64, gear: &Gear, curve: &PitchCurve) -> Self {
+        let along = gear.pressure_angle_rad.cos() * gear.helix_angle_rad.cos();
+        Self { turn_rad, mm_per_rad: along * curve.perimeter_mm() / TURN_RAD }
+    }
+
+    /// As findings; none where it is rounding.
+    fn section(self) -> Option<Section> {
+        let on_flanks_mm = self.turn_rad * self.mm_per_rad;
+        let entries = || [TURN_ANGLE.of(self.turn_rad.to_degrees()), TURN_ON_FLANKS.of(on_flanks_mm * UM_PER_MM)];
+        (on_flanks_mm.abs() > LEAST_TURN_MM).then(|| TURN.section(entries()))
+    }
+}
 
 /// The layers that are on; `own` has what only the process knows, layer by layer, in words.
 pub fn section<const N: usize>(
     errors: &MachineErrors<N>,
     axes: &[Axis; N],
     own: &[(ErrorLayer, String)],
+    turn: TurnTakenOff,
 ) -> Option<Section> {
     let of_axes = |words: fn(&AxisErrors, AxisKind) -> Vec<String>| {
         let named = errors.axes.iter().zip(axes).map(|(of, axis)| (axis.name, words(of, axis.kind).join(", ")));
@@ -39,7 +68,7 @@ pub fn section<const N: usize>(
         let remark = format!(": {}", layer.definition());
         Some(entry.keyed(layer.name()).titled(layer.name().replace('_', " ")).remarked(&remark))
     };
-    let section = MACHINE_ERRORS.section(ErrorLayer::ALL.iter().filter_map(entry));
+    let section = MACHINE_ERRORS.section(ErrorLayer::ALL.iter().filter_map(entry)).parts(turn.section());
     (!section.entries.is_empty()).then_some(section)
 }
 

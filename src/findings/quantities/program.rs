@@ -22,3 +22,14 @@ rows! {
 
     LAYER: "layer", "", "errors of a layer that is on";
 }
+
+rows! {
+    /// A turn that no gear shows.
+    TURN: "turn", "Turn of the whole gear, taken off", "machine_errors.turn";
+
+    TURN_ANGLE: "angle", "deg",
+        "turn of the finished gear against its tool by drives that lag, the cycle of the gearbox and play; a gear has \
+         no datum of angle, and the zero of the work spindle makes up for it";
+    TURN_ON_FLANKS: "on_flanks", "um",
+        "what that turn would move left flanks by along their normals, and right flanks the other way";
+}

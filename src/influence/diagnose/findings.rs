@@ -15,7 +15,7 @@ use crate::influence::quantities::diagnosis::{
     RESIDUALS, ROUNDS, SAME_AS, SHAPE, SIZE, SOURCES, STANDING_OUT, SURE, TURN, TURN_HIGH, TURN_LOW, UNEXPLAINED,
 };
 use crate::influence::quantities::{ERROR, KIND, PARAMETER, UNIT};
-use crate::number_text::significant;
+use crate::number_text::{significant, to_width};
 use crate::output::summary;
 use crate::output::text::Sheet;
 use crate::scene::Scene;
@@ -206,11 +206,12 @@ fn residuals(points: &[MeasuredPoint], model: &ErrorModel, found: &Diagnosis) ->
 
 /// Size in words, with its interval where that holds.
 pub(super) fn sized(found: &Diagnosis, fitted: Option<FittedSize>, unit: &str) -> String {
-    let words = |FittedSize { size, interval: [low, high], .. }| {
+    let words = |FittedSize { size, interval: [low, high], half_if_right }| {
         if found.intervals_hold() {
-            format!("{size:.2} ({low:.2} to {high:.2}) {unit}")
+            let [size, low, high] = [size, low, high].map(|value| to_width(value, high - low));
+            format!("{size} ({low} to {high}) {unit}")
         } else {
-            format!("{size:.2} {unit}, no interval holds")
+            format!("{} {unit}, no interval holds", to_width(size, 2.0 * half_if_right))
         }
     };
     fitted.map_or_else(|| "no size of its own".to_owned(), words)

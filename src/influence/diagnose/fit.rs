@@ -1,8 +1,13 @@
 //! One linear fit: which sources are chosen about a model, their sizes, and what is left.
 //!
 //! In: a model, measured deviations and their noise. Out: [`Diagnosis`].
+//!
+//! What every fit has may be a combination of a source's parameters: all gashes of a hob off by as much are a turn of
+//! the gear. No measured gear says how much of it is whose. The fit gives all of it to what it always has: each such
+//! combination is one more value, 0, beside the measured ones (`free`).
 
 use super::averaging::{Averaging, FitColumn};
+use super::free::free_directions;
 use super::selection::{Selection, chi_square_quantile};
 use super::{Diagnosis, ErrorModel, FittedSize, NamedSource, Noise, Without};
 use crate::influence::interval::interval;
@@ -25,6 +30,8 @@ pub(super) struct LinearFit<'a> {
     /// The turn, and the columns of what stands out.
     always: Vec<Vec<f64>>,
     off: Vec<f64>,
+    /// Sources with a combination that the fit always has, once for each: the values behind the measured ones.
+    held: Vec<usize>,
     /// Deviations from a gear without errors, um, at all places.
     off_um: Vec<f64>,
     /// Squares of the deviations from the scene's own gear that neither a turn nor what stands out explains.
@@ -39,14 +46,30 @@ impl<'a> LinearFit<'a> {
         let whitened = |values: &[f64]| noise.over(values, |place| taken[place]);
         let less = |other_um: &[f64]| measured_um.iter().zip(other_um).map(|(a, b)| a - b).collect::<Vec<f64>>();
         let of_source = model.sources.iter().map(|source| source.um_per_unit.iter().map(|of| whitened(of)).collect());
-        let columns = of_source.collect();
-        let always: Vec<Vec<f64>> = model.always().map(whitened).collect();
+        let mut columns: Vec<Vec<Vec<f64>>> = of_source.collect();
+        let mut always: Vec<Vec<f64>> = model.always().map(whitened).collect();
         let off_um = less(&model.without_errors_um());
-        let off = whitened(&off_um);
+        let mut off = whitened(&off_um);
         let before = whitened(&less(&model.before_um));
-        let mut fit = Self { model, without, noise_um: noise.value_um, columns, always, off, off_um, whole: 0.0 };
-        fit.whole = fit.selection().basis(&[]).left_of(&before);
+        let of = |columns: &[Vec<f64>]| free_directions(columns, &always);
+        let free: Vec<Vec<Vec<f64>>> = columns.iter().map(|columns| of(columns)).collect();
+        let held: Vec<usize> = free.iter().enumerate().flat_map(|(source, of)| vec![source; of.len()]).collect();
+        always.iter_mut().chain([&mut off]).for_each(|column| column.extend(vec![0.0; held.len()]));
+        let directions: Vec<&Vec<f64>> = free.iter().flatten().collect();
+        for (source, columns) in columns.iter_mut().enumerate() {
+            for (index, column) in columns.iter_mut().enumerate() {
+                let own = held.iter().zip(&directions).map(|(&of, by)| if of == source { by[index] } else { 0.0 });
+                column.extend(own.collect::<Vec<f64>>());
+            }
+        }
+        let mut fit = Self { model, without, noise_um: noise.value_um, columns, always, off, held, off_um, whole: 0.0 };
+        fit.whole = fit.selection().basis(&[]).left_of(&[before, vec![0.0; fit.held.len()]].concat());
         fit
+    }
+
+    /// How many measured values there are.
+    fn count(&self) -> usize {
+        self.off.len() - self.held.len()
     }
 
     pub(super) fn selection(&self) -> Selection<'_> {
@@ -58,7 +81,8 @@ impl<'a> LinearFit<'a> {
         let turned = self.selection().basis(&[]);
         let seen = |source: usize| {
             let steps = self.model.sources[source].parameters.iter().map(|parameter| parameter.step);
-            self.columns[source].iter().zip(steps).any(|(column, step)| step * norm(&turned.beside(column).0) > 1.0)
+            let beside = |column: &[f64]| norm(&turned.beside(column).0[..self.count()]);
+            self.columns[source].iter().zip(steps).any(|(column, step)| step * beside(column) > 1.0)
         };
         let (mut candidates, hidden): (Vec<usize>, Vec<usize>) = (0..self.columns.len()).partition(|&i| seen(i));
         candidates.retain(|source| !self.without.sources.contains(source));
@@ -75,9 +99,12 @@ impl<'a> LinearFit<'a> {
         let (candidates, hidden) = self.candidates_and_hidden();
         let chosen = fit.select(&candidates);
         let basis = fit.basis(&chosen);
-        let solution = basis.solve(off);
+        let mut solution = basis.solve(off);
+        // What holds a source that is not there says nothing.
+        let idle = self.held.iter().filter(|source| !chosen.contains(source)).count();
+        solution.freedom = solution.freedom.saturating_sub(idle);
         if solution.freedom == 0 {
-            let problem = format!("{} places are too few for {} parameters", off.len(), basis.columns());
+            let problem = format!("{} places are too few for {} parameters", self.count(), basis.columns());
             return Err(Refusal::new("--measured", problem, "measure more places").into());
         }
         // Intervals widen where residuals say that the noise was stated too low.
@@ -133,7 +160,7 @@ impl<'a> LinearFit<'a> {
         named.sort_by(|a, b| b.alone.total_cmp(&a.alone));
         let there = residuals_um.iter().enumerate().filter(|(place, _)| !self.without.places.contains(place));
         let there = there.map(|(_, um)| um * um);
-        let residual_um = (there.sum::<f64>() / off.len() as f64).sqrt();
+        let residual_um = (there.sum::<f64>() / self.count() as f64).sqrt();
         let noise = ChiSquared::new(solution.freedom as f64).expect("freedom is above 0");
         let chance = noise.sf(solution.chi_square);
         let beyond = (solution.chi_square / solution.freedom as f64 - 1.0).max(0.0);

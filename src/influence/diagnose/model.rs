@@ -7,7 +7,7 @@
 use super::cuts::MeasuredCuts;
 use super::shapes::StandingOut;
 use crate::influence::budget::chosen;
-use crate::influence::derivative::{Influence, read};
+use crate::influence::derivative::{Influence, read, refusal};
 use crate::interrupt::Interrupt;
 use crate::progress::Progress;
 use crate::scene::error_parameters::{ErrorParameter, Shifted};
@@ -99,9 +99,7 @@ impl ErrorModel {
             }
             match Influence::by(cuts.loaded, &model.before_um, &parameter, &|scene| cuts.deviations_um(scene)) {
                 Ok(influence) => model.add(influence),
-                Err(Error::Scene(errors)) => model.refused.push((parameter, errors.to_string())),
-                Err(Error::Refused(refusal)) => model.refused.push((parameter, refusal.problem)),
-                Err(other) => return Err(other),
+                Err(error) => model.refused.push((parameter, refusal(error)?)),
             }
             step.advance(1);
         }

@@ -94,7 +94,12 @@ pub(super) fn find(
     let all: Vec<StandingOut> = shapes(points).into_iter().map(|shape| laid(shape, points, &ends_mm)).collect();
     let own = fit.selection();
     let (sources, _) = fit.candidates_and_hidden();
-    let over_noise = |um: &Vec<f64>| noise.over(um, |_| true);
+    let over_noise = |um: &Vec<f64>| {
+        let mut column = noise.over(um, |_| true);
+        // Nothing of it is held (`free`).
+        column.resize(own.off.len(), 0.0);
+        column
+    };
     let shaped = all.iter().map(|of| of.um_per_um.iter().map(over_noise).collect());
     let columns: Vec<Vec<Vec<f64>>> = own.columns.iter().cloned().chain(shaped).collect();
     let selection = Selection { columns: &columns, ..own };

@@ -17,8 +17,9 @@ use glam::{DMat3, DVec3};
 
 /// Cells over a slot: a roll is a tenth of a turn.
 const CELLS: usize = 512;
-/// Place of the work spindle among the axes.
+/// Place of the work spindle among the axes, and of those that move the head as a cradle does.
 const WORK: usize = 3;
+const CRADLE: [usize; 2] = [0, 1];
 
 /// Errors over the slots of an operation.
 #[derive(Debug, Clone)]
@@ -30,6 +31,8 @@ pub struct ActualSlot<'a> {
     head: ToolMounting,
     /// Middle of the face along the gear's axis, mm.
     middle_z_mm: f64,
+    /// Turn of the work that its zero makes up for, rad.
+    turn_rad: f64,
 }
 
 /// A slot at one moment.
@@ -68,7 +71,24 @@ impl<'a> ActualSlot<'a> {
         };
         let motion =
             ActualMotion::new(&errors.axes, &of_slot, |time_s| course.axes(machine, &operation.as_set, time_s));
-        Self { machine, operation, motion, mounting: errors.mounting, head, middle_z_mm }
+        Self { machine, operation, motion, mounting: errors.mounting, head, middle_z_mm, turn_rad: 0.0 }
+    }
+
+    /// How far work and head are turned against each other for good in the middle of the roll, rad
+    /// ([`ActualMotion::turn_rad`]): X and Y are what the cradle is here.
+    pub fn turn_rad(&self) -> f64 {
+        let PreparedBevel { course, as_set, .. } = self.operation;
+        if as_set.plunges() {
+            return 0.0;
+        }
+        let middle_s = ((as_set.cradle_angle_rad - course.range[0]) / course.per_s).clamp(0.0, course.slot_s());
+        let at = |time_s: f64| course.axes(self.machine, as_set, time_s);
+        self.motion.as_ref().map_or(0.0, |motion| motion.turn_rad(WORK, &CRADLE, middle_s, at))
+    }
+
+    /// The zero of the work spindle makes up for a turn.
+    pub fn make_up_for(&mut self, turn_rad: f64) {
+        self.turn_rad = turn_rad;
     }
 
     /// Pose of the head in the gear; `gear_from_work` is that of the work frame in the gear for slot 0, `index` turns
@@ -99,7 +119,7 @@ impl<'a> ActualSlot<'a> {
                 let [x, y, z, work_rad, swing_rad] = match motion {
                     Some(motion) => {
                         let mut axes = motion.positions(&now, commanded);
-                        axes[WORK] -= at.indexed_rad;
+                        axes[WORK] -= at.indexed_rad + self.turn_rad;
                         axes
                     }
                     None => commanded(at.time_s),

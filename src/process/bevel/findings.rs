@@ -30,7 +30,7 @@ use crate::number_text::{significant, size};
 use crate::steps::axes::{self, AxesOfOperation as _};
 use crate::steps::foreseen::{Foreseen, windows};
 use crate::steps::inspection::headline::{self, Cutting, Placed, candidates};
-use crate::steps::machine_errors::{self, tool_words};
+use crate::steps::machine_errors::{self, TurnTakenOff, tool_words};
 use crate::steps::parts::Stages;
 use crate::steps::program_under_test::ProgramUnderTest;
 use crate::steps::untouched_dexels;
@@ -39,6 +39,7 @@ use gearcut_core::bevel::ease_off::{Explained, Setting};
 use gearcut_core::error::Result;
 use gearcut_core::terms::Side;
 use gearcut_core::units::UM_PER_MM;
+use glam::DVec3;
 use tables::{blades, flanks, grid, slot};
 
 /// What was measured besides the flanks.
@@ -225,7 +226,10 @@ fn errors_of_machine(job: &BevelJob) -> Option<Section> {
     if spec.head.runouts_mm.iter().any(|&runout| runout != 0.0) {
         own.push((ErrorLayer::Tool, "runouts given for each blade".to_owned()));
     }
-    machine_errors::section(&spec.errors, &AXES, &own)
+    let middle = job.target_of(Side::Left).row(0.0).and_then(|row| row.point(0.5)).ok();
+    // The work turns about x against the gear's frame, which looks from the other side.
+    let mm_per_rad = middle.map_or(0.0, |at| -DVec3::X.cross(at.point_mm).dot(at.normal));
+    machine_errors::section(&spec.errors, &AXES, &own, TurnTakenOff { turn_rad: job.turn_rad, mm_per_rad })
 }
 
 /// Thickness, spiral and pressure angle error: what gear inspection takes apart from the form of flanks.

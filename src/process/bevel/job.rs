@@ -81,6 +81,8 @@ pub struct BevelJob {
     pub gear_from_work: Rigid3,
     /// Which blades cut left flanks.
     pub left: BladeKind,
+    /// Turn of the finished gear as a whole, rad, that the zero of the work spindle makes up for.
+    pub turn_rad: f64,
     /// Passes of all operations over all slots.
     pub slots: Slots,
     pub(super) rays: OnceLock<Result<KeptRays, Refusal>>,
@@ -138,7 +140,11 @@ impl BevelJob {
         let actual = operations
             .iter()
             .map(|operation| ActualSlot::new(&spec.errors, spec.head.mounting, machine, operation, middle_z_mm));
-        let actual: Vec<ActualSlot> = actual.collect();
+        let mut actual: Vec<ActualSlot> = actual.collect();
+        let turn_rad = actual.last().map_or(0.0, ActualSlot::turn_rad);
+        for of in &mut actual {
+            of.make_up_for(turn_rad);
+        }
         let slots = Slots::new(
             &operations,
             &head,
@@ -163,6 +169,7 @@ impl BevelJob {
             middle_rad,
             gear_from_work,
             left,
+            turn_rad,
             slots,
             rays: OnceLock::new(),
         };

@@ -10,6 +10,7 @@
 use super::scene::model::Bevel;
 use gearcut_core::bevel::blank::BevelBlank;
 use gearcut_core::bevel::cradle::CradleSettings;
+use gearcut_core::bevel::ease_off::Setting;
 use gearcut_core::bevel::inferred::InferredCutter;
 use gearcut_core::error::Refusal;
 use std::f64::consts::PI;
@@ -39,7 +40,13 @@ impl Bevel {
 
     /// Settings with the machine's errors.
     pub(super) fn with_errors(&self, settings: &CradleSettings) -> CradleSettings {
-        self.settings.errors.iter().fold(*settings, |settings, (setting, error)| setting.off_by(*error, &settings))
+        self.settings.errors.iter().fold(*settings, |settings, &(setting, error)| {
+            let mut off = setting.off_by(error, &settings);
+            if setting == Setting::RollRatio {
+                off.roll.ratio_error += error;
+            }
+            off
+        })
     }
 
     /// Where radial setting and cradle angle come from.

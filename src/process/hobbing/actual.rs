@@ -23,6 +23,9 @@ use glam::{DMat3, DVec3};
 const MOST_WAVES_PER_HOB_TURN: f64 = 8.0;
 /// Time before the beginning and after the end at which poses are asked for, in turns of the hob.
 const BEYOND_TURNS: f64 = 1.0;
+/// Places of both spindles among the axes.
+const HOB: usize = 0;
+const WORK: usize = 1;
 /// Sections of the axes in `machine.errors`.
 const SECTIONS: [&str; 6] = ["hob", "work", "x", "y", "slide", "shift"];
 
@@ -35,6 +38,8 @@ pub struct ActualHobbing {
     hob: ToolMounting,
     half_face_mm: f64,
     start_s: f64,
+    /// Turn of the work that its zero makes up for, rad.
+    turn_rad: f64,
 }
 
 impl ActualHobbing {
@@ -69,7 +74,22 @@ impl ActualHobbing {
             hob,
             half_face_mm,
             start_s,
+            turn_rad: 0.0,
         })
+    }
+
+    /// How far work and hob are turned against each other for good in the middle of the operation, rad
+    /// ([`ActualMotion::turn_rad`]).
+    pub fn turn_rad(&self, commanded: HobbingCommand) -> f64 {
+        let middle_s = 0.5 * commanded.end_s();
+        let turn =
+            |motion: &ActualMotion<6>| motion.turn_rad(WORK, &[HOB], middle_s, |time_s| commanded.motion(time_s));
+        self.motion.as_ref().map_or(0.0, turn)
+    }
+
+    /// The zero of the work spindle makes up for a turn.
+    pub fn make_up_for(&mut self, turn_rad: f64) {
+        self.turn_rad = turn_rad;
     }
 
     /// When the operation begins, s after the first one.
@@ -87,10 +107,11 @@ impl ActualHobbing {
         let time_s = commanded.time_at_hob_angle(hob_rad);
         let since_start_s = self.start_s + time_s;
         let moment = MachineMoment { time_s, since_start_s, at_rest_s: 0.0, passage: 0, indexed: [0.0; 6] };
-        let axes = match &self.motion {
+        let mut axes = match &self.motion {
             Some(motion) => motion.positions(&moment, |time_s| commanded.positions(time_s)),
             None => commanded.positions(time_s),
         };
+        axes[WORK] -= self.turn_rad;
         // The slide runs along the work's rotation vector, against the gear's z.
         let [_, work_rad, _, _, slide_mm, _] = axes;
         let along_z_mm = -slide_mm;

@@ -6,6 +6,7 @@
 
 use crate::machine_errors::MachineErrors;
 use crate::material::CuttingForce;
+use crate::measure::round_gear::is_round;
 use crate::process::hobbing::Hob;
 use crate::process::hobbing::actual::ActualHobbing;
 use crate::process::hobbing::commanded::{HobbingCommand, HobbingProgram, program_of};
@@ -83,6 +84,8 @@ pub struct HobbingJob {
     pub blank: Blank,
     /// Operations in order; the last one finishes.
     pub operations: Vec<PreparedHobbing>,
+    /// Turn of the finished gear as a whole, rad, that the zero of the work spindle makes up for.
+    pub turn_rad: f64,
     /// What the finishing operation leaves in the limit of many gashes and a fine feed.
     pub target: RackGeneration,
     /// The same where the hob's tooth is drawn, and the rack above has its heights and the nominal angle alone.
@@ -156,6 +159,11 @@ impl HobbingJob {
             start_s += commanded.end_s();
             operations.push(PreparedHobbing { spec: spec.clone(), offset_mm, plan, linkage, program, actual });
         }
+        let finishing: Option<&PreparedHobbing> = operations.last().filter(|_| is_round(&curve));
+        let turn_rad = finishing.map_or(0.0, |of| of.actual.turn_rad(of.commanded()));
+        for operation in &mut operations {
+            operation.actual.make_up_for(turn_rad);
+        }
         Ok(Self {
             scene: scene.clone(),
             hob_spec: tool.clone(),
@@ -169,6 +177,7 @@ impl HobbingJob {
             stock,
             blank,
             operations,
+            turn_rad,
             target,
             drawn,
             kept: OnceLock::new(),

@@ -8,6 +8,7 @@
 use crate::drawn_tooth::envelope::DrawnSpaces;
 use crate::machine_errors::Deflection;
 use crate::material::EdgeForce;
+use crate::measure::round_gear::is_round;
 use crate::process::shaping::ShaperCutter;
 use crate::process::shaping::helix::Helix;
 use crate::process::shaping::linkage::{CutterPose, ShapingLinkage, StrokeSchedule, dynamics};
@@ -124,6 +125,24 @@ impl PreparedOperation {
     }
 }
 
+/// An operation before anything is known of its poses.
+struct LaidOperation<'a> {
+    spec: Operation,
+    short_of_depth_mm: f64,
+    /// One that generates the same gear, of which the rest is taken over.
+    same: Option<&'a PreparedOperation>,
+    linkage: ShapingLinkage,
+    schedule: StrokeSchedule,
+    program: Option<AxisProgram>,
+    actual: ActualStrokes,
+}
+
+impl LaidOperation<'_> {
+    fn commanded(&self) -> Commanded<'_> {
+        Commanded { schedule: &self.schedule, program: self.program.as_ref() }
+    }
+}
+
 /// Everything known before the first dexel is cut.
 ///
 /// Made from a scene it stands on a rigid machine. On one that yields, strokes are displaced by what they cut:
@@ -156,6 +175,8 @@ pub struct ShapingJob {
     pub blank: Blank,
     /// Operations in order; the last one finishes.
     pub operations: Vec<PreparedOperation>,
+    /// Turn of the finished gear as a whole, rad, that the zero of the work spindle makes up for.
+    pub turn_rad: f64,
     /// Target of every tooth.
     targets: Vec<ToothTarget>,
 }
@@ -222,14 +243,14 @@ impl ShapingJob {
         let shared_cutter = Arc::new(cutter.clone());
         let passes: f64 = shaping.operations.len() as f64;
         let mut operations: Vec<PreparedOperation> = Vec::new();
-        let (mut first_pass, mut start_s) = (0, 0.0);
+        let (mut laid, mut start_s) = (Vec::new(), 0.0);
         let allowance_mm = thickness_offset_mm(gear, curve.pitches(), &transverse_tool)?;
         for spec in &shaping.operations {
             let (mut spec, short_of_depth_mm) = (spec.clone(), spec.offset_mm);
             spec.offset_mm += allowance_mm;
             // Return strokes meet what is left by the operations before: they are alike as well.
-            alike = alike.filter(|of| of.operations.get(operations.len()).is_some_and(|of| of.generates_as(&spec)));
-            let same = alike.map(|of| &of.operations[operations.len()]);
+            alike = alike.filter(|of| of.operations.get(laid.len()).is_some_and(|of| of.generates_as(&spec)));
+            let same = alike.map(|of| &of.operations[laid.len()]);
             let linkage = match same {
                 Some(of) => of.linkage.clone(),
                 None => {
@@ -248,7 +269,8 @@ impl ShapingJob {
                 }
                 _ => schedule,
             };
-            let count = program.as_ref().map_or(schedule.count(), AxisProgram::count);
+            let commanded = Commanded { schedule: &schedule, program: program.as_ref() };
+            let count = commanded.count();
             let ids = count as f64 * f64::from(cutter.teeth) * passes;
             if ids >= f64::from(u32::MAX) {
                 return Err(Refusal::new(
@@ -258,11 +280,20 @@ impl ShapingJob {
                 )
                 .into());
             }
-            let commanded = Commanded { schedule: &schedule, program: program.as_ref() };
             let errors = scattered(&machine.errors, spec.stock_scatter, &schedule);
             let guide_turn = helix.as_ref().map(|of| of.cutter_rad_per_mm);
             let actual = ActualStrokes::new(&errors, commanded, start_s, 0.5 * gear.face_width_mm, guide_turn);
             start_s += schedule.time_s(count as f64);
+            laid.push(LaidOperation { spec, short_of_depth_mm, same, linkage, schedule, program, actual });
+        }
+        let finishing = laid.last().filter(|_| is_round(&curve));
+        let turn_rad = finishing.map_or(0.0, |of| of.actual.turn_rad(of.commanded()));
+        let mut first_pass = 0;
+        for mut of in laid {
+            of.actual.make_up_for(turn_rad);
+            let commanded = of.commanded();
+            let LaidOperation { spec, same, schedule, actual, .. } = &of;
+            let count = commanded.count();
             let crank = machine.crank(gear.face_width_mm);
             let law = if spec.feed_during_stroke {
                 crank
@@ -274,13 +305,13 @@ impl ShapingJob {
             let posed = if has_poses { count } else { 0 };
             let strokes = StrokeSet::along_guide(first_pass, &cutter, law, posed, |lambda, z_mm| {
                 let at_rest = if law.rests() { crank.stroke_share(crank.tau(z_mm)) } else { 0.0 };
-                actual.placed(&schedule, lambda, &actual.pose(commanded, lambda, at_rest), z_mm)
+                actual.placed(schedule, lambda, &actual.pose(commanded, lambda, at_rest), z_mm)
             });
             first_pass = strokes.end_pass();
             let (generation, envelope, survey) = match same {
                 Some(of) => (of.generation.clone(), of.envelope.clone(), of.survey.clone()),
                 None => {
-                    let (linkage, cutter) = (linkage.clone(), shared_cutter.clone());
+                    let (linkage, cutter) = (of.linkage.clone(), shared_cutter.clone());
                     let drawn = cutter.drawn().map(|_| Arc::new(DrawnSpaces::new(blank.clone())));
                     let generation = Arc::new(Generation { linkage, cutter, offset_mm: spec.offset_mm, drawn });
                     let before = operations.iter().map(|before| &before.generation);
@@ -290,8 +321,9 @@ impl ShapingJob {
                     (generation, envelope, Arc::new(survey))
                 }
             };
-            let retraction = RetractionPlan::new(&machine, &schedule, &survey)?;
+            let retraction = RetractionPlan::new(&machine, schedule, &survey)?;
             let returns = OnceLock::new();
+            let LaidOperation { spec, short_of_depth_mm, linkage, schedule, program, actual, .. } = of;
             operations.push(PreparedOperation {
                 spec,
                 short_of_depth_mm,
@@ -321,6 +353,7 @@ impl ShapingJob {
             cutter,
             blank,
             operations,
+            turn_rad,
             targets: Vec::new(),
             helix,
             transverse,

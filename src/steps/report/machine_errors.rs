@@ -1,5 +1,6 @@
 //! The errors that the cut followed, on the page.
 
+use super::quantities;
 use crate::findings::quantities::program::MACHINE_ERRORS;
 use crate::findings::{self, Findings, unit};
 use crate::output::report::{Block, PageSection, PageTable, Tone};
@@ -22,12 +23,13 @@ pub fn section(found: &Findings) -> Option<PageSection> {
          SCENE."
             .to_owned(),
     );
+    let turn = section.sections.iter().map(|turn| Block::Table(quantities::table(turn)));
     Some(
         PageSection::new(
             "machine-errors",
             section.title.clone(),
             "The cut followed them, the target does not: every deviation on this page has them in it.",
-            vec![Block::Table(table), command],
+            [Block::Table(table)].into_iter().chain(turn).chain([command]).collect(),
         )
         .judged(Tone::Aside, format!("on: {}", layers.join(", "))),
     )

@@ -103,10 +103,12 @@ fn errors_are_their_closed_forms() {
             place.turned(15.0 * ARCSEC_RAD * (work_rad + indexed).sin())
         },
     );
-    let work_rad_per_s = |place: &Place| finishing.as_set.work_angle(place.cradle_rad)[1] * finishing.course.per_s;
-    case("lag of the work spindle", &["machine.errors.work.velocity_gain_per_s=600"], 3.0, &|place| {
-        place.turned(-work_rad_per_s(place) / 600.0)
-    });
+    let work_rad_per_s = finishing.as_set.work_angle(0.0)[1] * finishing.course.per_s;
+    // A lag of an even roll turns the whole gear: it is known, and nothing of it is on the flanks.
+    let lag = ["machine.errors.work.velocity_gain_per_s=600"];
+    let (turn_rad, lag_rad) = (job(SCENE, &lag).expect("a gear").turn_rad, work_rad_per_s / 600.0);
+    assert!((turn_rad + lag_rad).abs() < 1e-6 * lag_rad.abs(), "{turn_rad} rad, lag {lag_rad} rad");
+    case("lag of the work spindle", &lag, 0.0, &|_| 0.0);
     case(
         "eccentricity of the work",
         &["mounting.eccentricity_um=10", "mounting.eccentricity_angle_deg=30"],
@@ -147,7 +149,9 @@ fn errors_of_settings_are_their_closed_forms() {
     case("sliding_base_mm", 0.02, 5.0, &|_| -20_f64.to_radians().sin());
     // The gear's z axis runs from its back to the apex.
     case("center_to_back_mm", 0.02, 1.0, &|place| place.normal.z);
-    case("roll_ratio", 0.0002, 1.0, &|place| place.turned(finishing.as_set.work_angle(place.cradle_rad)[0] / 1.0232));
+    let middle_rad = finishing.as_set.cradle_angle_rad;
+    // The pass that leaves a place is up to half a mark from its contact, and turned by as much more or less.
+    case("roll_ratio", 0.0002, 0.9, &|place| place.turned(place.cradle_rad - middle_rad));
     // An upright head that leans towards the line of the radial setting turns about its own y axis.
     case("tilt_deg", 0.01, 1.0, &|place| place.leaned(DVec3::Y).to_radians());
 }

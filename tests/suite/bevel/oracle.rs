@@ -249,7 +249,7 @@ fn settings_come_back_from_axes() {
         blank_offset_mm: 8.0,
         sliding_base_mm: 0.7,
         center_to_back_mm: -1.2,
-        roll: Roll { ratio: 1.0232, second_order_per_rad: 0.012, third_order_per_rad2: -0.04 },
+        roll: Roll { ratio: 1.0232, second_order_per_rad: 0.012, third_order_per_rad2: -0.04, ..Roll::default() },
         ..settings(&data("b04_blank"))
     };
     let machine = FiveAxisMachine { mounting_mm: 37.05 };

@@ -26,7 +26,7 @@ fn settings(tilt_rad: f64, swivel_rad: f64) -> CradleSettings {
         center_to_back_mm: -2.5,
         root_angle_rad: 1.1,
         tilt: Tilt { tilt_rad, swivel_rad },
-        roll: Roll { ratio: 1.08, second_order_per_rad: 0.03, third_order_per_rad2: -0.2 },
+        roll: Roll { ratio: 1.08, second_order_per_rad: 0.03, third_order_per_rad2: -0.2, ..Roll::default() },
     }
 }
 

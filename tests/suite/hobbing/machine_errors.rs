@@ -148,13 +148,20 @@ fn errors_of_a_round_gear_are_their_closed_forms() {
         3.0,
         &|place| place.shifted([0.0, PITCH_MM * 40.0 * ARCSEC_RAD * (2.0 * place.polar_rad()).sin(), 0.0]),
     );
-    // A hob that lags lets the rack stay behind: the gear runs ahead of it.
-    let lag_mm = 1.5 * HOB_RAD_PER_S * (1.0 - 0.98) / 100.0;
+    // A hob that lags lets the rack stay behind: the gear runs ahead of it. What turns the whole gear is taken off: it
+    // is known, and nothing of it is on the flanks.
+    let lag_rad = 1.5 * HOB_RAD_PER_S * (1.0 - 0.98) / 100.0 / PITCH_MM;
     let hob = ["machine.errors.hob.velocity_gain_per_s=100", "machine.errors.hob.feed_forward=0.98"];
     let work = ["machine.errors.work.velocity_gain_per_s=100", "machine.errors.work.feed_forward=0.98"];
-    case("lag of the hob spindle", &hob, 4.0, &|place| place.shifted([0.0, lag_mm, 0.0]));
-    case("lag of the work spindle", &work, 4.0, &|place| place.shifted([0.0, -lag_mm, 0.0]));
-    case("the same lag of both", &[hob, work].concat(), 0.0, &|_| 0.0);
+    for (name, settings, turn_rad) in [
+        ("lag of the hob spindle", hob.to_vec(), lag_rad),
+        ("lag of the work spindle", work.to_vec(), -lag_rad),
+        ("the same lag of both", [hob, work].concat(), 0.0),
+    ] {
+        let found = job(&settings).turn_rad;
+        assert!((found - turn_rad).abs() < 1e-6 * lag_rad, "{name}: {found} rad, {turn_rad} expected");
+        case(name, &settings, 0.0, &|_| 0.0);
+    }
     case("scale of the radial slide", &["machine.errors.y.scale_um_per_m=300"], 3.0, &|place| {
         place.shifted([300e-6 * PITCH_MM, 0.0, 0.0])
     });
@@ -195,6 +202,33 @@ fn errors_of_a_round_gear_are_their_closed_forms() {
         5.0,
         &|place| -(8e-3 * direction(70.0) + 120e-5 * place.point_mm.z * direction(-20.0)).dot(place.normal),
     );
+}
+
+/// Roughing twice as fast lags twice as far. The zero of the work spindle is one for both operations, that of the last:
+/// the roughed gear is turned against the finished one by the difference.
+#[test]
+fn operations_of_other_speeds_are_turned_against_each_other() {
+    const TWO: &str = "[gear]\nmodule_mm = 3.0\nteeth = 24\nface_width_mm = 8.0\n[tool.hob]\ngashes = 24\n\
+        [[operation]]\nname = \"rough\"\noffset_mm = 0.3\nhob_speed_per_minute = 200.0\n\
+        [[operation]]\nname = \"finish\"\nhob_speed_per_minute = 100.0\n";
+    let jobs = [&[][..], &["machine.errors.work.velocity_gain_per_s=100".to_owned()]].map(|lag| {
+        let loaded = process::parse(TWO, "two.toml", Path::new(""), lag).expect("a scene");
+        HobbingJob::new(&loaded.scene).expect("a job")
+    });
+    let lag_rad = |per_minute: f64| per_minute * TAU / 60.0 / 24.0 / 100.0;
+    for (operation, turn_rad) in [(0, lag_rad(100.0) - lag_rad(200.0)), (1, 0.0)] {
+        let poses = jobs.each_ref().map(|job| {
+            let of = &job.operations[operation];
+            let hob_rad = 0.4 * of.commanded().turned_rad()[1];
+            of.actual.head_from_work(of.commanded(), hob_rad)
+        });
+        let turned = poses[0].inverse().after(&poses[1]).rotation;
+        let found = -turned.x_axis.truncate().to_angle();
+        assert!(
+            (found - turn_rad).abs() < 1e-3 * lag_rad(100.0),
+            "operation {operation}: {found}, {turn_rad} expected"
+        );
+    }
 }
 
 /// On a helical gear what moves along the axis moves flanks as well.

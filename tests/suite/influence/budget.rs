@@ -8,14 +8,12 @@ use gearcut::scene::error_parameters::{ErrorParameter, Shifted, error_parameters
 use gearcut::scene::{LoadedScene, Scene};
 use gearcut::terms::Side;
 use glam::DVec2;
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::PI;
 
 /// Seconds of arc at the pitch circle of the work and of the cutter, um.
 const WORK_UM: f64 = PITCH_MM * 1e3 * PI / 180.0 / 3600.0;
 const CUTTER_UM: f64 = CUTTER_MM * 1e3 * PI / 180.0 / 3600.0;
 const ALPHA_RAD: f64 = 20.0 * PI / 180.0;
-/// Speed of the work's pitch circle at 2,400 strokes a turn and 300 a minute, um/ms.
-const PITCH_UM_PER_MS: f64 = TAU * PITCH_MM / 2400.0 / 0.2;
 
 fn parameter(loaded: &LoadedScene, id: &str) -> ErrorParameter {
     let all = error_parameters(loaded, true);
@@ -67,7 +65,6 @@ fn influences_are_their_closed_forms_over_whole_flanks() {
     let shifted = |of: &Contact, out: f64, around: f64| of.normal.dot(out * of.out + around * of.around);
     let z = |of: &Contact| of.z_mm / 100.0;
     let bow = |of: &Contact| (of.z_mm / 10.0).powi(2);
-    let lag = PITCH_UM_PER_MS;
     // The cutter's tooth 0 points to the gear's axis when the work begins; it turns about the gear and about itself.
     let runout =
         |of: &Contact, from: f64| -DVec2::from_angle(of.work_rad * (1.0 + PITCH_MM / CUTTER_MM) + from).dot(of.normal);
@@ -86,9 +83,10 @@ fn influences_are_their_closed_forms_over_whole_flanks() {
             shifted(of, 0.0, -CUTTER_UM * (PITCH_MM / CUTTER_MM * of.work_rad).cos())
         }),
         ("machine.errors.center_distance.scale_um_per_m", &|of| shifted(of, (PITCH_MM + CUTTER_MM) / 1e3, 0.0)),
-        ("machine.errors.work.backlash_arcsec", &|of| shifted(of, 0.0, -0.5 * WORK_UM)),
-        ("machine.errors.work.velocity_gain_per_s", &|of| shifted(of, 0.0, -lag)),
-        ("machine.errors.cutter.velocity_gain_per_s", &|of| shifted(of, 0.0, lag)),
+        // They turn the whole gear.
+        ("machine.errors.work.backlash_arcsec", &|_| 0.0),
+        ("machine.errors.work.velocity_gain_per_s", &|_| 0.0),
+        ("machine.errors.cutter.velocity_gain_per_s", &|_| 0.0),
         ("tool.shaper_cutter.runout_um@0", &|of| runout(of, 0.0)),
         ("tool.shaper_cutter.runout_um@90", &|of| runout(of, 0.5 * PI)),
     ];

@@ -1,7 +1,7 @@
 //! Influences of what belongs to another error (how a drive follows, how a drift settles) against closed forms, and
 //! which scenes have them.
 
-use super::round::{Contact, PITCH_MM, SCENE, backend, contacts, grid};
+use super::round::{Contact, SCENE, backend, contacts, grid};
 use crate::fixtures::closed_form;
 use crate::shaping::machine_errors::{ELLIPTICAL, changes, displaced, job};
 use gearcut::influence::budget::chosen;
@@ -58,12 +58,16 @@ fn feed_forward_and_a_settling_drift_have_their_derivatives() {
         let parameter = parameter.with_step(step);
         Influence::new(&scene, &grid, &before_um, &parameter, &backend()).expect("cut")
     };
-    // The lag is (1 - f) v / K_v.
-    let speed_um_per_s = 1e3 * TAU * PITCH_MM / TURN_S;
-    let form = |of: &Contact| speed_um_per_s / gain_per_s * of.around.dot(of.normal);
+    // The lag is (1 - f) v / K_v. It turns the whole gear, which is taken off.
     let found = influence(forward, 1.0);
-    assert!(!found.upwards_only && agrees(&found, &contacts, form));
-    assert!(!agrees(&found, &contacts, |of| -form(of)) && !agrees(&found, &contacts, |of| 1.05 * form(of)));
+    assert!(!found.upwards_only && agrees(&found, &contacts, |_| 0.0));
+    let turned_rad = |share: f64| {
+        let mut shifted = Shifted::new(&scene);
+        assert!(shifted.shift(&parameter(&scene, forward).expect("a parameter"), share));
+        ShapingJob::new(shifted.read(process::table()).expect("a scene").scene).expect("a gear").turn_rad
+    };
+    let (slope, expected) = ((turned_rad(0.1) - turned_rad(-0.1)) / 0.2, TAU / TURN_S / gain_per_s);
+    assert!((slope / expected - 1.0).abs() < 1e-6, "{slope} rad, {expected} expected");
     // d/dtau of rate tau (1 - exp(-t / tau)), per minute.
     let form = |of: &Contact| {
         let x = TURN_S * of.work_rad / TAU / tau_s;

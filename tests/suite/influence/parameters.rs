@@ -2,7 +2,7 @@
 
 use super::round::{SCENE, backend, grid};
 use gearcut::influence::budget::chosen;
-use gearcut::influence::derivative::Influence;
+use gearcut::influence::derivative::{Influence, refusal};
 use gearcut::process;
 use gearcut::scene::LoadedScene;
 use std::path::Path;
@@ -73,4 +73,16 @@ fn the_derivative_by_a_noise_is_the_course_of_its_seed() {
     assert!(own < 0.02 + 0.01 * most_um, "{own} of {most_um} um");
     // Planted: another seed is another course.
     assert!(off(&influence(&second)) > 0.2 * most_um);
+}
+
+/// An upright head leans nowhere: the note says so, and nothing of a command line that nobody wrote.
+#[test]
+fn a_refused_step_is_said_in_the_words_of_its_problem() {
+    let loaded = process::load(Path::new("scenes/bevel/five_linkage_printed.toml"), &[]).expect("a scene");
+    let key = "machine.cradle_errors.swivel_deg";
+    let parameter = chosen(&loaded, &[key.to_owned()]).expect("a parameter").remove(0);
+    let error = Influence::by(&loaded, &[], &parameter, &|_| Ok(Vec::new())).expect_err("nothing leans");
+    let why = refusal(error).expect("a refusal");
+    assert!(why.contains("an upright head leans nowhere"), "{why}");
+    assert!(!["error:", "--set", "way out", "\n"].iter().any(|nested| why.contains(nested)), "{why}");
 }

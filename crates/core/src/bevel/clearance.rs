@@ -124,7 +124,7 @@ mod tests {
             center_to_back_mm: -1.0,
             root_angle_rad: 1.13,
             tilt: Tilt { tilt_rad: 0.03, swivel_rad: 0.5 },
-            roll: Roll { ratio: 1.1, second_order_per_rad: 0.05, third_order_per_rad2: -0.2 },
+            roll: Roll { ratio: 1.1, second_order_per_rad: 0.05, third_order_per_rad2: -0.2, ..Roll::default() },
         }
     }
 

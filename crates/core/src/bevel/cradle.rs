@@ -78,6 +78,7 @@ pub struct CradleMoment {
 
 /// Work angle over cradle angle: A(q) = A(q0) + R_a (d - C d^2 - D d^3), d = q - q0, q0 the cradle angle at the middle
 /// of the roll. C and D are Litvin's coefficients of modified roll; with both 0 the ratio is the same all the time.
+/// A(q0) is R_a q0 with the ratio that is meant: an error of it bends flanks and turns no gear as a whole.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Roll {
     /// Ratio of roll R_a: work angle per cradle angle at the middle of the roll; 0 where nothing rolls.
@@ -86,6 +87,8 @@ pub struct Roll {
     pub second_order_per_rad: f64,
     /// D, 1/rad^2.
     pub third_order_per_rad2: f64,
+    /// By how much the ratio is off the one that is meant.
+    pub ratio_error: f64,
 }
 
 impl CradleSettings {
@@ -119,19 +122,19 @@ impl CradleSettings {
         DVec3::new(cos * out_mm + sin * axial_mm.y, 0.0, sin * out_mm - cos * axial_mm.y)
     }
 
-    /// Work angle A and its rate dA/dq at a cradle angle; A is R_a q where the roll is not modified.
+    /// Work angle A and its rate dA/dq at a cradle angle; A is R_a q where the roll is even and its ratio right.
     pub fn work_angle(&self, cradle_rad: f64) -> [f64; 2] {
-        let Roll { ratio, second_order_per_rad: c, third_order_per_rad2: d } = self.roll;
+        let Roll { ratio, second_order_per_rad: c, third_order_per_rad2: d, ratio_error } = self.roll;
         let by = cradle_rad - self.cradle_angle_rad;
         [
-            ratio * (self.cradle_angle_rad + by * (1.0 - by * (c + by * d))),
+            ratio * (self.cradle_angle_rad + by * (1.0 - by * (c + by * d))) - ratio_error * self.cradle_angle_rad,
             ratio * (1.0 - by * (2.0 * c + 3.0 * d * by)),
         ]
     }
 
     /// The same with d^2 A / dq^2.
     pub fn work_angle_jet(&self, cradle_rad: f64) -> Jet<3> {
-        let Roll { ratio, second_order_per_rad: c, third_order_per_rad2: d } = self.roll;
+        let Roll { ratio, second_order_per_rad: c, third_order_per_rad2: d, .. } = self.roll;
         let bend = -ratio * (2.0 * c + 6.0 * d * (cradle_rad - self.cradle_angle_rad));
         let [work_rad, rate] = self.work_angle(cradle_rad);
         Jet::from_derivatives([work_rad, rate, bend])
@@ -209,7 +212,7 @@ mod tests {
             center_to_back_mm: 2.5,
             root_angle_rad: 1.1,
             tilt: Tilt { tilt_rad: 0.2, swivel_rad: -0.7 },
-            roll: Roll { ratio: 1.08, second_order_per_rad: 0.03, third_order_per_rad2: -0.2 },
+            roll: Roll { ratio: 1.08, second_order_per_rad: 0.03, third_order_per_rad2: -0.2, ..Roll::default() },
         };
         let (q, h, at) = (1.02, 1e-5, DVec3::new(40.0, -81.0, -3.0));
         let formate = CradleSettings { roll: Roll::default(), tilt: Tilt::default(), ..settings };
@@ -225,5 +228,12 @@ mod tests {
         let [before, rate] = settings.work_angle(q);
         assert!((settings.work_angle(q + h)[0] - before - h * rate).abs() < 1e-10);
         assert!((settings.work_angle(0.9)[0] - 1.08 * 0.9).abs() < 1e-15);
+        // A ratio that is off turns the work as before in the middle of the roll, and from there on with the distance.
+        let roll = Roll { ratio: 1.082, ratio_error: 0.002, ..settings.roll };
+        let off = CradleSettings { roll, ..settings };
+        let by: f64 = q - 0.9;
+        let more = 0.002 * by * (1.0 - by * (0.03 - 0.2 * by));
+        assert!((off.work_angle(0.9)[0] - 1.08 * 0.9).abs() < 1e-15);
+        assert!((off.work_angle(q)[0] - before - more).abs() < 1e-15);
     }
 }

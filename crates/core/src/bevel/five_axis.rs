@@ -186,7 +186,12 @@ impl FiveAxisMachine {
             center_to_back_mm: self.mounting_mm - out_mm,
             root_angle_rad: swing_rad,
             tilt: Tilt::default(),
-            roll: Roll { ratio, second_order_per_rad: -second / ratio, third_order_per_rad2: -third / ratio },
+            roll: Roll {
+                ratio,
+                second_order_per_rad: -second / ratio,
+                third_order_per_rad2: -third / ratio,
+                ratio_error: 0.0,
+            },
         };
         let off = |axes: &SixAxes| self.axes_of_cradle(&settings, axes.head_rad).slides_mm.distance(axes.slides_mm);
         let off_mm = roll.iter().map(off).fold(0.0, f64::max);

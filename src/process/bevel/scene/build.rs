@@ -92,6 +92,7 @@ fn settings(cradle: View<'_>, errors: View<'_>) -> Option<SettingsSpec> {
                 ratio: roll_ratio.unwrap_or_default(),
                 second_order_per_rad: cradle.number("modified_roll_c")?,
                 third_order_per_rad2: cradle.number("modified_roll_d")?,
+                ratio_error: 0.0,
             },
         },
         spiral_angle_rad,

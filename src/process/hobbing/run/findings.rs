@@ -24,7 +24,7 @@ use crate::steps::axes::{self, AxesOfOperation as _};
 use crate::steps::inspection::Inspected;
 use crate::steps::inspection::headline::candidates;
 use crate::steps::inspection::teeth::{self, flank_table};
-use crate::steps::machine_errors::{self, tool_words};
+use crate::steps::machine_errors::{self, TurnTakenOff, tool_words};
 use crate::steps::program_under_test::ProgramUnderTest;
 use crate::texture::{self, WindowTexture};
 use gearcut_core::error::Result;
@@ -76,7 +76,8 @@ pub fn findings(cutter: &HobCutter, gear: &HobbedGear, measured: &Measured) -> R
     }
     tool.retain(|words| !words.is_empty());
     let tool = (ErrorLayer::Tool, tool.join(", "));
-    sections.extend(machine_errors::section(&job.errors, &AXES, &[tool]));
+    let turn = TurnTakenOff::of_round(job.turn_rad, &job.scene.gear, &job.curve);
+    sections.extend(machine_errors::section(&job.errors, &AXES, &[tool], turn));
     sections.extend(evaluated(job));
     sections.extend(measured.inspected.sections(&job.scene.measure, None));
     if let Some((whole, loads, forces)) = measured.whole {

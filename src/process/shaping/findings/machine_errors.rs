@@ -5,20 +5,22 @@ use crate::process::shaping::ShapingJob;
 use crate::process::shaping::linkage::dynamics::AXES;
 use crate::process::shaping::scene::layers::OWN;
 use crate::process::shaping::scene::model::Shaping;
-use crate::steps::machine_errors::section;
+use crate::steps::machine_errors::{TurnTakenOff, section};
 
 /// The layers that are on; none of an ideal machine.
 pub fn errors(job: &ShapingJob) -> Option<Section> {
     let model = Shaping::of(&job.scene)?;
     let sine = job.scene.gear.pressure_angle_rad.sin();
     let own: Vec<_> = OWN.iter().map(|own| (own.layer, own.words(model, sine))).collect();
-    section(&model.machine.errors, &AXES, &own)
+    let turn = TurnTakenOff::of_round(job.turn_rad, &job.scene.gear, &job.curve);
+    section(&model.machine.errors, &AXES, &own, turn)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::process::load;
+    use std::f64::consts::TAU;
     use std::path::Path;
 
     /// Layers of a scene and their words.
@@ -30,6 +32,21 @@ mod tests {
         let names: Vec<&str> = found.iter().map(|entry| entry.key.as_str()).collect();
         assert_eq!(names, known.iter().map(|layer| layer.name()).collect::<Vec<_>>(), "{scene}");
         found.iter().map(|entry| (entry.key.clone(), entry.quantity.words().unwrap_or_default().to_owned())).collect()
+    }
+
+    /// A lag of omega / K_v, 2400 strokes at 300 a minute for a turn, is a turn of r cos(alpha) omega / K_v on flanks.
+    #[test]
+    fn a_turn_of_the_whole_gear_is_a_quantity_of_its_own() {
+        let settings = ["machine.double_strokes_per_minute=300", "machine.errors.work.velocity_gain_per_s=10"];
+        let settings = settings.map(str::to_owned);
+        let loaded = load(Path::new("scenes/shaping/circular_m3_z24.toml"), &settings).expect("a scene");
+        let job = ShapingJob::new(loaded.scene).expect("a job");
+        let section = errors(&job).expect("an error");
+        let found: Vec<f64> = section.sections[0].entries.iter().filter_map(|entry| entry.quantity.value()).collect();
+        let turn_rad = -TAU / 480.0 / 10.0;
+        let on_flanks_um = 36e3 * 20_f64.to_radians().cos() * turn_rad;
+        assert!((found[0] / turn_rad.to_degrees() - 1.0).abs() < 1e-6, "{found:?}");
+        assert!((found[1] / on_flanks_um - 1.0).abs() < 1e-6, "{found:?}, {on_flanks_um} um expected");
     }
 
     #[test]

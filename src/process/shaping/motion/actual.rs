@@ -30,6 +30,9 @@ use glam::{DVec2, DVec3};
 const BEYOND_STROKES: f64 = 2.0;
 /// The way back begins this part of a double stroke after the stroke's own moment, and ends as much before the next.
 const BEFORE_STROKE: f64 = 0.25;
+/// Places of both spindles among the axes.
+const WORK: usize = 0;
+const CUTTER: usize = 1;
 
 /// What the axes are told: the strokes of the linkage, or a program in their place.
 #[derive(Debug, Clone, Copy)]
@@ -53,6 +56,8 @@ pub struct ActualStrokes {
     start_s: f64,
     /// Turn of the cutter by a helical guide per mm of the ram, rad; none of a straight guide.
     cutter_rad_per_mm: Option<f64>,
+    /// Turn of the work that its zero makes up for, rad.
+    turn_rad: f64,
 }
 
 impl Commanded<'_> {
@@ -65,6 +70,11 @@ impl Commanded<'_> {
                 [state.psi_c_rad, state.psi_b_rad, state.center_distance_mm]
             }
         }
+    }
+
+    /// How many strokes there are.
+    pub fn count(&self) -> usize {
+        self.program.map_or(self.schedule.count(), AxisProgram::count)
     }
 
     fn motion(&self, stroke: f64) -> [AxisMotion; 3] {
@@ -139,7 +149,23 @@ impl ActualStrokes {
             half_face_mm,
             start_s,
             cutter_rad_per_mm,
+            turn_rad: 0.0,
         }
+    }
+
+    /// How far work and cutter are turned against each other for good in the middle of the operation, rad
+    /// ([`ActualMotion::turn_rad`]).
+    pub fn turn_rad(&self, commanded: Commanded<'_>) -> f64 {
+        let schedule = commanded.schedule;
+        let seconds_per_stroke = schedule.time_s(1.0);
+        let middle_s = 0.5 * schedule.time_s(commanded.count() as f64);
+        let at = |time_s: f64| commanded.motion(time_s / seconds_per_stroke);
+        self.motion.as_ref().map_or(0.0, |motion| motion.turn_rad(WORK, &[CUTTER], middle_s, at))
+    }
+
+    /// The zero of the work spindle makes up for a turn.
+    pub fn make_up_for(&mut self, turn_rad: f64) {
+        self.turn_rad = turn_rad;
     }
 
     /// When the operation begins, s after the first one.
@@ -176,7 +202,8 @@ impl ActualStrokes {
             passage: (strokes_before + stroke + BEFORE_STROKE).floor() as i64,
             indexed: [0.0; 3],
         };
-        let positions = motion.positions(&moment, |time_s| commanded.positions(time_s / seconds_per_stroke));
+        let mut positions = motion.positions(&moment, |time_s| commanded.positions(time_s / seconds_per_stroke));
+        positions[WORK] -= self.turn_rad;
         CutterPose::new(self.gear, positions)
     }
 
