@@ -25,10 +25,20 @@ const HIT_MM: f64 = 0.005;
 pub struct DeepestCut {
     /// How deep, along the target's normal, mm; 0 where nothing goes below it.
     pub depth_mm: f64,
+    /// Depth to which rays record cuts, mm: one as deep may be deeper.
+    pub floor_mm: f64,
     /// Which flanks.
     pub side: Side,
     /// Arc from the form point in the middle of the face, and place along the tooth, mm.
     pub at_mm: [f64; 2],
+}
+
+impl DeepestCut {
+    /// How deep, in words.
+    fn depth(&self) -> String {
+        let at_least = if self.depth_mm < self.floor_mm { "" } else { "at least " };
+        format!("{at_least}{:.3}", self.depth_mm)
+    }
 }
 
 impl BevelJob {
@@ -50,12 +60,13 @@ impl BevelJob {
                 Cpu::default().cut_spatial(&rays.field, &SweepPlan::of_near_passes(&rays.field, set), &mut layer)?;
             }
         }
-        let mut deepest = DeepestCut { depth_mm: 0.0, side, at_mm: [0.0; 2] };
+        let floor_mm = f64::from(-rays.field.low_mm as f32);
+        let mut deepest = DeepestCut { depth_mm: 0.0, floor_mm, side, at_mm: [0.0; 2] };
         for (i, (&height_mm, &pass)) in layer.heights_mm.iter().zip(&layer.passes).enumerate() {
             let depth_mm = -f64::from(height_mm);
             if pass != NO_PASS && depth_mm > deepest.depth_mm {
                 let at_mm = [rays.arcs_mm[i / PLACES[1]], rays.rows_mm[i % PLACES[1]]];
-                deepest = DeepestCut { depth_mm, side, at_mm };
+                deepest = DeepestCut { depth_mm, at_mm, ..deepest };
             }
         }
         Ok(deepest)
@@ -73,13 +84,13 @@ impl BevelJob {
     /// # Errors
     /// A place that the head does not cut.
     pub fn next_tooth_warning(&self) -> Result<Option<Notice>> {
-        let DeepestCut { depth_mm, side, at_mm } = self.deepest_of_sides(&[1, self.blank.teeth - 1])?;
+        let deepest = self.deepest_of_sides(&[1, self.blank.teeth - 1])?;
         // A ray that goes through a thin tooth meets the slot beyond it, which its own blades cut: no hit where bounds
         // say that blades stay in their cells.
-        let is_hit = depth_mm > HIT_MM && self.neighbours_may_reach(&CellGrid::of_scene(self)?);
+        let is_hit = deepest.depth_mm > HIT_MM && self.neighbours_may_reach(&CellGrid::of_scene(self)?);
         Ok(is_hit.then(|| {
-            let (depth_mm, along_mm) = (format!("{depth_mm:.3}"), format!("{:.1}", at_mm[1]));
-            NextTooth { depth_mm, side: side.name(), along_mm }.notice()
+            let along_mm = format!("{:.1}", deepest.at_mm[1]);
+            NextTooth { depth_mm: deepest.depth(), side: deepest.side.name(), along_mm }.notice()
         }))
     }
 
@@ -93,12 +104,12 @@ impl BevelJob {
             return Ok(None);
         }
         let stands_out_mm = self.head.runouts_mm.iter().fold(0.0_f64, |most, runout| most.max(runout.abs()));
-        let DeepestCut { depth_mm, side, at_mm } = self.deepest_of_sides(&[0])?;
-        Ok((depth_mm > HIT_MM + stands_out_mm).then(|| {
-            let [arc_mm, along_mm] = at_mm;
+        let deepest = self.deepest_of_sides(&[0])?;
+        Ok((deepest.depth_mm > HIT_MM + stands_out_mm).then(|| {
+            let [arc_mm, along_mm] = deepest.at_mm;
             let undercut = Undercut {
-                depth_mm: format!("{depth_mm:.3}"),
-                side: side.name(),
+                depth_mm: deepest.depth(),
+                side: deepest.side.name(),
                 arc_mm: format!("{arc_mm:.2}"),
                 along_mm: format!("{:.1}", along_mm.abs()),
                 end: if along_mm < 0.0 { "toe" } else { "heel" },

@@ -34,7 +34,7 @@ notices! {
         "Roll over the whole range that the flanks need."
     /// A machine that goes to the first position at rapid breaks head and blank.
     StartsInBlank: Warning "bevel.starts_in_blank", "bevel.md", (operation, deep_mm, way_out),
-        "operation {operation}: where the roll begins the head stands in the blank, and would have to be withdrawn by \
+        "operation {operation}: where the roll begins the head is in the blank and would have to be withdrawn by \
          {deep_mm} mm to be clear of it; no feed to depth is part of the motion: programs go there as they go from \
          slot to slot, and thickest chips leave out those of the first revolution: {way_out}";
         "Begin the roll earlier, or cut the slots before."

@@ -204,7 +204,7 @@ fn named(peak: &Peak) -> Named {
     Named {
         key: name.to_lowercase().replace(' ', "_"),
         title: name,
-        unlimited: "machine.limits gives none for this axis".to_owned(),
+        unlimited: "machine.hobbing_limits gives none for this axis".to_owned(),
     }
 }
 

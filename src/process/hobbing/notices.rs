@@ -62,7 +62,7 @@ notices! {
         "operation {operation}: the feed makes marks up to {height_um} um high, {allowed_um} um are allowed \
          (ridge_tolerance_um): "
         + "feed at most {feed_mm} mm per revolution"
-    /// The machine goes to the first position at rapid, and there the hob stands in the blank.
+    /// The machine goes to the first position at rapid, and there the hob is in the blank.
     StartsInside: Warning or Fault where "the gear is round" "hob.starts_inside", "hobbing.md",
         (operation, approach_mm, clear_mm),
         "operation {operation}: the hob starts inside the blank: the slide begins {approach_mm} mm before the face, \

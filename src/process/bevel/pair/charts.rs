@@ -40,7 +40,7 @@ pub fn motion_error(rolled: &RolledBevels) -> LineChart {
             .into_iter()
             .chain(side.running.parabola().map(|parabola| LineSeries {
                 name: format!(
-                    "parabola, {} ″ over a pitch",
+                    "parabola, {} ″ at half a pitch",
                     significant(ARCSEC_PER_RAD * parabola.over_pitch_rad(), 3).replace('-', "−")
                 ),
                 points: parabola.points().map(arcsec).collect(),

@@ -36,12 +36,15 @@ pub(super) fn print(axes: &HobbingAxesReport, sheet: &mut Sheet) {
     );
     if let HobbingKind::Diagonal { shift_mm_per_revolution, .. } = spec.kind {
         let [from, to] = plan.shift_range_mm;
+        let strokes = match plan.shift_strokes {
+            1 => "one stroke".to_owned(),
+            more => format!("{more} strokes"),
+        };
         sheet.line(
             "shift",
             format!(
-                "{} mm per revolution between {from:.3} and {to:.3} mm, {} strokes; {} mm of it along the gear's axis",
+                "{} mm per revolution between {from:.3} and {to:.3} mm, {strokes}; {} mm of it along the gear's axis",
                 significant(shift_mm_per_revolution, 4),
-                plan.shift_strokes,
                 significant(shift_mm_per_revolution * tilt_rad.sin().abs(), 3)
             ),
         );

@@ -44,7 +44,7 @@ pub struct FeedPlan {
     pub leaves_mm: f64,
     /// Distance from the pitch point, along the hob, that contact needs on both sides, mm.
     pub contact_half_length_mm: f64,
-    /// First and last place of the hob's middle along its axis, mm.
+    /// Lowest and highest place of the hob's middle along its axis while it cuts, mm.
     pub shift_range_mm: [f64; 2],
     /// Feed of the slide in the time of one cycle, mm, always positive; first and, where it differs after a reversal of
     /// the shift, second.

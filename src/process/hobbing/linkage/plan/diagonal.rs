@@ -71,7 +71,7 @@ impl FeedPlan {
         self.slide_feeds_mm =
             [slide_rate(toward).abs() * cycle_s, slide_rate(*used.last().unwrap_or(&toward)).abs() * cycle_s];
         self.path.start_shift_mm = place_mm;
-        self.shift_range_mm = range;
+        self.shift_range_mm = [place_mm; 2];
         let mut left_mm = travel_mm;
         while left_mm > 1e-9 {
             let shift_left_mm = if toward > 0.0 { range[1] - place_mm } else { place_mm - range[0] };
@@ -84,7 +84,10 @@ impl FeedPlan {
                 radial_mm_per_s: 0.0,
             });
             left_mm -= slide_mm_per_s.abs() * duration_s;
+            let from_mm = place_mm;
             place_mm += toward * shift_rate * duration_s;
+            let [low_mm, high_mm] = self.shift_range_mm;
+            self.shift_range_mm = [low_mm.min(from_mm.min(place_mm)), high_mm.max(from_mm.max(place_mm))];
             if left_mm <= 1e-9 {
                 break;
             }

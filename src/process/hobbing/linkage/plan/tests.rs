@@ -170,8 +170,10 @@ fn a_start_that_leaves_too_little_of_the_hob_is_named() {
     let plan = &whole.finishing().plan;
     let [low, high] = plan.shift_range_mm;
     let needed_mm = 1.2 * whole.finishing().linkage.end_s() / whole.finishing().linkage.cycle_s();
-    assert!(needed_mm < high - low && needed_mm > 0.5 * (high - low), "{needed_mm} of {low} to {high} mm");
+    assert!((high - low - needed_mm).abs() < 1e-9, "{low} to {high} mm for {needed_mm} mm");
+    let half_mm = 0.5 * whole.hob.length_mm - plan.contact_half_length_mm;
+    assert!(needed_mm < 2.0 * half_mm && needed_mm > half_mm, "{needed_mm} of {half_mm} mm");
     let (key, problem) = refused(diagonal(&[one_way[0], one_way[1], "shift_start_mm=0"]));
     assert_eq!(key, "operation.shift_start_mm");
-    assert!(problem.contains(&format!("{high:.1} mm with full contact")), "{problem}");
+    assert!(problem.contains(&format!("{half_mm:.1} mm with full contact")), "{problem}");
 }
