@@ -343,7 +343,7 @@ def check_touch(browser, address):
     context = browser.new_context(viewport={"width": 390, "height": 844}, has_touch=True, is_mobile=True)
     page = context.new_page()
     page.goto(address)
-    page.wait_for_function("document.querySelector('#preset').options.length > 1")
+    page.locator("#preset option").nth(1).wait_for(state="attached")
     page.locator("[name=shape]").select_option("fourier")
     touch = context.new_cdp_session(page)
 
