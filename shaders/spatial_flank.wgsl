@@ -1,4 +1,4 @@
-// Lowers dexels whose rays stand anywhere in space by every sweep that their part of a tile visits.
+// Lowers dexels whose rays lie anywhere in space by every sweep that their part of a tile visits.
 //
 // One thread per group of rows of a column, its lanes (one row on GPUs, four on software adapters:
 // `shared/lanes_*.wgsl`); one workgroup row (y) per part, so that records are read in step. Which records a part visits
@@ -40,10 +40,10 @@ fn spatial_flank(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocat
     let low = Lanes(tile.middle.w);
     var unknown = LaneCounts(0u);
 
-    search(tile, best, local);
+    let below_mm = search(tile, best, local);
     var visited = 0u;
     for (var i = 0u; i < tile.visit_count; i++) {
-        if is_clear(i) {
+        if is_clear(i, below_mm) {
             continue;
         }
         visited++;
@@ -78,6 +78,6 @@ fn spatial_flank(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocat
         atomicAdd(&counts[2u * tile.field], short);
     }
     if local == 0u {
-        count_visits(tile, group.x, visited);
+        count_visits(tile, visited);
     }
 }

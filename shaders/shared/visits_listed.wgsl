@@ -1,8 +1,10 @@
 // A part of a tile visits the records that the host has listed for it.
 
-fn search(tile: SpatialTile, best: Lanes, local: u32) {}
+fn search(tile: SpatialTile, best: Lanes, local: u32) -> f32 {
+    return 0.0;
+}
 
-fn is_clear(i: u32) -> bool {
+fn is_clear(i: u32, below_mm: f32) -> bool {
     return false;
 }
 
@@ -11,4 +13,4 @@ fn visit(tile: SpatialTile, i: u32) -> u32 {
     return tile.first_record + visits[tile.first_visit + i];
 }
 
-fn count_visits(tile: SpatialTile, group: u32, visited: u32) {}
+fn count_visits(tile: SpatialTile, visited: u32) {}

@@ -142,20 +142,14 @@ fn bounded(record: SpatialPass, first: u32, low: f32, across: vec3<f32>, along: 
     return lowest.x - bend_mm - MARGIN_MM;
 }
 
-fn search(tile: SpatialTile, best: f32, local: u32) {
-    if !SEARCHED {
-        return;
+// A height that the part is left below everywhere; records that cannot come lower are clear of it.
+fn search(tile: SpatialTile, best: f32, local: u32) -> f32 {
+    if !SEARCHED || tile.visit_count <= FEW_RECORDS {
+        return HIGHEST_MM;
     }
     if local == 0u {
         atomicStore(&highest_dexel, 0u);
         atomicStore(&upper, ordered(HIGHEST_MM));
-    }
-    if tile.visit_count <= FEW_RECORDS {
-        for (var i = local; i < tile.visit_count; i += WORKGROUP_THREADS) {
-            lower_mm[i] = -HIGHEST_MM;
-        }
-        workgroupBarrier();
-        return;
     }
     workgroupBarrier();
     atomicMax(&highest_dexel, ordered(best));
@@ -179,16 +173,12 @@ fn search(tile: SpatialTile, best: f32, local: u32) {
         workgroupBarrier();
     }
     // What is lower than rays record is recorded at that height, by whichever pass comes first.
-    if local == 0u {
-        let left_mm = min(from_ordered(atomicLoad(&upper)), from_ordered(atomicLoad(&highest_dexel)));
-        atomicStore(&upper, ordered(max(left_mm, tile.middle.w)));
-    }
-    workgroupBarrier();
+    return max(min(from_ordered(atomicLoad(&upper)), from_ordered(atomicLoad(&highest_dexel))), tile.middle.w);
 }
 
-// Whether a record cannot lower the part.
-fn is_clear(i: u32) -> bool {
-    return SEARCHED && lower_mm[i] > from_ordered(atomicLoad(&upper));
+// Whether a record cannot lower a part that is left below this height.
+fn is_clear(i: u32, below_mm: f32) -> bool {
+    return SEARCHED && lower_mm[i] > below_mm;
 }
 
 // Record of a visit.
@@ -199,9 +189,8 @@ fn visit(tile: SpatialTile, i: u32) -> u32 {
     return tile.first_record + visits[tile.first_visit + i];
 }
 
-fn count_visits(tile: SpatialTile, group: u32, visited: u32) {
+fn count_visits(tile: SpatialTile, visited: u32) {
     if SEARCHED {
-        let threads = min(tile.group_count - WORKGROUP_THREADS * group, WORKGROUP_THREADS);
-        atomicAdd(&counts[2u * tile.field + 1u], threads * visited);
+        atomicAdd(&counts[2u * tile.field + 1u], tile.group_count * visited);
     }
 }

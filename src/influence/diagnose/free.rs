@@ -3,7 +3,7 @@
 //! In: the columns of a source, and those of what is always fitted, over the noise. Out: directions in the source's
 //! parameters, each as long as what is always fitted is seen.
 //!
-//! A pitch error of all gashes of a hob, or of all teeth of a cutter, is a turn of the gear, and the gear stands turned
+//! A pitch error of all gashes of a hob, or of all teeth of a cutter, is a turn of the gear, and the gear lies turned
 //! on the measuring machine as well. Differences know influences to a few per cent, so that no two columns come out
 //! exactly alike: what is beside the turn of their sum is an error of the influence, and least squares would answer it
 //! by sizes without end. Of all answers that fit as well the shortest has nothing along such a direction: the mean of

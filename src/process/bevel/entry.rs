@@ -1,6 +1,6 @@
 //! The head where the first roll begins: in the blank, or clear of it.
 //!
-//! In: a job. Out: a notice where the head stands in the blank, how far it would have to be withdrawn along the
+//! In: a job. Out: a notice where the head is in the blank, how far it would have to be withdrawn along the
 //! cradle's axis, and a cradle angle at which the roll would begin clear. Places of the blank are tried, from root to
 //! tip over the whole face and round the gear, against the ring in which all blades stay ([`HeadInSlot`]). Operations
 //! after the first one find slots; a head that plunges begins clear by its course.

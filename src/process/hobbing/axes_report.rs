@@ -78,7 +78,7 @@ impl<'a> HobbingAxesReport<'a> {
         (0..job.operations.len()).map(|index| Self::new(job, index)).collect()
     }
 
-    /// Whether the hob stands in the blank at depth where the slide begins.
+    /// Whether the hob is in the blank at depth where the slide begins.
     fn starts_inside(&self) -> bool {
         let PreparedHobbing { spec, plan, .. } = self.operation();
         let is_axial = matches!(spec.approach, Approach::Axial);

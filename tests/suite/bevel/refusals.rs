@@ -109,17 +109,17 @@ fn keys_of_cylindrical_gears_are_refused_at_their_place() {
     gearcut(&["mate", &scene, "--teeth", "19"]).failed(1, &["no external mate with 19 teeth", "no pitch curve"]);
 }
 
-/// The blades stand no deeper in the blank of the shortest scene than its teeth are high at the heel, 7.552 mm, and not
+/// The blades are no deeper in the blank of the shortest scene than its teeth are high at the heel, 7.552 mm, and not
 /// much less; a roll that begins where the notice names is clear, and so is a head that plunges.
 #[test]
-fn a_roll_that_begins_in_the_blank_is_told() {
-    let told = |scene: &str, settings: &[&str]| {
+fn a_roll_that_begins_in_the_blank_is_warned_of() {
+    let warned = |scene: &str, settings: &[&str]| {
         let scene = format!("scenes/bevel/{scene}.toml");
         let set = settings.iter().flat_map(|setting| ["--set", setting]);
         let done = gearcut(&["check", &scene].into_iter().chain(set).collect::<Vec<_>>());
         done.err.lines().find(|line| line.contains("bevel.starts_in_blank")).map(str::to_owned)
     };
-    let line = told("spiral_angle", &[]).expect("told");
+    let line = warned("spiral_angle", &[]).expect("a warning");
     let number = |after: &str| -> f64 {
         let rest = line.split(after).nth(1).unwrap_or_default().trim_start();
         rest.split(' ').next().and_then(|word| word.parse().ok()).unwrap_or_else(|| panic!("{after}: {line}"))
@@ -127,6 +127,6 @@ fn a_roll_that_begins_in_the_blank_is_told() {
     let deep_mm = number("withdrawn by");
     assert!(deep_mm > 0.75 * 7.552 && deep_mm < 7.552, "{line}");
     let from = format!("operation.0.roll_from_deg={}", number("roll_from_deg ="));
-    assert_eq!(told("spiral_angle", &[&from]), None);
-    assert_eq!(told("formate", &[]), None);
+    assert_eq!(warned("spiral_angle", &[&from]), None);
+    assert_eq!(warned("formate", &[]), None);
 }

@@ -84,7 +84,7 @@ impl PreparedOperation {
         }
     }
 
-    /// Cutter in the spindle's frame at a stroke coordinate, as the axes really stand.
+    /// Cutter in the spindle's frame at a stroke coordinate, where the axes really are.
     pub fn pose(&self, stroke: f64) -> CutterPose {
         self.pose_at_rest(stroke, 0.0)
     }
@@ -99,7 +99,7 @@ impl PreparedOperation {
         (self.spec.linkage, self.spec.offset_mm) == (spec.linkage, spec.offset_mm)
     }
 
-    /// What the axes are told.
+    /// What the axes are commanded.
     pub(super) fn commanded(&self) -> Commanded<'_> {
         Commanded { schedule: &self.schedule, program: self.program.as_ref() }
     }

@@ -151,9 +151,9 @@ fn a_travel_that_is_too_short_is_told_and_gets_no_program() {
     let ids = |settings: &[&str]| {
         let job = job("circular_helical", settings).unwrap();
         let axes = HobbingAxesReport::of_job(&job);
-        let told: Vec<_> =
+        let given: Vec<_> =
             warnings(&axes).into_iter().map(|notice| (notice.id.into_owned(), notice.severity)).collect();
-        let of = |id: &str| told.iter().find(|(own, _)| own == id).map(|told| told.1);
+        let of = |id: &str| given.iter().find(|(own, _)| own == id).map(|of| of.1);
         ["hob.starts_inside", "program.none", "hob.short_overrun"].map(of)
     };
     let (fault, warning) = (Some(Severity::Fault), Some(Severity::Warning));
